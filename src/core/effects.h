@@ -1,0 +1,72 @@
+// The effects the renderer knows, one bit each. A scene calls for some of them; a frame's plan
+// leaves out the rest. Adding one: a line here, the rule in scene/effects_of_scene.cpp that turns
+// it on, and the `if constexpr` of the kernel that computes it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace whit {
+
+// name, what it stands for
+#define WHIT_EFFECTS(X)                           \
+  X(textures, "colour textures")                  \
+  X(normalMaps, "tangent-space normal maps")      \
+  X(alphaMasks, "holes cut by alpha masks")       \
+  X(smoothNormals, "interpolated vertex normals") \
+  X(glossy, "glossy lobe")                        \
+  X(emission, "emitting surfaces")                \
+  X(sky, "sky that is not black")                 \
+  X(skyImage, "sky from an image")                \
+  X(ambient, "ambient light")                     \
+  X(lights, "point lights")                       \
+  X(shadows, "shadows of point lights")           \
+  X(mirror, "reflected impulses")                 \
+  X(transmission, "refracted impulses")           \
+  X(absorption, "absorption inside dielectrics")  \
+  X(instances, "instanced geometry")
+
+enum class Effect : std::uint32_t {
+#define WHIT_EFFECT_ENUM(name, text) name,
+  WHIT_EFFECTS(WHIT_EFFECT_ENUM)
+#undef WHIT_EFFECT_ENUM
+};
+
+#define WHIT_EFFECT_COUNT(name, text) +1
+inline constexpr int kEffectCount = 0 WHIT_EFFECTS(WHIT_EFFECT_COUNT);
+#undef WHIT_EFFECT_COUNT
+
+struct EffectName {
+  std::string_view name, text;
+};
+inline constexpr std::array<EffectName, kEffectCount> kEffectNames{{
+#define WHIT_EFFECT_NAME(name, text) {#name, text},
+    WHIT_EFFECTS(WHIT_EFFECT_NAME)
+#undef WHIT_EFFECT_NAME
+}};
+
+class EffectSet {
+ public:
+  constexpr EffectSet() = default;
+  constexpr explicit EffectSet(std::uint32_t bits) : bits_(bits) {}
+  static constexpr EffectSet all() { return EffectSet((1u << kEffectCount) - 1); }
+
+  constexpr bool has(Effect e) const { return (bits_ & bit(e)) != 0; }
+  constexpr EffectSet with(Effect e) const { return EffectSet(bits_ | bit(e)); }
+  constexpr EffectSet without(Effect e) const { return EffectSet(bits_ & ~bit(e)); }
+  constexpr EffectSet without(EffectSet s) const { return EffectSet(bits_ & ~s.bits_); }
+  constexpr std::uint32_t bits() const { return bits_; }
+  constexpr bool operator==(const EffectSet&) const = default;
+
+  static constexpr std::uint32_t bit(Effect e) { return 1u << static_cast<std::uint32_t>(e); }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+// Parses "shadows,mirror"; throws a usage Error that names the nearest effect for an unknown one.
+EffectSet parseEffects(const std::string& commaSeparated);
+
+}  // namespace whit

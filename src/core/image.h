@@ -1,0 +1,45 @@
+// A linear RGB picture, or a crop of one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/options.h"
+#include "core/vec3.h"
+
+namespace whit {
+
+// `window` is the part of the width x height image that `pixels` holds, row by row from the top.
+struct Image {
+  int width = 0, height = 0;
+  Crop window;
+  std::vector<Rgb> pixels;
+
+  Image() = default;
+  Image(int w, int h) : Image(w, h, Crop{0, 0, w, h}) {}
+  Image(int w, int h, const Crop& c)
+      : width(w),
+        height(h),
+        window(c),
+        pixels(static_cast<std::size_t>(c.x1 - c.x0) * static_cast<std::size_t>(c.y1 - c.y0)) {}
+
+  int windowWidth() const { return window.x1 - window.x0; }
+  int windowHeight() const { return window.y1 - window.y0; }
+  // x, y in image coordinates, inside the window.
+  Rgb& at(int x, int y) { return pixels[index(x, y)]; }
+  const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(windowWidth()) +
+           static_cast<std::size_t>(x - window.x0);
+  }
+};
+
+// 8-bit sRGB, RGBA with opaque alpha, row by row from the top.
+struct DisplayImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+}  // namespace whit

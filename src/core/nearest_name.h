@@ -1,0 +1,12 @@
+// Suggestions for misspelt names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whit {
+
+// The name at the smallest edit distance from `word`; empty when there are no names.
+std::string nearestName(const std::string& word, const std::vector<std::string>& names);
+
+}  // namespace whit

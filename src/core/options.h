@@ -1,0 +1,93 @@
+// Every option of a render, declared once: forEachOption() is visited by the command-line parser,
+// by
+// --help, and by the metadata written into images, so that none of them can disagree.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "core/effects.h"
+#include "core/vec3.h"
+
+namespace whit {
+
+enum class Mode { packets, reference };
+enum class Batch { tile, frame };
+enum class EffectChoice { automatic, all };
+enum class ToneCurve { none, filmic, reinhard };
+enum class Quality { draft, standard, fine, reference };
+
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+// Pixels [x0, x1) x [y0, y1), from the top left.
+struct Crop {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool operator==(const Crop&) const = default;
+};
+
+struct RenderOptions {
+  std::optional<ImageSize> size;
+  std::string camera;
+  std::optional<Vec3f> eye, at, up;
+  std::optional<float> fov;
+  std::optional<Crop> crop;
+  int spp = 1;
+  int depth = 8;
+  float cutoff = 3.0e-4f;
+  int threads = 0;  // 0: what affinity and cgroup quota allow
+  int packet = 0;   // 0: the widest the CPU runs natively
+  std::string simd = "auto";
+  Mode mode = Mode::packets;
+  Batch batch = Batch::tile;
+  bool robust = true;
+  EffectChoice effects = EffectChoice::automatic;
+  Quality quality = Quality::standard;
+  EffectSet disable;
+  float exposure = 0;  // EV
+  ToneCurve toneCurve = ToneCurve::none;
+  int tile = 32;  // pixels a side
+  int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
+  bool strict = false;
+};
+
+inline constexpr int kDepthLimit = 64;
+inline constexpr int kSppLimit = 4096;
+inline constexpr int kImageSideLimit = 65536;
+inline constexpr int kThreadLimit = 1024;
+
+// Calls visit(name, placeholder, help, field) for each option, in the order of --help.
+template <typename Options, typename Visitor>
+void forEachOption(Options& o, Visitor&& visit) {
+  visit("size", "WxH", "image size in pixels (default: the scene's, else 480x300)", o.size);
+  visit("camera", "NAME", "one of the scene's cameras (default: the first)", o.camera);
+  visit("eye", "x,y,z", "viewpoint", o.eye);
+  visit("at", "x,y,z", "point looked at", o.at);
+  visit("up", "x,y,z", "direction that is up in the image", o.up);
+  visit("fov", "DEG", "vertical field of view", o.fov);
+  visit("crop", "x0,y0,x1,y1", "pixels traced; the EXR's data window", o.crop);
+  visit("spp", "N", "samples per pixel", o.spp);
+  visit("depth", "N", "deepest impulse", o.depth);
+  visit("cutoff", "X", "smallest contribution of an impulse that is still traced", o.cutoff);
+  visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
+  visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
+        o.packet);
+  visit("simd", "auto|avx3|avx2|sse4|ssse3|scalar", "kernel target, and the Embree ISA with it",
+        o.simd);
+  visit("mode", "packets|reference", "vector pipeline, or the scalar recursive reference", o.mode);
+  visit("batch", "tile|frame", "stages run over a tile at a time, or over the whole frame",
+        o.batch);
+  visit("robust", "on|off", "Embree's watertight traversal", o.robust);
+  visit("effects", "auto|all", "kernels for what the scene calls for, or every effect", o.effects);
+  visit("quality", "draft|standard|fine|reference", "presets of the other options", o.quality);
+  visit("disable", "a,b", "effects left out (the names that whit info prints)", o.disable);
+  visit("exposure", "EV", "exposure of 8-bit output", o.exposure);
+  visit("tonemap", "none|filmic|reinhard", "tone curve of 8-bit output", o.toneCurve);
+  visit("tile", "N", "side of a tile in pixels", o.tile);
+  visit("queue", "N", "rays a queue holds before the deeper one is drained (0: one tile)", o.queue);
+  visit("strict", "", "anything that would be mended and counted is an error", o.strict);
+}
+
+}  // namespace whit

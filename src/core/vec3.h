@@ -1,0 +1,95 @@
+// Three-component vectors, for points, directions and linear RGB. Plain data; float in the scene
+// and the kernels' tables, double in the reference.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+template <typename T>
+struct Vec3 {
+  T x{}, y{}, z{};
+
+  constexpr Vec3() = default;
+  constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
+  constexpr explicit Vec3(T s) : x(s), y(s), z(s) {}
+  template <typename U>
+  constexpr explicit Vec3(const Vec3<U>& v)
+      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+
+  constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+
+  constexpr Vec3 operator-() const { return {-x, -y, -z}; }
+  constexpr Vec3 operator+(const Vec3& b) const { return {x + b.x, y + b.y, z + b.z}; }
+  constexpr Vec3 operator-(const Vec3& b) const { return {x - b.x, y - b.y, z - b.z}; }
+  constexpr Vec3 operator*(const Vec3& b) const { return {x * b.x, y * b.y, z * b.z}; }
+  constexpr Vec3 operator*(T s) const { return {x * s, y * s, z * s}; }
+  constexpr Vec3 operator/(T s) const { return {x / s, y / s, z / s}; }
+  constexpr Vec3& operator+=(const Vec3& b) { return *this = *this + b; }
+  constexpr Vec3& operator*=(T s) { return *this = *this * s; }
+  constexpr bool operator==(const Vec3& b) const = default;
+};
+
+template <typename T>
+constexpr Vec3<T> operator*(T s, const Vec3<T>& v) {
+  return v * s;
+}
+template <typename T>
+constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <typename T>
+constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <typename T>
+T length(const Vec3<T>& v) {
+  return std::sqrt(dot(v, v));
+}
+template <typename T>
+constexpr T maxComponent(const Vec3<T>& v) {
+  return std::max(v.x, std::max(v.y, v.z));
+}
+template <typename T>
+constexpr Vec3<T> min(const Vec3<T>& a, const Vec3<T>& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+template <typename T>
+constexpr Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+template <typename T>
+constexpr Vec3<T> abs(const Vec3<T>& v) {
+  return {v.x < 0 ? -v.x : v.x, v.y < 0 ? -v.y : v.y, v.z < 0 ? -v.z : v.z};
+}
+template <typename T>
+bool isFinite(const Vec3<T>& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Unit vector along v; `fallback` when v is zero or not finite. Scales by a power of two of the
+// largest component first, so that neither tiny nor huge vectors lose their direction.
+template <typename T>
+Vec3<T> normalized(const Vec3<T>& v, const Vec3<T>& fallback = {}) {
+  const T largest = maxComponent(abs(v));
+  if (!(largest > 0) || !isFinite(v)) return fallback;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const Vec3<T> scaled{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent),
+                       std::ldexp(v.z, -exponent)};
+  return scaled / length(scaled);
+}
+
+using Vec3f = Vec3<float>;
+using Vec3d = Vec3<double>;
+using Rgb = Vec3<float>;  // linear, Rec. 709 primaries
+using RgbD = Vec3<double>;
+
+struct Vec2f {
+  float x = 0, y = 0;
+  bool operator==(const Vec2f&) const = default;
+};
+
+}  // namespace whit

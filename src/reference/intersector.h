@@ -1,0 +1,33 @@
+// What the reference asks about geometry. It may be answered by Embree or by brute force; either
+// way the reference computes t, u, v and the hit point again in double from the corners.
+#pragma once
+
+#include <cstdint>
+
+#include "core/vec3.h"
+
+namespace whit::reference {
+
+struct Ray {
+  Vec3d origin, direction;
+};
+
+inline constexpr std::uint32_t kNoHit = 0xffffffffu;
+
+struct Candidate {
+  std::uint32_t triangle = kNoHit;  // index into Scene::triangles
+  std::uint32_t instance = kNoHit;  // index into Scene::instances, kNoHit: in the world
+  // Barycentric weights of corners 1 and 2 as the intersector saw them; only a hint.
+  double u = 0, v = 0;
+};
+
+class Intersector {
+ public:
+  virtual ~Intersector() = default;
+  // The nearest triangle along the ray; alpha masks are respected. False: none.
+  virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
+  // Whether something that casts shadows lies at 0 < t < tFar (direction not normalised).
+  virtual bool occluded(const Ray& ray, double tFar) const = 0;
+};
+
+}  // namespace whit::reference

@@ -1,0 +1,38 @@
+// Pinhole cameras and camera paths.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace whit {
+
+struct Camera {
+  std::string name = "default";
+  Vec3f eye{0, 0, 5};
+  Vec3f at{0, 0, 0};
+  Vec3f up{0, 1, 0};
+  float fov = 45;  // vertical, degrees
+};
+
+struct Keyframe {
+  float time = 0;  // seconds
+  Camera camera;
+};
+
+// Where the camera is at `time`: Catmull-Rom through eye and at, linear in fov. Clamped to the
+// ends. Needs at least one keyframe, in order of time.
+Camera cameraAt(const std::vector<Keyframe>& path, double time);
+
+// What the ray generator needs, worked out once a frame in double: the direction through image
+// position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
+// normalised. Directions never come from a difference of world positions, so a camera far from the
+// origin loses nothing (numerics: H75).
+struct CameraFrame {
+  Vec3d eye, forward, right, up;
+  int width = 0, height = 0;
+};
+CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
+
+}  // namespace whit

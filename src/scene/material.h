@@ -1,0 +1,58 @@
+// What a surface does with light. One record for every kind of material: an effect that a material
+// does not have is a zero, and a surface may have several at once (a diffuse floor with a mirror
+// coat, glass that both reflects and refracts).
+//
+// Radiance leaving towards the viewer, with n the shading normal (Whitted 1980, with physical
+// units):
+//   emission
+//   + diffuse * ambient(n)
+//   + sum over lights of (diffuse / pi + glossy lobe) * biradiance * max(0, n.l)
+//   + reflectance * radiance along the mirrored ray
+//   + (1 - F) * transmission * radiance along the refracted ray
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/vec3.h"
+
+namespace whit {
+
+inline constexpr std::int32_t kNoTexture = -1;
+
+struct Material {
+  std::string name;
+
+  Rgb diffuse{0.8f, 0.8f, 0.8f};          // albedo, times diffuseMap
+  std::int32_t diffuseMap = kNoTexture;   // colour
+  Rgb specular{0, 0, 0};                  // glossy lobe's reflectance at normal incidence (F0)
+  std::int32_t specularMap = kNoTexture;  // colour, multiplies `specular`
+  float roughness = 0.5f;                 // GGX; alpha = roughness^2, at least kMinRoughness
+  Rgb emission{0, 0, 0};                  // radiance, both sides
+  std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
+  std::int32_t alphaMap = kNoTexture;     // data, channel r; cut where below alphaCutoff
+  float alphaCutoff = 0.5f;
+
+  // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at
+  // grazing incidence with Schlick's (1 - cos)^5. A dielectric (transmission above zero) adds its
+  // exact Fresnel reflectance to that.
+  Rgb mirror{0, 0, 0};
+  Rgb mirrorGrazing{0, 0, 0};
+
+  // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric.
+  Rgb transmission{0, 0, 0};
+  float ior = 1.5f;
+  Rgb absorption{0, 0, 0};  // per unit length, inside
+  int priority = 0;         // of nested dielectrics: the highest wins where they overlap
+
+  bool castsShadow = true;  // false: light passes, as if the surface were not there
+
+  bool hasGlossy() const { return maxComponent(specular) > 0; }
+  bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
+  bool hasTransmission() const { return maxComponent(transmission) > 0; }
+  bool hasAbsorption() const { return hasTransmission() && maxComponent(absorption) > 0; }
+};
+
+inline constexpr float kMinRoughness = 0.03f;
+
+}  // namespace whit

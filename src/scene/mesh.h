@@ -1,0 +1,43 @@
+// Triangles as they are loaded or generated, before Scene::finalize() bakes them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/affine.h"
+#include "core/vec3.h"
+
+namespace whit {
+
+struct Mesh {
+  std::string name;
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;  // empty (flat shading), or one a position
+  std::vector<Vec2f> uvs;      // empty (0, 0), or one a position; v points up
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+  // One index into SceneDescription::materials a triangle, or a single one for all.
+  std::vector<std::uint32_t> materials;
+
+  std::uint32_t material(std::size_t triangle) const {
+    return materials.size() == 1 ? materials[0] : materials[triangle];
+  }
+};
+
+// Meshes that move together. An object that is used once is baked into the world; one that is used
+// more often is kept once and instanced.
+struct Object {
+  std::string name;
+  std::vector<Mesh> meshes;
+};
+
+struct Instance {
+  std::uint32_t object = 0;
+  Affine toWorld;
+};
+
+// Applies `map` to positions and normals (rounded once), flips the winding if it mirrors.
+void transform(Mesh& mesh, const Affine& map);
+
+}  // namespace whit

@@ -1,0 +1,118 @@
+// SceneDescription is what readers and generators fill in; Scene is what renderers read: validated,
+// baked and frozen. After Scene::finalize() nothing about the scene can fail.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/effects.h"
+#include "core/progress.h"
+#include "core/warnings.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/mesh.h"
+#include "scene/texture.h"
+
+namespace whit {
+
+struct SceneDescription {
+  std::string name;               // the bare name of the file
+  int width = 480, height = 300;  // the scene's own image size
+  std::vector<Camera> cameras;    // the first is the default
+  std::vector<Keyframe> cameraPath;
+  std::vector<PointLight> lights;
+  Sky sky;
+  Ambient ambient;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Object> objects;
+  std::vector<Instance> instances;
+};
+
+// Triangles of one class lie together and become one Embree geometry, whose id is the class: bit 0
+// set when they cast no shadow, bit 1 set when an alpha mask cuts them.
+inline constexpr int kTriangleClasses = 4;
+inline constexpr std::uint32_t kNoShadowBit = 1, kMaskedBit = 2;
+
+// What shading reads of a triangle, one cache line: corners, texture coordinates, material.
+struct alignas(64) TriangleRecord {
+  float position[9];
+  float uv[6];
+  std::uint32_t material;
+};
+static_assert(sizeof(TriangleRecord) == 64);
+
+struct NormalRecord {
+  float normal[9];  // unit, one a corner; all three equal the face's where the mesh has none
+};
+
+// One object's triangles as Embree wants them. `index` refers to `position`; triangles are sorted
+// by class (stable), class c occupying [classBegin[c], classBegin[c + 1]). The triangle i of a
+// geometry is number firstTriangle + i in Scene::triangles.
+struct Geometry {
+  std::vector<Vec3f> position;
+  std::vector<std::array<std::uint32_t, 3>> index;
+  std::array<std::uint32_t, kTriangleClasses + 1> classBegin{};
+  std::uint32_t firstTriangle = 0;
+};
+
+struct InstanceRecord {
+  std::uint32_t geometry = 0;  // index into Scene::geometries, never 0
+  Affine toWorld;
+};
+
+// A dielectric that some triangle bounds. Number 0 is the vacuum around everything (ior 1).
+struct Medium {
+  float ior = 1;
+  Rgb absorption{0, 0, 0};
+  int priority = 0;
+};
+
+struct EffectReason {
+  bool on = false;
+  std::string because;  // "3 materials have a mirror", "no mesh uses a material with transmission"
+};
+
+class Scene {
+ public:
+  // Validates and bakes. Non-finite or enormous vertices (beyond Embree's 1.844e18), out-of-range
+  // indices and degenerate triangles are dropped and counted in `warnings`. Throws Error(badScene)
+  // where nothing sensible remains, Error(limit) beyond 2^32 - 1 triangles or 255 media.
+  static Scene finalize(SceneDescription&& description, Warnings& warnings,
+                        Progress* progress = nullptr);
+
+  std::string name;
+  int width = 480, height = 300;
+  std::vector<Camera> cameras;  // at least one
+  std::vector<Keyframe> cameraPath;
+  std::vector<PointLight> lights;
+  Sky sky;
+  Ambient ambient;
+  std::vector<Material> materials;
+  std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material has no transmission
+  std::vector<Medium> media;                   // [0] is vacuum
+  std::vector<Texture> textures;
+
+  // Geometry 0 is the world (may be empty), the others are instanced.
+  std::vector<Geometry> geometries;
+  std::vector<InstanceRecord> instances;
+  std::vector<TriangleRecord> triangles;  // all geometries, one after the other
+  std::vector<NormalRecord> normals;      // same length, or empty when no mesh has normals
+
+  Vec3f lower, upper;                    // bounds of everything, instances included
+  std::uint64_t instancedTriangles = 0;  // triangles as seen, instances multiplied out
+
+  EffectSet effects;
+  std::array<EffectReason, kEffectCount> reasons;
+
+  // Bytes held by geometry and by textures (without Embree's).
+  std::uint64_t memoryBytes() const;
+};
+
+// Fills effects and reasons from what the geometry really uses.
+void gatherEffects(Scene& scene);
+
+}  // namespace whit

@@ -1,0 +1,50 @@
+// Images sampled on surfaces and in the sky. Frozen after loading.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace whit {
+
+// How the 32 bits of a texel hold its channels, x in the low bits.
+enum class TexelFormat : std::uint8_t {
+  // Colour: 10 bits a channel, value = (code / 1023)^2, linear light. Square-root coding puts the
+  // steps where sRGB has them: an 8-bit sRGB colour comes back within 1/8 of an 8-bit step, and
+  // decoding is one multiplication. Channels are in [0, 1].
+  colour,
+  // Data (normals, factors): 8 bits a channel, value = code / 255.
+  data,
+};
+
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+
+// `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
+// points up. Sampling is bilinear with texel centres at half-integers.
+struct Texture {
+  std::string name;
+  TexelFormat format = TexelFormat::colour;
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  int width = 1, height = 1;
+  std::vector<std::uint32_t> texels;
+};
+
+// One texel of each format from channels in [0, 1]; out-of-range and NaN channels are clamped.
+std::uint32_t encodeColourTexel(const Rgb& linear);
+std::uint32_t encodeDataTexel(float r, float g, float b, float a);
+Rgb decodeColourTexel(std::uint32_t texel);
+
+// Linear light of an sRGB code in [0, 1], and back (IEC 61966-2-1, exact branches).
+double srgbToLinear(double code);
+double linearToSrgb(double linear);
+
+// Equirectangular radiance map: row 0 is the zenith (+y), column 0 begins at direction -z and
+// columns run towards +x. Planes, so that kernels gather one channel at a time.
+struct EnvironmentImage {
+  int width = 0, height = 0;
+  std::vector<float> r, g, b;
+};
+
+}  // namespace whit
