@@ -1,0 +1,20 @@
+// Scalar post-processing: from linear radiance to 8-bit display codes. The scalar twin of
+// updateImage's encoding.
+#pragma once
+
+#include "core/image.h"
+#include "core/options.h"
+
+namespace whit {
+
+// Tone curve on linear values at or above 0. `none` is the identity, reinhard x / (1 + x), filmic
+// Hable's curve as published by J. Hable, "Filmic Tonemapping Operators" (2010), white point 11.2.
+double applyToneCurve(ToneCurve curve, double x);
+
+// round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0 (IEC 61966-2-1).
+int srgbCode(double linear);
+
+// Exposure (2^EV), tone curve, encoding. The window's pixels only.
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve);
+
+}  // namespace whit

@@ -1,0 +1,34 @@
+// How far two images are apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace whit {
+
+struct ImageDifference {
+  double rmse = 0;      // linear, over all channels
+  double relmse = 0;    // mean of (a - b)^2 / (b^2 + 1e-2) (pbrt's imgtool)
+  double psnrDb = 0;    // of the 8-bit encoded images; infinite when equal
+  double flipMean = 0;  // LDR-FLIP (Andersson et al. 2020), 67 pixels a degree
+  int maxCode = 0;      // 8-bit sRGB steps, largest channel difference
+  double pixelsGe1CodePct = 0, pixelsGe2CodesPct = 0;
+  double energyRatio = 1;       // mean(a) / mean(b)
+  std::uint64_t nonFinite = 0;  // pixels of either image with a NaN or an infinity
+};
+
+// `b` is the reference. Sizes and windows must match, else Error(usage). Exposure and tone curve as
+// given are applied before anything that looks at codes.
+ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
+                              ToneCurve curve = ToneCurve::none);
+
+// FLIP per pixel, in [0, 1], of the encoded images.
+std::vector<float> flipMap(const Image& a, const Image& b);
+
+// Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic) with its
+// scale drawn beneath.
+DisplayImage heatMap(const Image& a, const Image& b);
+
+}  // namespace whit

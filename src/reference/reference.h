@@ -1,0 +1,56 @@
+// The scalar twin: Whitted's recursion in double precision, one ray at a time. No SIMD, no queues,
+// no tiles, no variants; independent of the kernels.
+#pragma once
+
+#include "core/image.h"
+#include "core/options.h"
+#include "core/progress.h"
+#include "reference/intersector.h"
+#include "scene/scene.h"
+
+namespace whit::reference {
+
+struct Settings {
+  int spp = 1;
+  int depth = 8;
+  double cutoff = 3.0e-4;
+  EffectSet effects = EffectSet::all();  // effects the scene has and that are not disabled
+  int threads = 1;
+};
+
+struct RayCounts {
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+};
+
+// Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
+// multiplied with on its way to the eye, for the cutoff.
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
+  RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
+                    RayCounts& counts) const;
+  // Mean over the sample pattern of the pixel.
+  RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+
+ private:
+  const Scene& scene_;
+  const Intersector& intersector_;
+  Settings settings_;
+};
+
+// All pixels of image.window, rows shared among settings.threads threads.
+RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
+                 const Settings& settings, Image& image, Progress* progress = nullptr);
+
+// Every triangle, instances included, in double. Quadratic; for small scenes and as an oracle.
+class BruteForce : public Intersector {
+ public:
+  explicit BruteForce(const Scene& scene) : scene_(scene) {}
+  bool closest(const Ray& ray, Candidate& candidate) const override;
+  bool occluded(const Ray& ray, double tFar) const override;
+
+ private:
+  const Scene& scene_;
+};
+
+}  // namespace whit::reference

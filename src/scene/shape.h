@@ -1,0 +1,50 @@
+// Procedural shapes and patterns: what a scene file can ask for without any model or image file.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/affine.h"
+#include "scene/mesh.h"
+#include "scene/texture.h"
+
+namespace whit {
+
+// Where a generator gets its parameters from. Each call names a key, its default, and the range
+// that is accepted; the implementation reports a value of the wrong kind or range by its place in
+// the scene file, and afterwards any key that no generator asked for.
+class ShapeParameters {
+ public:
+  virtual ~ShapeParameters() = default;
+  virtual double number(const std::string& key, double fallback, double low, double high) = 0;
+  virtual int integer(const std::string& key, int fallback, int low, int high) = 0;
+  virtual bool flag(const std::string& key, bool fallback) = 0;
+  virtual Vec3d vector(const std::string& key, const Vec3d& fallback) = 0;
+  virtual std::string word(const std::string& key, const std::string& fallback,
+                           const std::vector<std::string>& choices) = 0;
+};
+
+// A generated part and the material slot it belongs to. Simple shapes have the single slot
+// "surface"; a tree has "bark" and "leaves".
+struct ShapePart {
+  std::string slot = "surface";
+  Mesh mesh;  // Mesh::materials is left empty; the reader fills it in
+};
+
+struct Shape {
+  std::vector<ShapePart> parts;
+  // Where copies stand, in the shape's own space. Empty: one copy as it is.
+  std::vector<Affine> placements;
+};
+
+using ShapeGenerator = Shape (*)(ShapeParameters&);
+using PatternGenerator = Texture (*)(ShapeParameters&);
+
+// By the name used in scene files ("sphere", "colonnade", "terrain", ...).
+const std::map<std::string, ShapeGenerator>& shapeGenerators();
+// Textures by formula ("checker", "bricks", "tiles", ...); "normals" of a pattern are a pattern
+// too.
+const std::map<std::string, PatternGenerator>& patternGenerators();
+
+}  // namespace whit
