@@ -1,0 +1,34 @@
+// What a frame will run: the effects that the scene calls for, less those disabled, and what
+// follows from them: stages, ray kinds, kernel variants, columns. Made once, before the frame;
+// nothing in a frame asks again.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/options.h"
+#include "scene/scene.h"
+#include "stages/columns.h"
+#include "stages/stage.h"
+
+namespace whit {
+
+struct Plan {
+  EffectSet effects;  // what the kernels are compiled for
+  std::vector<Stage> stages;
+  Groups groups;  // columns that are allocated
+  bool traceShadows = false, traceReflections = false, traceRefractions = false;
+  int depth = 0;  // deepest impulse that can occur
+};
+
+Plan makePlan(const Scene& scene, const RenderOptions& options);
+
+// One row of `whit info`'s kernels.
+struct KernelUse {
+  Stage stage;
+  std::string variant;  // effect names joined by '+', "plain" if none
+  std::string target;   // SIMD target
+};
+std::vector<KernelUse> kernelsOf(const Plan& plan);
+
+}  // namespace whit

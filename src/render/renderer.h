@@ -1,0 +1,85 @@
+// Renders frames of one scene with the vector pipeline: eight stages over tiles, or over the whole
+// frame (--batch frame).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/options.h"
+#include "core/progress.h"
+#include "render/frame_stats.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+// Where a frame goes. `image` is linear radiance; `display`, when wanted, its 8-bit form.
+struct Film {
+  Image image;
+  bool wantDisplay = true;
+  DisplayImage display;  // of the window only
+};
+
+// What the pipeline runs on, after "auto" has been resolved.
+struct Machine {
+  std::string simd;    // kernel target: avx3, avx2, sse4, ssse3, scalar, neon
+  std::string embree;  // version and ISA, "3.13.5 avx2"
+  int packet = 8;
+  int threads = 1;
+};
+
+struct FloorResult {
+  double floorMs = 0;  // Embree alone, the same rays in full packets
+  std::uint64_t rays = 0;
+};
+
+class Renderer {
+ public:
+  // Builds the acceleration structure and the shading tables. `scene` must outlive the renderer.
+  // Throws Error(usage) for a SIMD target or packet width that this machine does not have.
+  Renderer(const Scene& scene, const RenderOptions& options, Progress* progress = nullptr);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // film.image must have its size and window set. Allocates on the first call and when sizes
+  // change.
+  FrameStats render(const Camera& camera, Film& film);
+
+  // The same image by the scalar reference, its candidates from this renderer's Embree scene.
+  FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
+
+  // Captures the rays of one frame and replays them `frames` times through Embree alone (cli: the
+  // floor), returning the median.
+  FloorResult measureFloor(const Camera& camera, Film& film, int frames);
+
+  const Plan& plan() const;
+  const Machine& machine() const;
+  double buildMs() const;             // acceleration structure and tables
+  std::uint64_t memoryBytes() const;  // tables, queues, acceleration structure
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// The camera that the options ask for: --camera, then --eye, --at, --up, --fov on top of it.
+// Throws Error(usage) naming the nearest camera.
+Camera chooseCamera(const Scene& scene, const RenderOptions& options);
+// An empty film of the size and crop that the options ask for.
+Film makeFilm(const Scene& scene, const RenderOptions& options);
+
+// One row of `whit compare --stages`: the worst difference between a vector stage's output and its
+// scalar twin on the same input, in ulps of the column's magnitude.
+struct StageDifference {
+  Stage stage;
+  std::string column;
+  std::uint64_t slots = 0;
+  double worstUlp = 0, limitUlp = 0;
+  int pixelX = 0, pixelY = 0, depth = 0;
+};
+std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& camera, Film& film);
+
+}  // namespace whit

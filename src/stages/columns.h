@@ -1,0 +1,181 @@
+// Structures of arrays. Each lists its columns once, as X(type, name, group); the struct, its
+// allocation, comparison and printing all come from that list. A column that no effect of the frame
+// needs stays null (see Groups).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+namespace whit {
+
+// Slots come in blocks of 16, the widest packet; kernels run over whole vectors, so capacities are
+// multiples of it and what lies behind the last live slot is allocated and harmless.
+inline constexpr std::size_t kBlock = 16;
+inline constexpr std::size_t roundUpToBlock(std::size_t n) {
+  return (n + kBlock - 1) / kBlock * kBlock;
+}
+
+// Why a column exists: needed by every frame, or only by frames with some effect.
+enum class Group : std::uint8_t { always, glossy, transmission, instances };
+
+struct Groups {
+  bool glossy = true, transmission = true, instances = true;
+  constexpr bool has(Group g) const {
+    return g == Group::always || (g == Group::glossy && glossy) ||
+           (g == Group::transmission && transmission) || (g == Group::instances && instances);
+  }
+};
+
+#define WHIT_COLUMN_MEMBER(type, name, group) type* name = nullptr;
+#define WHIT_COLUMN_VISIT(type, name, group) visit(#name, c.name, Group::group);
+#define WHIT_DECLARE_COLUMNS(Struct, LIST)                \
+  struct Struct {                                         \
+    LIST(WHIT_COLUMN_MEMBER)                              \
+    template <typename Self, typename Visitor>            \
+    static void forEachColumn(Self& c, Visitor&& visit) { \
+      LIST(WHIT_COLUMN_VISIT)                             \
+    }                                                     \
+  }
+
+// X(type, name, group). Directions are unit vectors; `parent` is the slot at the depth above (a
+// pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
+// multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
+// each, the one entered last in the low byte.
+#define WHIT_RAY_COLUMNS(X)        \
+  X(float, orgX, always)           \
+  X(float, orgY, always)           \
+  X(float, orgZ, always)           \
+  X(float, dirX, always)           \
+  X(float, dirY, always)           \
+  X(float, dirZ, always)           \
+  X(float, weightR, always)        \
+  X(float, weightG, always)        \
+  X(float, weightB, always)        \
+  X(float, throughput, always)     \
+  X(std::uint32_t, parent, always) \
+  X(std::uint32_t, media, transmission)
+
+// `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
+// `instance` indexes Scene::instances, kMiss in the world.
+#define WHIT_HIT_COLUMNS(X)          \
+  X(std::uint32_t, triangle, always) \
+  X(float, t, always)                \
+  X(float, u, always)                \
+  X(float, v, always)                \
+  X(std::uint32_t, instance, instances)
+
+// A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
+// is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
+// must start (numerics H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
+// refracted child.
+#define WHIT_SURFEL_COLUMNS(X)          \
+  X(float, posX, always)                \
+  X(float, posY, always)                \
+  X(float, posZ, always)                \
+  X(float, ngX, always)                 \
+  X(float, ngY, always)                 \
+  X(float, ngZ, always)                 \
+  X(float, nsX, always)                 \
+  X(float, nsY, always)                 \
+  X(float, nsZ, always)                 \
+  X(float, offset, always)              \
+  X(float, diffuseR, always)            \
+  X(float, diffuseG, always)            \
+  X(float, diffuseB, always)            \
+  X(std::uint32_t, material, always)    \
+  X(float, specularR, glossy)           \
+  X(float, specularG, glossy)           \
+  X(float, specularB, glossy)           \
+  X(float, alpha, glossy)               \
+  X(std::uint32_t, flags, transmission) \
+  X(std::uint32_t, mediaBehind, transmission)
+
+// Shadow rays of one light, compacted. Directions reach from the surfel to the light, not
+// normalised; `slot` is the surfel's.
+#define WHIT_SHADOW_COLUMNS(X) \
+  X(float, orgX, always)       \
+  X(float, orgY, always)       \
+  X(float, orgZ, always)       \
+  X(float, dirX, always)       \
+  X(float, dirY, always)       \
+  X(float, dirZ, always)       \
+  X(float, tFar, always)       \
+  X(std::uint32_t, slot, always)
+
+// One light's radiance a surfel, before and after its shadow is known (visible: 0 or 1).
+#define WHIT_UNSHADOWED_COLUMNS(X) \
+  X(float, r, always)              \
+  X(float, g, always)              \
+  X(float, b, always)              \
+  X(float, visible, always)
+
+#define WHIT_RADIANCE_COLUMNS(X) \
+  X(float, r, always)            \
+  X(float, g, always)            \
+  X(float, b, always)
+
+WHIT_DECLARE_COLUMNS(RayColumns, WHIT_RAY_COLUMNS);
+WHIT_DECLARE_COLUMNS(HitColumns, WHIT_HIT_COLUMNS);
+WHIT_DECLARE_COLUMNS(SurfelColumns, WHIT_SURFEL_COLUMNS);
+WHIT_DECLARE_COLUMNS(ShadowColumns, WHIT_SHADOW_COLUMNS);
+WHIT_DECLARE_COLUMNS(UnshadowedColumns, WHIT_UNSHADOWED_COLUMNS);
+WHIT_DECLARE_COLUMNS(RadianceColumns, WHIT_RADIANCE_COLUMNS);
+
+inline constexpr std::uint32_t kMiss = 0xffffffffu;
+inline constexpr std::uint32_t kEntering = 1;  // the ray hit the outside of the surface
+inline constexpr std::uint32_t kHidden = 2;    // inside a dielectric of higher priority: not there
+
+// The same columns, `first` slots further on.
+template <typename Columns>
+Columns advanced(const Columns& columns, std::size_t first) {
+  Columns result = columns;
+  Columns::forEachColumn(result, [&](const char*, auto*& column, Group) {
+    if (column) column += first;
+  });
+  return result;
+}
+
+// Owns the memory of one set of columns, zeroed and aligned to 64 bytes.
+template <typename Columns>
+class ColumnStore {
+ public:
+  ColumnStore() = default;
+  ColumnStore(std::size_t capacity, const Groups& groups) { allocate(capacity, groups); }
+
+  void allocate(std::size_t capacity, const Groups& groups) {
+    capacity_ = roundUpToBlock(capacity);
+    // Four-byte elements. Columns one cache line further apart than a power of two, or all of them
+    // would compete for the same sets of the L1 cache; one block to spare for a vector's overhang.
+    const std::size_t stride = (capacity_ + 2 * kBlock) * sizeof(float);
+    std::size_t count = 0;
+    Columns::forEachColumn(columns_, [&](const char*, auto*&, Group g) { count += groups.has(g); });
+    bytes_ = count * stride;
+    memory_.reset(static_cast<std::byte*>(std::aligned_alloc(64, bytes_)));
+    if (!memory_) throw std::bad_alloc();
+    std::byte* next = memory_.get();
+    std::fill(next, next + bytes_, std::byte{0});
+    Columns::forEachColumn(columns_, [&](const char*, auto*& column, Group g) {
+      using Element = std::remove_reference_t<decltype(*column)>;
+      static_assert(sizeof(Element) == sizeof(float));
+      column = groups.has(g) ? reinterpret_cast<Element*>(next) : nullptr;
+      if (column) next += stride;
+    });
+  }
+
+  const Columns& operator*() const { return columns_; }
+  const Columns* operator->() const { return &columns_; }
+  std::size_t capacity() const { return capacity_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const { std::free(p); }
+  };
+  std::unique_ptr<std::byte, Free> memory_;
+  Columns columns_;
+  std::size_t capacity_ = 0, bytes_ = 0;
+};
+
+}  // namespace whit

@@ -1,0 +1,83 @@
+// The scene as kernels read it: flat tables without pointers to follow. Built once a scene by
+// render/build_tables.cpp and read-only afterwards.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/effects.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+// Two cache lines a material; offsets are in floats.
+struct alignas(64) MaterialRecord {
+  float diffuse[3];
+  std::int32_t diffuseMap;  // index into textures, kNoTexture
+  float specular[3];
+  std::int32_t specularMap;
+  float emission[3];
+  std::int32_t normalMap;
+  float alpha;  // GGX width, roughness squared and bounded below
+  std::uint32_t medium;
+  std::uint32_t flags;
+  float spare0;
+  // impulses
+  float mirror[3];
+  float spare1;
+  float grazingMinusMirror[3];
+  float spare2;
+  float transmission[3];
+  float spare3[5];
+};
+static_assert(sizeof(MaterialRecord) == 128);
+inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);
+inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
+                               kMaterialGlossy = 8;
+
+struct TextureRecord {
+  std::uint32_t firstTexel;  // index into texels
+  std::int32_t width, height;
+  std::uint32_t wrap;  // wrapU | wrapV << 8 (Wrap's values)
+};
+inline constexpr int kTextureStride = sizeof(TextureRecord) / sizeof(std::uint32_t);
+
+// Object to world; `normal` holds the cofactors (Affine::normal).
+struct alignas(64) InstanceTransform {
+  float toWorld[12];  // row-major 3x4
+  float normal[9];    // row-major 3x3
+  float spare[11];
+};
+static_assert(sizeof(InstanceTransform) == 128);
+inline constexpr int kInstanceStride = sizeof(InstanceTransform) / sizeof(float);
+
+// Per medium: ior, absorption, priority.
+struct MediumRecord {
+  float ior, absorption[3], priority, spare[3];
+};
+inline constexpr int kMediumStride = sizeof(MediumRecord) / sizeof(float);
+
+struct SkyTable {
+  Sky::Kind kind = Sky::Kind::none;
+  Rgb zenith, horizon, ground;  // scale applied
+  const float *r = nullptr, *g = nullptr, *b = nullptr;
+  int width = 0, height = 0;
+  float scale = 1;
+  float turn = 0;  // rotation as a fraction of a full turn
+};
+
+struct ShadingTables {
+  const TriangleRecord* triangles = nullptr;  // at least one
+  const NormalRecord* normals = nullptr;      // null without smooth normals
+  std::vector<MaterialRecord> materials;      // at least one
+  std::vector<TextureRecord> textures;        // at least one
+  std::vector<std::uint32_t> texels;          // all textures of the frame's effects
+  std::vector<InstanceTransform> instances;   // at least one
+  std::vector<MediumRecord> media;            // [0] is vacuum
+  std::vector<PointLight> lights;
+  SkyTable sky;
+  Ambient ambient;
+  bool absorbing = false;
+};
+
+}  // namespace whit

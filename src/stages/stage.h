@@ -1,0 +1,52 @@
+// The eight stages of a frame. The names here are those of the kernels' files, of the timing tables
+// and of the text (after the stages of the 2016 report that this system takes up).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace whit {
+
+// | stage                             | reads                 | writes |
+// |-----------------------------------|-----------------------|-------------------------------------|
+// | generateRays                      | camera, pixels        | rays | | findIntersections | rays,
+// scene           | hits (Embree), then surfels         | | writeEmittedAndReflectiveAmbient  |
+// surfels, sky          | radiance (=)                        | | findRadianceAndShadowRays |
+// surfels, one light    | unshadowed radiance, shadow rays    | | checkShadows | shadow rays, scene
+// | visibility (Embree)                 | | addShading                        | unshadowed, visible
+// | radiance (+=)                       | | addImpulses                       | surfels | the next
+// depth's rays; then their   | |                                   |                       |
+// radiance times weight (+=)          | | updateImage                       | radiance, pixels |
+// film, display codes                 |
+#define WHIT_STAGES(X)                \
+  X(generateRays)                     \
+  X(findIntersections)                \
+  X(writeEmittedAndReflectiveAmbient) \
+  X(findRadianceAndShadowRays)        \
+  X(checkShadows)                     \
+  X(addShading)                       \
+  X(addImpulses)                      \
+  X(updateImage)
+
+enum class Stage : std::uint8_t {
+#define WHIT_STAGE_ENUM(name) name,
+  WHIT_STAGES(WHIT_STAGE_ENUM)
+#undef WHIT_STAGE_ENUM
+};
+
+inline constexpr std::array kStageNames{
+#define WHIT_STAGE_NAME(name) std::string_view(#name),
+    WHIT_STAGES(WHIT_STAGE_NAME)
+#undef WHIT_STAGE_NAME
+};
+inline constexpr std::size_t kStageCount = kStageNames.size();
+
+enum class RayKind : std::uint8_t { primary, shadow, reflection, refraction };
+inline constexpr std::array kRayKindNames{std::string_view("primary"), std::string_view("shadow"),
+                                          std::string_view("reflection"),
+                                          std::string_view("refraction")};
+inline constexpr std::size_t kRayKindCount = kRayKindNames.size();
+
+}  // namespace whit
