@@ -1,0 +1,64 @@
+#include "core/display.h"
+
+#include <cmath>
+
+#include "core/srgb.h"
+
+namespace whit {
+
+namespace {
+
+// Hable's rational curve with the published parameters: shoulder, linear strength and angle, toe
+// strength, toe numerator and denominator.
+double hable(double x) {
+  constexpr double kA = 0.15, kB = 0.50, kC = 0.10, kD = 0.20, kE = 0.02, kF = 0.30;
+  return (x * (kA * x + kC * kB) + kD * kE) / (x * (kA * x + kB) + kD * kF) - kE / kF;
+}
+
+constexpr double kHableWhite = 11.2;
+// Both curves have converged here; beyond it x * x could overflow.
+constexpr double kCurveEnd = 1e30;
+
+}  // namespace
+
+double applyToneCurve(ToneCurve curve, double x) {
+  switch (curve) {
+    case ToneCurve::none:
+      return x;
+    case ToneCurve::reinhard:
+      x = std::min(x, kCurveEnd);
+      return x / (1 + x);
+    case ToneCurve::filmic:
+      return hable(std::min(x, kCurveEnd)) / hable(kHableWhite);
+  }
+  return x;
+}
+
+int srgbCode(double linear) {
+  if (!(linear > 0)) return 0;  // NaN too
+  if (linear >= 1) return 255;
+  return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
+}
+
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
+  DisplayImage display;
+  display.width = image.windowWidth();
+  display.height = image.windowHeight();
+  display.rgba.reserve(image.pixels.size() * 4);
+  const double scale = std::exp2(static_cast<double>(exposure));
+  const auto encode = [&](float channel) {
+    const double exposed = scale * static_cast<double>(channel);
+    // NaN and negatives are black before the curve, which is only defined from 0 on.
+    const double curved = exposed > 0 ? applyToneCurve(curve, exposed) : 0.0;
+    return static_cast<std::uint8_t>(srgbCode(curved));
+  };
+  for (const Rgb& pixel : image.pixels) {
+    display.rgba.push_back(encode(pixel.x));
+    display.rgba.push_back(encode(pixel.y));
+    display.rgba.push_back(encode(pixel.z));
+    display.rgba.push_back(255);
+  }
+  return display;
+}
+
+}  // namespace whit
