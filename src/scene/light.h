@@ -24,8 +24,10 @@ struct Sky {
   // below. colour: `zenith` everywhere.
   Rgb zenith{0, 0, 0}, horizon{0, 0, 0}, ground{0, 0, 0};
   EnvironmentImage image;
-  float scale = 1;     // multiplies all of the above
-  float rotation = 0;  // degrees about +y, image only
+  float scale = 1;  // multiplies all of the above
+  // Degrees about +y, right-handed as Affine::rotation, image only: what the image has at -z is
+  // seen towards -x after 90 degrees.
+  float rotation = 0;
 };
 
 // Constant-time ambient: irradiance / pi as a function of the normal's y alone,

@@ -37,7 +37,8 @@ struct Instance {
   Affine toWorld;
 };
 
-// Applies `map` to positions and normals (rounded once), flips the winding if it mirrors.
+// Applies `map` to positions and normals (rounded once), flips the winding if it mirrors. Normals
+// come out as unit vectors, zero where they have no direction. The identity leaves positions alone.
 void transform(Mesh& mesh, const Affine& map);
 
 }  // namespace whit

@@ -51,7 +51,8 @@ struct NormalRecord {
 
 // One object's triangles as Embree wants them. `index` refers to `position`; triangles are sorted
 // by class (stable), class c occupying [classBegin[c], classBegin[c + 1]). The triangle i of a
-// geometry is number firstTriangle + i in Scene::triangles.
+// geometry is number firstTriangle + i in Scene::triangles. `position` has the capacity for one
+// more element than it holds, because Embree reads 16 bytes at every vertex.
 struct Geometry {
   std::vector<Vec3f> position;
   std::vector<std::array<std::uint32_t, 3>> index;
@@ -100,9 +101,11 @@ class Scene {
   std::vector<Geometry> geometries;
   std::vector<InstanceRecord> instances;
   std::vector<TriangleRecord> triangles;  // all geometries, one after the other
-  std::vector<NormalRecord> normals;      // same length, or empty when no mesh has normals
+  // Same length, or empty when no mesh has normals other than its triangles'.
+  std::vector<NormalRecord> normals;
 
-  Vec3f lower, upper;                    // bounds of everything, instances included
+  // Bounds of everything, instances (each by its object's box) included; zero without triangles.
+  Vec3f lower, upper;
   std::uint64_t instancedTriangles = 0;  // triangles as seen, instances multiplied out
 
   EffectSet effects;

@@ -12,7 +12,7 @@ namespace whit {
 // How the 32 bits of a texel hold its channels, x in the low bits.
 enum class TexelFormat : std::uint8_t {
   // Colour: 10 bits a channel, value = (code / 1023)^2, linear light. Square-root coding puts the
-  // steps where sRGB has them: an 8-bit sRGB colour comes back within 1/8 of an 8-bit step, and
+  // steps where sRGB has them: an 8-bit sRGB colour comes back within 1/6 of an 8-bit step, and
   // decoding is one multiplication. Channels are in [0, 1].
   colour,
   // Data (normals, factors): 8 bits a channel, value = code / 255.

@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "scene/finalize_steps.h"
+#include "scene/triangle_record.h"
+
+namespace whit {
+
+namespace {
+
+constexpr std::uint64_t kIndexLimit = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint8_t kDropped = kTriangleClasses;
+
+// A mesh on its way into a geometry.
+struct Source {
+  Mesh* mesh = nullptr;
+  Affine toGeometry;
+  std::uint32_t firstVertex = 0;
+  // Class or kDropped, one a triangle; empty where all triangles are of `onlyClass`.
+  std::vector<std::uint8_t> classes;
+  std::uint8_t onlyClass = kDropped;
+  std::array<std::uint32_t, kTriangleClasses + 1> count{};
+
+  bool has(std::size_t triangle, std::size_t wanted) const {
+    return (classes.empty() ? onlyClass : classes[triangle]) == wanted;
+  }
+  bool isDone() const {
+    return std::all_of(count.begin(), count.begin() + kDropped, [](auto n) { return n == 0; });
+  }
+};
+
+// Something mended in one mesh: how often, and where first.
+struct Tally {
+  std::uint64_t count = 0;
+  std::size_t first = 0;
+  void add(std::size_t triangle, std::uint64_t times = 1) {
+    if (count == 0) first = triangle;
+    count += times;
+  }
+  void report(Warnings& warnings, const char* kind, const Mesh& mesh) const {
+    warnings.add(kind, "mesh '" + mesh.name + "', triangle " + std::to_string(first), count);
+  }
+};
+
+struct Dropped {
+  Tally badIndex, badCorner, degenerate;
+};
+
+struct Box {
+  Vec3f lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
+  void add(const Vec3f& p) {
+    lower = min(lower, p);
+    upper = max(upper, p);
+  }
+};
+
+bool isUsable(const Vec3f& p) { return isFinite(p) && maxComponent(abs(p)) <= kLargestCoordinate; }
+
+class Baker {
+ public:
+  Baker(SceneDescription& description, Scene& scene, Warnings& warnings, Progress* progress)
+      : description_(description), scene_(scene), warnings_(warnings), progress_(progress) {
+    for (const Material& m : scene.materials) uses_.push_back(useOf(m, scene.textures));
+  }
+
+  void run() {
+    plan();
+    for (std::size_t g = 0; g < sources_.size(); ++g) place(g);
+    dropEmptyGeometries();
+    reserveTables();
+    for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
+    addInstances();
+  }
+
+ private:
+  void plan();
+  void place(std::size_t g);
+  void classify(Source& source, const Geometry& geometry);
+  std::uint8_t classOf(const Mesh& mesh, std::size_t triangle, const Vec3f* position,
+                       std::size_t vertices, Dropped& dropped) const;
+  void dropEmptyGeometries();
+  void reserveTables();
+  void emit(std::size_t g);
+  void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
+  void addInstances();
+
+  SceneDescription& description_;
+  Scene& scene_;
+  Warnings& warnings_;
+  Progress* progress_;
+  std::vector<MaterialUse> uses_;             // one a material
+  std::vector<std::vector<Source>> sources_;  // one list a geometry
+  std::vector<Box> boxes_;                    // one a geometry, in its own space
+  bool withNormals_ = false;
+};
+
+// Which mesh goes where: those of objects used once into geometry 0, others into one of their own.
+void Baker::plan() {
+  std::vector<Object>& objects = description_.objects;
+  std::vector<std::uint64_t> uses(objects.size());
+  for (const Instance& instance : description_.instances) ++uses[instance.object];
+  std::vector<std::uint32_t> geometryOf(objects.size());
+  std::uint32_t geometries = 1;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (uses[i] > 1) geometryOf[i] = geometries++;
+    if (uses[i] == 0) objects[i] = {};
+  }
+  sources_.resize(geometries);
+  scene_.geometries.resize(geometries);
+  for (const Instance& instance : description_.instances) {
+    const std::uint32_t g = geometryOf[instance.object];
+    const bool inWorld = g == 0;
+    if (!inWorld) scene_.instances.push_back({g, instance.toWorld});
+    if (!inWorld && !sources_[g].empty()) continue;
+    for (Mesh& mesh : objects[instance.object].meshes) {
+      Source source;
+      source.mesh = &mesh;
+      if (inWorld) source.toGeometry = instance.toWorld;
+      sources_[g].push_back(std::move(source));
+      withNormals_ = withNormals_ || !mesh.normals.empty();
+    }
+  }
+}
+
+// Transforms the vertices of a geometry and counts its triangles by class.
+void Baker::place(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  std::uint64_t vertices = 0, triangles = 0;
+  for (const Source& source : sources_[g]) {
+    vertices += source.mesh->positions.size();
+    triangles += source.mesh->triangles.size();
+  }
+  if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
+  if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+  geometry.position.reserve(vertices + 1);
+  for (Source& source : sources_[g]) {
+    transform(*source.mesh, source.toGeometry);
+    source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
+    const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
+    geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
+    classify(source, geometry);
+    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      geometry.classBegin[c + 1] += source.count[c];
+    }
+  }
+  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    geometry.classBegin[c + 1] += geometry.classBegin[c];
+  }
+}
+
+void Baker::classify(Source& source, const Geometry& geometry) {
+  const Mesh& mesh = *source.mesh;
+  const Vec3f* position = geometry.position.data() + source.firstVertex;
+  const std::size_t vertices = geometry.position.size() - source.firstVertex;
+  Dropped dropped;
+  source.classes.resize(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    source.classes[i] = classOf(mesh, i, position, vertices, dropped);
+    ++source.count[source.classes[i]];
+  }
+  dropped.badIndex.report(warnings_, "triangle with a vertex index out of range dropped", mesh);
+  dropped.badCorner.report(warnings_, "triangle with a non-finite or enormous corner dropped",
+                           mesh);
+  dropped.degenerate.report(warnings_, "degenerate triangle dropped", mesh);
+  for (std::uint8_t c = 0; c <= kDropped; ++c) {
+    if (source.count[c] != mesh.triangles.size()) continue;
+    source.onlyClass = c;
+    source.classes = {};
+    return;
+  }
+}
+
+std::uint8_t Baker::classOf(const Mesh& mesh, std::size_t triangle, const Vec3f* position,
+                            std::size_t vertices, Dropped& dropped) const {
+  const auto& [i, j, k] = mesh.triangles[triangle];
+  if (i >= vertices || j >= vertices || k >= vertices) {
+    dropped.badIndex.add(triangle);
+    return kDropped;
+  }
+  const Vec3f &a = position[i], &b = position[j], &c = position[k];
+  if (!isUsable(a) || !isUsable(b) || !isUsable(c)) {
+    dropped.badCorner.add(triangle);
+    return kDropped;
+  }
+  if (areaVector(a, b, c) == Vec3d{}) {
+    dropped.degenerate.add(triangle);
+    return kDropped;
+  }
+  return uses_[mesh.material(triangle)].triangleClass;
+}
+
+// A geometry of which nothing is left takes its instances with it.
+void Baker::dropEmptyGeometries() {
+  std::vector<std::uint32_t> newNumber(sources_.size());
+  std::uint32_t kept = 1;
+  for (std::size_t g = 1; g < sources_.size(); ++g) {
+    if (scene_.geometries[g].classBegin.back() == 0) continue;
+    if (kept != g) {
+      scene_.geometries[kept] = std::move(scene_.geometries[g]);
+      sources_[kept] = std::move(sources_[g]);
+    }
+    newNumber[g] = kept++;
+  }
+  scene_.geometries.resize(kept);
+  sources_.resize(kept);
+  std::erase_if(scene_.instances,
+                [&](const InstanceRecord& i) { return newNumber[i.geometry] == 0; });
+  for (InstanceRecord& i : scene_.instances) i.geometry = newNumber[i.geometry];
+}
+
+void Baker::reserveTables() {
+  std::uint64_t total = 0;
+  for (const Geometry& geometry : scene_.geometries) total += geometry.classBegin.back();
+  if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+  scene_.triangles.reserve(total);
+  if (withNormals_) scene_.normals.reserve(total);
+  boxes_.resize(scene_.geometries.size());
+}
+
+// Class by class and in order, so that the tables grow at their ends while the meshes go: at no
+// time are both wholly in memory.
+void Baker::emit(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
+  geometry.index.reserve(geometry.classBegin.back());
+  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (Source& source : sources_[g]) {
+      if (source.count[c] == 0) continue;
+      emitClass(source, c, geometry, boxes_[g]);
+      source.count[c] = 0;
+      if (source.isDone()) *source.mesh = {};
+      reportProgress(progress_, "baking geometry",
+                     static_cast<double>(scene_.triangles.size()) /
+                         static_cast<double>(scene_.triangles.capacity()));
+    }
+  }
+}
+
+void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
+  const Mesh& mesh = *source.mesh;
+  Tally badUv, badNormal;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!source.has(i, wanted)) continue;
+    auto corners = mesh.triangles[i];
+    for (std::uint32_t& corner : corners) {
+      corner += source.firstVertex;
+      box.add(geometry.position[corner]);
+    }
+    geometry.index.push_back(corners);
+    std::uint64_t uvs = 0, normals = 0;
+    scene_.triangles.push_back(
+        makeTriangleRecord(mesh, i, geometry.position, corners, uses_[mesh.material(i)], uvs));
+    if (withNormals_) {
+      scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
+    }
+    badUv.add(i, uvs);
+    badNormal.add(i, normals);
+  }
+  badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
+  badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
+}
+
+// Counts and bounds as seen. An instance is bounded by its object's box, which is exact unless it
+// is turned.
+void Baker::addInstances() {
+  Box box = boxes_[0];
+  scene_.instancedTriangles = scene_.geometries[0].index.size();
+  for (const InstanceRecord& instance : scene_.instances) {
+    scene_.instancedTriangles += scene_.geometries[instance.geometry].index.size();
+    const Box& own = boxes_[instance.geometry];
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
+                    corner & 4 ? own.upper.z : own.lower.z};
+      box.add(Vec3f(instance.toWorld.point(Vec3d(p))));
+    }
+  }
+  if (scene_.instancedTriangles == 0) return;
+  scene_.lower = box.lower;
+  scene_.upper = box.upper;
+}
+
+}  // namespace
+
+void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                  Progress* progress) {
+  Baker(description, scene, warnings, progress).run();
+}
+
+}  // namespace whit

@@ -1,0 +1,71 @@
+#include "scene/camera.h"
+
+#include <algorithm>
+
+namespace whit {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Cubic Hermite basis at s in [0, 1]; tangents are per unit of s.
+Vec3f hermite(const Vec3d& p0, const Vec3d& m0, const Vec3d& p1, const Vec3d& m1, double s) {
+  const double s2 = s * s, s3 = s2 * s;
+  return Vec3f(p0 * (2 * s3 - 3 * s2 + 1) + m0 * (s3 - 2 * s2 + s) + p1 * (3 * s2 - 2 * s3) +
+               m1 * (s3 - s2));
+}
+
+// Velocity at keyframe i: the slope between its neighbours, or towards the only one there is.
+Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*point) {
+  const Keyframe& before = path[i == 0 ? 0 : i - 1];
+  const Keyframe& after = path[std::min(i + 1, path.size() - 1)];
+  const double seconds = static_cast<double>(after.time) - before.time;
+  return (Vec3d(after.camera.*point) - Vec3d(before.camera.*point)) / seconds;
+}
+
+// A direction across `forward` that looks like up, for cameras whose own `up` is of no use.
+Vec3d fallbackRight(const Vec3d& forward) {
+  for (const Vec3d& up : {Vec3d{0, 1, 0}, Vec3d{0, 0, -1}}) {
+    const Vec3d right = cross(forward, up);
+    if (dot(right, right) > 1e-3) return normalized(right);
+  }
+  return {1, 0, 0};
+}
+
+}  // namespace
+
+Camera cameraAt(const std::vector<Keyframe>& path, double time) {
+  if (!(time > path.front().time)) return path.front().camera;
+  if (time >= path.back().time) return path.back().camera;
+  // The first keyframe after `time`; there is one on either side.
+  std::size_t next = 1;
+  while (!(path[next].time > time)) ++next;
+  const Keyframe &a = path[next - 1], &b = path[next];
+  const double seconds = static_cast<double>(b.time) - a.time, s = (time - a.time) / seconds;
+  const auto along = [&](Vec3f Camera::*point) {
+    return hermite(Vec3d(a.camera.*point), velocity(path, next - 1, point) * seconds,
+                   Vec3d(b.camera.*point), velocity(path, next, point) * seconds, s);
+  };
+  Camera camera = a.camera;
+  camera.eye = along(&Camera::eye);
+  camera.at = along(&Camera::at);
+  camera.up = Vec3f(Vec3d(a.camera.up) * (1 - s) + Vec3d(b.camera.up) * s);
+  camera.fov = static_cast<float>(a.camera.fov * (1 - s) + b.camera.fov * s);
+  return camera;
+}
+
+CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
+  // Closer to parallel than this, rounding of the float `up` decides where it points.
+  constexpr double kParallel = 1e-6;
+  constexpr double kSmallestFov = 1e-3, kLargestFov = 179.9;
+  const Vec3d eye = isFinite(camera.eye) ? Vec3d(camera.eye) : Vec3d{};
+  const Vec3d forward = normalized(Vec3d(camera.at) - eye, Vec3d{0, 0, -1});
+  const Vec3d across = cross(forward, normalized(Vec3d(camera.up)));
+  const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
+  const double asked = camera.fov;
+  const double fov = asked > kSmallestFov ? std::min(asked, kLargestFov) : kSmallestFov;
+  const double pixel = 2 * std::tan(fov * (kPi / 360)) / height;
+  return {eye, forward, right * pixel, cross(right, forward) * pixel, width, height};
+}
+
+}  // namespace whit

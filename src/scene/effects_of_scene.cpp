@@ -1,0 +1,165 @@
+// The rules that turn effects on. Each says why, on or off, in words for `whit info`.
+#include <algorithm>
+
+#include "scene/finalize_steps.h"
+#include "scene/triangle_record.h"
+
+namespace whit {
+
+namespace {
+
+// Normals closer to the face's than this are its own, written down with five digits or more.
+constexpr double kFlat = 1e-5;
+
+bool isBlack(const Rgb& c) { return !(maxComponent(c) > 0); }
+
+std::string counted(std::uint64_t n, const std::string& noun) {
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+bool isSkyBlack(const Sky& sky) {
+  const auto bright = [](float x) { return x > 0; };
+  const auto isDark = [&](const std::vector<float>& p) {
+    return std::none_of(p.begin(), p.end(), bright);
+  };
+  if (!(sky.scale > 0)) return true;
+  switch (sky.kind) {
+    case Sky::Kind::none:
+      return true;
+    case Sky::Kind::colour:
+      return isBlack(sky.zenith);
+    case Sky::Kind::gradient:
+      return isBlack(sky.zenith) && isBlack(sky.horizon) && isBlack(sky.ground);
+    case Sky::Kind::image:
+      break;
+  }
+  return isDark(sky.image.r) && isDark(sky.image.g) && isDark(sky.image.b);
+}
+
+class Gatherer {
+ public:
+  explicit Gatherer(Scene& scene) : scene_(scene), uses_(trianglesOfMaterials(scene)) {}
+
+  void run() {
+    scene_.effects = EffectSet();
+    materials();
+    impulses();
+    geometry();
+    surroundings();
+    lights();
+  }
+
+ private:
+  void set(Effect effect, bool on, const std::string& yes, const std::string& no) {
+    scene_.reasons[static_cast<std::size_t>(effect)] = {on, on ? yes : no};
+    if (on) scene_.effects = scene_.effects.with(effect);
+  }
+
+  // On when some triangle's material satisfies `has`; `what` completes "a material ...".
+  template <typename Predicate>
+  void byMaterial(Effect effect, const std::string& what, const Predicate& has) {
+    std::uint64_t count = 0, triangles = 0;
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      if (uses_[i] == 0 || !has(scene_.materials[i])) continue;
+      ++count;
+      triangles += uses_[i];
+    }
+    set(effect, count > 0,
+        counted(count, "material") + " " + what + ", " + counted(triangles, "triangle") +
+            (triangles == 1 ? " uses " : " use ") + (count == 1 ? "it" : "them"),
+        "no mesh uses a material " + what);
+  }
+
+  void materials();
+  void impulses();
+  void geometry();
+  void surroundings();
+  void lights();
+
+  Scene& scene_;
+  std::vector<std::uint64_t> uses_;
+};
+
+void Gatherer::materials() {
+  byMaterial(Effect::textures, "with a colour texture", [](const Material& m) {
+    return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
+           (m.specularMap != kNoTexture && m.hasGlossy());
+  });
+  byMaterial(Effect::normalMaps, "with a normal map",
+             [](const Material& m) { return m.normalMap != kNoTexture; });
+  byMaterial(Effect::alphaMasks, "with an alpha mask",
+             [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; });
+  byMaterial(Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); });
+  byMaterial(Effect::emission, "with emission",
+             [](const Material& m) { return !isBlack(m.emission); });
+}
+
+void Gatherer::impulses() {
+  byMaterial(Effect::transmission, "with transmission",
+             [](const Material& m) { return m.hasTransmission(); });
+  byMaterial(Effect::absorption, "with absorption",
+             [](const Material& m) { return m.hasAbsorption(); });
+  // Fresnel reflection needs two different refractive indices at a surface. The vacuum's is 1, so
+  // one that differs from it is enough; and where none does, nested media do not reflect either.
+  byMaterial(Effect::mirror, "with a mirror or a reflecting dielectric", [](const Material& m) {
+    return m.hasMirror() || (m.hasTransmission() && m.ior != 1);
+  });
+}
+
+void Gatherer::geometry() {
+  set(Effect::smoothNormals, hasSmoothNormals(scene_),
+      "some vertex normals differ from their triangle's",
+      "no vertex normal differs from its triangle's");
+  set(Effect::instances, !scene_.instances.empty(),
+      counted(scene_.instances.size(), "instance") + " of " +
+          counted(scene_.geometries.size() - 1, "object"),
+      "no object is used more than once");
+}
+
+void Gatherer::surroundings() {
+  const bool sky = !isSkyBlack(scene_.sky), image = sky && scene_.sky.kind == Sky::Kind::image;
+  set(Effect::sky, sky, "the sky is not black", "the sky is black");
+  set(Effect::skyImage, image, "the sky is an image",
+      sky ? "the sky is not an image" : "the sky is black");
+  set(Effect::ambient, !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down),
+      "the ambient light is not black", "the ambient light is black");
+}
+
+void Gatherer::lights() {
+  std::uint64_t shining = 0, casting = 0;
+  for (const PointLight& light : scene_.lights) shining += !isBlack(light.intensity);
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    if (scene_.materials[i].castsShadow) casting += uses_[i];
+  }
+  const std::string dark =
+      scene_.lights.empty() ? "the scene has no point light" : "every point light is black";
+  set(Effect::lights, shining > 0, counted(shining, "point light"), dark);
+  set(Effect::shadows, shining > 0 && casting > 0,
+      counted(shining, "point light") + ", " + counted(casting, "triangle") +
+          (casting == 1 ? " casts shadows" : " cast shadows"),
+      shining > 0 ? "no triangle casts a shadow" : dark);
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene) {
+  std::vector<std::uint64_t> uses(scene.materials.size());
+  for (const TriangleRecord& t : scene.triangles) ++uses[t.material];
+  return uses;
+}
+
+bool hasSmoothNormals(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.normals.size(); ++i) {
+    const Vec3d face = faceNormal(scene.triangles[i]);
+    const float* n = scene.normals[i].normal;
+    for (int corner = 0; corner < 9; corner += 3) {
+      const Vec3d normal(n[corner], n[corner + 1], n[corner + 2]);
+      if (maxComponent(abs(normal - face)) > kFlat) return true;
+    }
+  }
+  return false;
+}
+
+void gatherEffects(Scene& scene) { Gatherer(scene).run(); }
+
+}  // namespace whit

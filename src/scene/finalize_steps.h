@@ -1,0 +1,29 @@
+// The steps of Scene::finalize(), in this order. Internal to it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace whit {
+
+// Embree ignores triangles with a corner coordinate beyond this (its FLT_LARGE).
+inline constexpr float kLargestCoordinate = 1.844e18f;
+
+// Throws Error(badScene), naming the thing at fault, for anything but triangles that cannot be
+// rendered; mends and counts what has an obvious nearest sensible value.
+void validate(SceneDescription& description, Warnings& warnings);
+
+// Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
+// fills in bounds and instancedTriangles. scene.materials and textures must be in place.
+void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                  Progress* progress);
+
+// The number of triangles that use each material, instances not multiplied out.
+std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
+
+// Whether some corner's normal differs from its triangle's by more than rounding.
+bool hasSmoothNormals(const Scene& scene);
+
+}  // namespace whit

@@ -1,0 +1,88 @@
+#include "scene/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+RgbD mix(const Rgb& a, const Rgb& b, double t) { return RgbD(a) * (1 - t) + RgbD(b) * t; }
+
+RgbD texel(const EnvironmentImage& image, int x, int y) {
+  const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                        static_cast<std::size_t>(x);
+  return {image.r[i], image.g[i], image.b[i]};
+}
+
+// Bilinear at (u, v) in turns from -z and in half-turns from the zenith.
+RgbD lookUp(const EnvironmentImage& image, double u, double v) {
+  const double x = (u - std::floor(u)) * image.width - 0.5;
+  const double y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
+  const double x0 = std::floor(x), y0 = std::floor(y);
+  const int left = x0 < 0 ? image.width - 1 : static_cast<int>(x0);
+  const int right = left + 1 < image.width ? left + 1 : 0;
+  const int top = static_cast<int>(y0), bottom = std::min(top + 1, image.height - 1);
+  const double s = x - x0, t = y - y0;
+  return (texel(image, left, top) * (1 - s) + texel(image, right, top) * s) * (1 - t) +
+         (texel(image, left, bottom) * (1 - s) + texel(image, right, bottom) * s) * t;
+}
+
+// The cosine-weighted mean over one hemisphere. A row between polar angles a and b weighs
+// integral of 2 cos sin = sin^2 b - sin^2 a; the weights of a hemisphere's rows sum to 1.
+RgbD hemisphereMean(const EnvironmentImage& image, bool upper) {
+  RgbD sum;
+  for (int y = 0; y < image.height; ++y) {
+    // Polar angles, measured from the pole in question and cut at the horizon.
+    const int row = upper ? y : image.height - 1 - y;
+    const double a = kPi * y / image.height, b = std::min(kPi * (y + 1) / image.height, kPi / 2);
+    if (a >= b) break;
+    RgbD rowSum;
+    for (int x = 0; x < image.width; ++x) rowSum += texel(image, x, row);
+    const double sinA = std::sin(a), sinB = std::sin(b);
+    sum += rowSum * ((sinB * sinB - sinA * sinA) / image.width);
+  }
+  return sum;
+}
+
+}  // namespace
+
+RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
+  switch (sky.kind) {
+    case Sky::Kind::none:
+      return {};
+    case Sky::Kind::colour:
+      return RgbD(sky.zenith) * sky.scale;
+    case Sky::Kind::gradient:
+      return mix(sky.horizon, d.y < 0 ? sky.ground : sky.zenith, std::abs(d.y)) * sky.scale;
+    case Sky::Kind::image:
+      break;
+  }
+  const double u = std::atan2(d.x, -d.z) / (2 * kPi) + sky.rotation / 360.0;
+  // Unlike acos this keeps its precision near the poles.
+  const double v = std::atan2(std::hypot(d.x, d.z), d.y) / kPi;
+  return lookUp(sky.image, u, v) * sky.scale;
+}
+
+Ambient ambientFromSky(const Sky& sky, double strength) {
+  const double factor = strength * sky.scale;
+  // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
+  constexpr double kMeanSine = 2.0 / 3.0;
+  switch (sky.kind) {
+    case Sky::Kind::none:
+      return {};
+    case Sky::Kind::colour:
+      return {Rgb(RgbD(sky.zenith) * factor), Rgb(RgbD(sky.zenith) * factor)};
+    case Sky::Kind::gradient:
+      return {Rgb(mix(sky.horizon, sky.zenith, kMeanSine) * factor),
+              Rgb(mix(sky.horizon, sky.ground, kMeanSine) * factor)};
+    case Sky::Kind::image:
+      break;
+  }
+  return {Rgb(hemisphereMean(sky.image, true) * factor),
+          Rgb(hemisphereMean(sky.image, false) * factor)};
+}
+
+}  // namespace whit

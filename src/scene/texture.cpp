@@ -1,0 +1,52 @@
+#include "scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+namespace {
+
+constexpr std::uint32_t kColourMax = 1023, kDataMax = 255;
+
+// NaN becomes 0, because it compares false.
+float unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
+
+std::uint32_t colourCode(float linear) {
+  return static_cast<std::uint32_t>(
+      std::lround(std::sqrt(static_cast<double>(unit(linear))) * kColourMax));
+}
+
+std::uint32_t dataCode(float value) {
+  return static_cast<std::uint32_t>(std::lround(static_cast<double>(unit(value)) * kDataMax));
+}
+
+// The square of a code is exact in float, so that one rounding is left.
+float colourValue(std::uint32_t code) {
+  return static_cast<float>(code * code) * (1.0f / static_cast<float>(kColourMax * kColourMax));
+}
+
+}  // namespace
+
+std::uint32_t encodeColourTexel(const Rgb& linear) {
+  return colourCode(linear.x) | colourCode(linear.y) << 10 | colourCode(linear.z) << 20;
+}
+
+std::uint32_t encodeDataTexel(float r, float g, float b, float a) {
+  return dataCode(r) | dataCode(g) << 8 | dataCode(b) << 16 | dataCode(a) << 24;
+}
+
+Rgb decodeColourTexel(std::uint32_t texel) {
+  return {colourValue(texel & kColourMax), colourValue(texel >> 10 & kColourMax),
+          colourValue(texel >> 20 & kColourMax)};
+}
+
+double srgbToLinear(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+double linearToSrgb(double linear) {
+  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+}  // namespace whit

@@ -1,0 +1,91 @@
+#include "scene/triangle_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+namespace {
+
+// From here on a float has 19 bits or fewer for the fraction: less than 1/32 texel at 16384 texels
+// (numerics H68).
+constexpr float kFarUv = 16;
+
+void recentre(float* coordinate) {
+  const auto [low, high] = std::minmax({coordinate[0], coordinate[2], coordinate[4]});
+  if (!(low > kFarUv || high < -kFarUv)) return;
+  const double whole = std::floor(static_cast<double>(low));
+  for (int i = 0; i < 6; i += 2) coordinate[i] = static_cast<float>(coordinate[i] - whole);
+}
+
+float finiteOrZero(float x, std::uint64_t& mended) {
+  if (std::isfinite(x)) return x;
+  ++mended;
+  return 0;
+}
+
+}  // namespace
+
+MaterialUse useOf(const Material& material, const std::vector<Texture>& textures) {
+  MaterialUse use;
+  const bool masked = material.alphaMap != kNoTexture && material.alphaCutoff > 0;
+  use.triangleClass = static_cast<std::uint8_t>((material.castsShadow ? 0 : kNoShadowBit) |
+                                                (masked ? kMaskedBit : 0));
+  bool textured = false, u = true, v = true;
+  for (const std::int32_t map :
+       {material.diffuseMap, material.specularMap, material.normalMap, material.alphaMap}) {
+    if (map == kNoTexture) continue;
+    const Texture& texture = textures[static_cast<std::size_t>(map)];
+    textured = true;
+    u = u && texture.wrapU == Wrap::repeat;
+    v = v && texture.wrapV == Wrap::repeat;
+  }
+  use.repeatU = textured && u;
+  use.repeatV = textured && v;
+  return use;
+}
+
+Vec3d faceNormal(const TriangleRecord& record) {
+  const float* p = record.position;
+  return normalized(areaVector({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}));
+}
+
+TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
+                                  const std::vector<Vec3f>& position,
+                                  const std::array<std::uint32_t, 3>& corners,
+                                  const MaterialUse& use, std::uint64_t& mended) {
+  TriangleRecord record{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3f& p = position[corners[i]];
+    std::copy_n(&p.x, 3, record.position + 3 * i);
+    if (mesh.uvs.empty()) continue;
+    const Vec2f& uv = mesh.uvs[mesh.triangles[triangle][i]];
+    record.uv[2 * i] = finiteOrZero(uv.x, mended);
+    record.uv[2 * i + 1] = finiteOrZero(uv.y, mended);
+  }
+  if (use.repeatU) recentre(record.uv);
+  if (use.repeatV) recentre(record.uv + 1);
+  record.material = mesh.material(triangle);
+  return record;
+}
+
+NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
+                              std::uint64_t& mended) {
+  NormalRecord result;
+  Vec3f face;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3f n;
+    if (!mesh.normals.empty()) {
+      n = mesh.normals[mesh.triangles[triangle][i]];
+      mended += n == Vec3f{};
+    }
+    if (n == Vec3f{}) {
+      if (face == Vec3f{}) face = Vec3f(faceNormal(record));
+      n = face;
+    }
+    std::copy_n(&n.x, 3, result.normal + 3 * i);
+  }
+  return result;
+}
+
+}  // namespace whit

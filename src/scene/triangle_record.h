@@ -1,0 +1,42 @@
+// One triangle's entries in the tables of a Scene, made from its mesh. Internal to finalize().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace whit {
+
+// What the tables depend on of a material.
+struct MaterialUse {
+  std::uint8_t triangleClass = 0;
+  bool repeatU = false, repeatV = false;  // textured, and every texture repeats along that axis
+};
+MaterialUse useOf(const Material& material, const std::vector<Texture>& textures);
+
+// Twice the area along the normal. Differences of floats and their products lose next to nothing in
+// double, so that zero means collinear corners (numerics H23, H24).
+inline Vec3d areaVector(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const Vec3d origin(a);
+  return cross(Vec3d(b) - origin, Vec3d(c) - origin);
+}
+
+// Unit length, by the winding of the corners.
+Vec3d faceNormal(const TriangleRecord& record);
+
+// `corners` index `position`, the mesh's triangle indexes its uvs. Coordinates that are not finite
+// become 0 and are added to `mended`. Where all corners lie far from uv 0 along an axis that
+// repeats, the same whole number is taken from each, which saves bits without changing the picture.
+TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
+                                  const std::vector<Vec3f>& position,
+                                  const std::array<std::uint32_t, 3>& corners,
+                                  const MaterialUse& use, std::uint64_t& mended);
+
+// The mesh's normals have unit length, or are zero where they are of no use: those become the
+// face's and are added to `mended`.
+NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
+                              std::uint64_t& mended);
+
+}  // namespace whit

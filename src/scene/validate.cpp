@@ -1,0 +1,234 @@
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/options.h"
+#include "scene/finalize_steps.h"
+
+namespace whit {
+
+namespace {
+
+// Kernels address all texels of a scene with a signed 32-bit index.
+constexpr std::uint64_t kTexelLimit = std::numeric_limits<std::int32_t>::max();
+
+std::string place(const std::string& scene, const std::string& kind, std::size_t i,
+                  const std::string& name) {
+  const std::string thing = kind + (name.empty() ? " " + std::to_string(i) : " '" + name + "'");
+  return scene.empty() ? thing : scene + ": " + thing;
+}
+
+bool isRadiance(const Rgb& c) { return isFinite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
+
+void checkSize(const SceneDescription& d) {
+  const auto fits = [](int side) { return side >= 1 && side <= kImageSideLimit; };
+  if (fits(d.width) && fits(d.height)) return;
+  throwBadScene(d.name.empty() ? "image size" : d.name + ": image size",
+                "expected 1 to " + std::to_string(kImageSideLimit) + " pixels a side");
+}
+
+void checkCamera(const Camera& c, const std::string& where) {
+  if (!isFinite(c.eye) || !isFinite(c.at) || !isFinite(c.up) || !std::isfinite(c.fov)) {
+    throwBadScene(where, "expected finite eye, at, up and fov");
+  }
+}
+
+void checkCameras(const SceneDescription& d) {
+  for (std::size_t i = 0; i < d.cameras.size(); ++i) {
+    checkCamera(d.cameras[i], place(d.name, "camera", i, d.cameras[i].name));
+  }
+  for (std::size_t i = 0; i < d.cameraPath.size(); ++i) {
+    const std::string where = place(d.name, "keyframe", i, "");
+    checkCamera(d.cameraPath[i].camera, where);
+    const float time = d.cameraPath[i].time;
+    if (!std::isfinite(time)) throwBadScene(where, "expected a finite time");
+    if (i > 0 && !(time > d.cameraPath[i - 1].time)) {
+      throwBadScene(where, "expected a time after that of the keyframe before");
+    }
+  }
+}
+
+void checkLights(const SceneDescription& d) {
+  for (std::size_t i = 0; i < d.lights.size(); ++i) {
+    const PointLight& light = d.lights[i];
+    const std::string where = place(d.name, "light", i, light.name);
+    if (!isFinite(light.position)) throwBadScene(where, "expected a finite position");
+    if (!isRadiance(light.intensity)) {
+      throwBadScene(where, "expected a finite intensity, 0 or more a channel");
+    }
+    // Its square is divided by.
+    const float square = light.radius * light.radius;
+    if (!(light.radius > 0) || !std::isnormal(square)) {
+      throwBadScene(where, "expected a radius between 1e-18 and 1e18");
+    }
+  }
+}
+
+void checkEnvironment(EnvironmentImage& image, const std::string& where, Warnings& warnings) {
+  const std::uint64_t texels =
+      image.width > 0 && image.height > 0
+          ? static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height)
+          : 0;
+  if (texels == 0 || image.r.size() != texels || image.g.size() != texels ||
+      image.b.size() != texels) {
+    throwBadScene(where, "expected width * height texels in each of three planes");
+  }
+  if (texels > kTexelLimit) throwLimit(where + ": more than 2^31 - 1 texels");
+  std::uint64_t mended = 0;
+  for (auto* plane : {&image.r, &image.g, &image.b}) {
+    for (float& x : *plane) {
+      if (x >= 0 && std::isfinite(x)) continue;
+      x = 0;
+      ++mended;
+    }
+  }
+  warnings.add("negative or non-finite sky texel set to 0", where, mended);
+}
+
+void checkSky(SceneDescription& d, Warnings& warnings) {
+  const std::string prefix = d.name.empty() ? "" : d.name + ": ";
+  Sky& sky = d.sky;
+  if (!isRadiance(sky.zenith) || !isRadiance(sky.horizon) || !isRadiance(sky.ground) ||
+      !std::isfinite(sky.scale) || sky.scale < 0 || !std::isfinite(sky.rotation)) {
+    throwBadScene(prefix + "sky", "expected finite values, none but the rotation below 0");
+  }
+  if (sky.kind == Sky::Kind::image) checkEnvironment(sky.image, prefix + "sky image", warnings);
+  if (!isRadiance(d.ambient.up) || !isRadiance(d.ambient.down)) {
+    throwBadScene(prefix + "ambient", "expected finite values, 0 or more a channel");
+  }
+}
+
+void checkTextures(const SceneDescription& d) {
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < d.textures.size(); ++i) {
+    const Texture& t = d.textures[i];
+    if (t.width < 1 || t.height < 1 ||
+        t.texels.size() !=
+            static_cast<std::uint64_t>(t.width) * static_cast<std::uint64_t>(t.height)) {
+      throwBadScene(place(d.name, "texture", i, t.name), "expected width * height texels");
+    }
+    total += t.texels.size();
+  }
+  if (total > kTexelLimit) throwLimit(d.name + ": more than 2^31 - 1 texels in all textures");
+}
+
+void checkMap(const SceneDescription& d, const std::string& where, const char* slot,
+              std::int32_t index, TexelFormat format) {
+  if (index == kNoTexture) return;
+  if (index < 0 || static_cast<std::size_t>(index) >= d.textures.size()) {
+    throwBadScene(where, std::string(slot) + " is texture " + std::to_string(index) +
+                             ", expected below " + std::to_string(d.textures.size()));
+  }
+  if (d.textures[static_cast<std::size_t>(index)].format != format) {
+    throwBadScene(where, std::string(slot) + " expected a texture of " +
+                             (format == TexelFormat::colour ? "colour" : "data"));
+  }
+}
+
+// Model files abound in materials that are slightly off; the nearest value that makes sense will
+// do. False: nothing was to be mended.
+bool mendChannels(Rgb& c) {
+  bool mended = false;
+  for (int i = 0; i < 3; ++i) {
+    if (c[i] >= 0 && std::isfinite(c[i])) continue;
+    c[i] = 0;
+    mended = true;
+  }
+  return mended;
+}
+
+bool mendFactor(float& x, float fallback) {
+  if (x >= 0 && x <= 1) return false;
+  x = std::isnan(x) ? fallback : x < 0 ? 0.0f : 1.0f;
+  return true;
+}
+
+void checkMaterials(SceneDescription& d, Warnings& warnings) {
+  const Material fallback;
+  for (std::size_t i = 0; i < d.materials.size(); ++i) {
+    Material& m = d.materials[i];
+    const std::string where = place(d.name, "material", i, m.name);
+    checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::colour);
+    checkMap(d, where, "specularMap", m.specularMap, TexelFormat::colour);
+    checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
+    checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
+    if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {
+      throwBadScene(where, "expected an ior above 0");
+    }
+    std::uint64_t mended = 0;
+    for (Rgb* c : {&m.diffuse, &m.specular, &m.emission, &m.mirror, &m.mirrorGrazing,
+                   &m.transmission, &m.absorption}) {
+      mended += mendChannels(*c);
+    }
+    mended += mendFactor(m.roughness, fallback.roughness);
+    if (m.alphaMap != kNoTexture) mended += mendFactor(m.alphaCutoff, fallback.alphaCutoff);
+    warnings.add("material value out of range mended", where, mended);
+  }
+}
+
+void checkObjects(const SceneDescription& d) {
+  for (const Object& object : d.objects) {
+    for (std::size_t i = 0; i < object.meshes.size(); ++i) {
+      const Mesh& mesh = object.meshes[i];
+      const std::string where = place(d.name, "mesh", i, mesh.name);
+      const auto expect = [&](const char* what, std::size_t n, std::size_t expected) {
+        if (n == expected) return;
+        throwBadScene(where, "expected " + std::to_string(expected) + " " + what + ", found " +
+                                 std::to_string(n));
+      };
+      if (!mesh.normals.empty()) expect("normals", mesh.normals.size(), mesh.positions.size());
+      if (!mesh.uvs.empty()) expect("uvs", mesh.uvs.size(), mesh.positions.size());
+      if (mesh.materials.size() != 1 && !mesh.triangles.empty()) {
+        expect("materials", mesh.materials.size(), mesh.triangles.size());
+      }
+      for (const std::uint32_t m : mesh.materials) {
+        if (m < d.materials.size()) continue;
+        throwBadScene(where, "material " + std::to_string(m) + ", expected below " +
+                                 std::to_string(d.materials.size()));
+      }
+    }
+  }
+}
+
+// Relative to the lengths of its columns, so that a uniformly tiny map is not taken for singular.
+bool isSingular(const Affine& a) {
+  constexpr double kSmallestSine = 1e-14;
+  const double volume = length(a.x) * length(a.y) * length(a.z);
+  return !(std::abs(a.determinant()) > kSmallestSine * volume);
+}
+
+void checkInstances(const SceneDescription& d) {
+  for (std::size_t i = 0; i < d.instances.size(); ++i) {
+    const Instance& instance = d.instances[i];
+    if (instance.object >= d.objects.size()) {
+      throwBadScene(place(d.name, "instance", i, ""), "object " + std::to_string(instance.object) +
+                                                          ", expected below " +
+                                                          std::to_string(d.objects.size()));
+    }
+    const Affine& map = instance.toWorld;
+    for (const Vec3d& column : {map.x, map.y, map.z, map.p}) {
+      if (maxComponent(abs(column)) <= kLargestCoordinate && isFinite(column)) continue;
+      throwBadScene(place(d.name, "instance", i, d.objects[instance.object].name),
+                    "expected a transform of finite numbers up to 1.844e18");
+    }
+    if (isSingular(map)) {
+      throwBadScene(place(d.name, "instance", i, d.objects[instance.object].name),
+                    "expected a transform that can be undone; this one flattens space");
+    }
+  }
+}
+
+}  // namespace
+
+void validate(SceneDescription& description, Warnings& warnings) {
+  checkSize(description);
+  checkCameras(description);
+  checkLights(description);
+  checkSky(description, warnings);
+  checkTextures(description);
+  checkMaterials(description, warnings);
+  checkObjects(description);
+  checkInstances(description);
+}
+
+}  // namespace whit
