@@ -1,4 +1,5 @@
-// Images in and out. The format follows the file name's extension.
+// Images in and out. What is read is told by its content, save for TGA, which has no signature and
+// goes by its name.
 #pragma once
 
 #include <cstdint>
@@ -32,16 +33,24 @@ struct RawImage {
 // cannot be understood, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
-// As linear RGB: 8-bit codes decoded from sRGB. EXR keeps its data window.
+// As linear RGB: 8-bit codes decoded from sRGB, grey spread to three channels, alpha dropped. EXR
+// keeps its data window (the part inside the display window), and floats keep their bits, NaN and
+// infinities included.
 Image readImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
-// Linear float (32-bit) RGB with metadata as string attributes; data window = image.window.
+// Linear float (32-bit) RGB with metadata as string attributes; data window = image.window. The
+// same arguments give the same bytes.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata);
-// sRGB PNG with the metadata as text chunks.
+// The string attributes of an EXR's first part, in order of their names.
+ImageMetadata readExrMetadata(const std::string& path);
+// sRGB PNG with the metadata as text chunks; alpha is left out. Keywords are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
 
-// A texture of the given format. Colour textures decode sRGB from 8-bit codes.
+// A texture of the given format. Colour textures decode sRGB from 8-bit codes; data textures take
+// codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
+// alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
+// Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
 EnvironmentImage makeEnvironment(const RawImage& raw);
 
 }  // namespace whit

@@ -1,0 +1,106 @@
+#include "io/merge_images.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "core/error.h"
+
+namespace whit {
+
+namespace {
+
+bool sameBits(const Rgb& a, const Rgb& b) {
+  const auto same = [](float p, float q) {
+    return std::bit_cast<std::uint32_t>(p) == std::bit_cast<std::uint32_t>(q);
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+
+std::string place(int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; }
+
+std::string sizeText(const Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
+
+class Merger {
+ public:
+  void add(const std::string& path, const Image& part, Warnings& warnings) {
+    if (covered_.empty()) {
+      image_ = Image(part.width, part.height);
+      covered_.assign(image_.pixels.size(), false);
+      firstPath_ = path;
+    } else if (part.width != image_.width || part.height != image_.height) {
+      throwUsage(path + ": a part of a " + sizeText(part) + " image, but '" + firstPath_ +
+                 "' is of a " + sizeText(image_) + " one");
+    }
+    std::uint64_t differing = 0;
+    std::string first;
+    for (int y = part.window.y0; y < part.window.y1; ++y) {
+      for (int x = part.window.x0; x < part.window.x1; ++x) {
+        const std::size_t i = index(x, y);
+        const Rgb& value = part.at(x, y);
+        if (covered_[i] && !sameBits(image_.pixels[i], value) && differing++ == 0)
+          first = path + " at " + place(x, y);
+        image_.pixels[i] = value;
+        covered_[i] = true;
+      }
+    }
+    warnings.add("overlapping parts differ, the later one taken", first, differing);
+  }
+
+  Image finish() {
+    const auto gap = std::find(covered_.begin(), covered_.end(), false);
+    if (gap != covered_.end()) {
+      const auto missing = std::count(gap, covered_.end(), false);
+      const auto at = gap - covered_.begin();
+      throwUsage("the parts leave " + std::to_string(missing) + " pixels of the " +
+                 sizeText(image_) + " image open, the first at " +
+                 place(static_cast<int>(at % image_.width), static_cast<int>(at / image_.width)));
+    }
+    return std::move(image_);
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+           static_cast<std::size_t>(x);
+  }
+
+  Image image_;
+  std::vector<bool> covered_;
+  std::string firstPath_;
+};
+
+bool isExrName(const std::string& path) { return path.ends_with(".exr") || path.ends_with(".EXR"); }
+
+// Keeps in `common` what `part` says too.
+void intersect(ImageMetadata& common, const ImageMetadata& part) {
+  std::erase_if(common, [&](const auto& entry) {
+    return std::find(part.begin(), part.end(), entry) == part.end();
+  });
+}
+
+}  // namespace
+
+MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits& limits,
+                        Warnings& warnings) {
+  if (paths.empty()) throwUsage("expected at least one part to merge");
+  Merger merger;
+  MergedImage merged;
+  bool first = true;
+  for (const std::string& path : paths) {
+    merger.add(path, readImage(path, limits, warnings), warnings);
+    if (!isExrName(path)) continue;
+    if (first)
+      merged.metadata = readExrMetadata(path);
+    else
+      intersect(merged.metadata, readExrMetadata(path));
+    first = false;
+  }
+  std::erase_if(merged.metadata, [](const auto& entry) { return entry.first == "crop"; });
+  merged.image = merger.finish();
+  return merged;
+}
+
+}  // namespace whit
