@@ -9,18 +9,19 @@
 namespace whit {
 
 struct ImageDifference {
+  // The linear means, and energyRatio, leave out the pixels that nonFinite counts.
   double rmse = 0;      // linear, over all channels
   double relmse = 0;    // mean of (a - b)^2 / (b^2 + 1e-2) (pbrt's imgtool)
   double psnrDb = 0;    // of the 8-bit encoded images; infinite when equal
   double flipMean = 0;  // LDR-FLIP (Andersson et al. 2020), 67 pixels a degree
   int maxCode = 0;      // 8-bit sRGB steps, largest channel difference
   double pixelsGe1CodePct = 0, pixelsGe2CodesPct = 0;
-  double energyRatio = 1;       // mean(a) / mean(b)
+  double energyRatio = 1;       // mean(a) / mean(b); infinite when only b is black
   std::uint64_t nonFinite = 0;  // pixels of either image with a NaN or an infinity
 };
 
-// `b` is the reference. Sizes and windows must match, else Error(usage). Exposure and tone curve as
-// given are applied before anything that looks at codes.
+// `b` is the reference. Sizes and windows must match and hold a pixel, else Error(usage). Exposure
+// and tone curve as given are applied before anything that looks at codes.
 ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
                               ToneCurve curve = ToneCurve::none);
 

@@ -1,0 +1,237 @@
+// LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D.
+// Fairchild, "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. Section numbers are
+// the paper's.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/srgb.h"
+#include "core/vec3.h"
+#include "metrics/codes.h"
+#include "metrics/filter.h"
+
+namespace whit {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kPixelsPerDegree = 67;           // a 0.7 m wide 3840 pixel display seen from 0.7 m
+constexpr double kColourExponent = 0.7;           // q_c
+constexpr double kKnee = 0.4, kKneeError = 0.95;  // p_c, p_t
+constexpr double kFeatureWidth = 0.082;           // w, degrees
+constexpr float kFeatureExponent = 0.5f;          // q_f
+
+// Linear sRGB to XYZ, the paper's exact fractions.
+constexpr std::array<Vec3d, 3> kRgbToXyz{{
+    {10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
+    {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
+    {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0},
+}};
+
+// Rows of a 3x3 matrix.
+struct Matrix {
+  std::array<Vec3f, 3> rows;
+  Vec3f operator*(const Vec3f& v) const {
+    return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+  }
+};
+
+// XYZ here is always relative to the white of (1, 1, 1), so that grey has X = Y = Z.
+struct ColourSpace {
+  Matrix toXyz, toRgb;
+};
+const ColourSpace& colourSpace() {
+  static const ColourSpace space = [] {
+    std::array<Vec3d, 3> m = kRgbToXyz;
+    for (Vec3d& row : m) row = row / (row.x + row.y + row.z);
+    const Vec3d a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
+    const double determinant = dot(m[0], a);
+    ColourSpace s;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int k = static_cast<int>(i);
+      s.toXyz.rows[i] = Vec3f(m[i]);
+      s.toRgb.rows[i] = Vec3f(Vec3d(a[k], b[k], c[k]) / determinant);
+    }
+    return s;
+  }();
+  return space;
+}
+
+// 3.1: the opponent space, linear in XYZ.
+Vec3f opponentOfXyz(const Vec3f& xyz) {
+  return {116 * xyz.y - 16, 500 * (xyz.x - xyz.y), 200 * (xyz.y - xyz.z)};
+}
+Vec3f xyzOfOpponent(const Vec3f& o) {
+  const float y = (o.x + 16) / 116;
+  return {y + o.y / 500, y, y - o.z / 200};
+}
+
+using Planes = std::array<Plane, 3>;
+
+Planes opponentPlanes(const DisplayImage& image) {
+  std::array<float, 256> linear{};
+  for (std::size_t code = 0; code < 256; ++code)
+    linear[code] = static_cast<float>(srgbToLinear(static_cast<double>(code) / 255));
+  const Matrix& toXyz = colourSpace().toXyz;
+  Planes planes;
+  planes.fill(Plane(image.width, image.height));
+  for (std::size_t i = 0; i < planes[0].values.size(); ++i) {
+    const std::uint8_t* code = image.rgba.data() + 4 * i;
+    const Vec3f o = opponentOfXyz(toXyz * Vec3f(linear[code[0]], linear[code[1]], linear[code[2]]));
+    for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values[i] = o[c];
+  }
+  return planes;
+}
+
+Taps normalised(const std::vector<double>& weights) {
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  Taps taps;
+  for (const double w : weights) taps.push_back(static_cast<float>(w / sum));
+  return taps;
+}
+
+// 3.1.1: a contrast sensitivity function, a sum of Gaussians a sqrt(pi/b) exp(-pi^2 d^2 / b) of the
+// distance d in degrees, each of which is separable.
+struct Gaussian {
+  double a, b;
+};
+Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians) {
+  constexpr double kWidestB = 0.04;
+  const int radius =
+      static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * kPixelsPerDegree));
+  Plane sum(plane.width, plane.height);
+  std::vector<double> masses;
+  std::vector<Taps> taps;
+  double total = 0;
+  for (const Gaussian& g : gaussians) {
+    std::vector<double> weights;
+    double line = 0;
+    for (int i = -radius; i <= radius; ++i) {
+      const double d = i / kPixelsPerDegree;
+      weights.push_back(std::exp(-kPi * kPi * d * d / g.b));
+      line += weights.back();
+    }
+    taps.push_back(normalised(weights));
+    masses.push_back(g.a * std::sqrt(kPi / g.b) * line * line);
+    total += masses.back();
+  }
+  for (std::size_t k = 0; k < gaussians.size(); ++k) {
+    const Plane part = filterAlongY(filterAlongX(plane, taps[k]), taps[k]);
+    const float share = static_cast<float>(masses[k] / total);
+    for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += share * part.values[i];
+  }
+  return sum;
+}
+
+// 3.1.2: L*a*b* with Hunt's adjustment: colours lose their chroma with their lightness.
+Vec3f huntLab(const Vec3f& rgb) {
+  constexpr float kDelta = 6.0f / 29.0f;
+  const auto f = [](float t) {
+    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29.0f;
+  };
+  const Vec3f xyz = colourSpace().toXyz * rgb;
+  const float x = f(xyz.x), y = f(xyz.y), z = f(xyz.z);
+  const float lightness = 116 * y - 16;
+  return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
+}
+
+float hyAb(const Vec3f& p, const Vec3f& q) {
+  return std::abs(p.x - q.x) + std::hypot(p.y - q.y, p.z - q.z);
+}
+
+// 3.1.3: differences up to the knee fill [0, 0.95], those beyond, which only the gamut's corners
+// reach, the rest.
+float redistribute(float distance) {
+  static const double largest =
+      std::pow(static_cast<double>(hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))), kColourExponent);
+  const double powered = std::pow(static_cast<double>(distance), kColourExponent);
+  const double knee = kKnee * largest;
+  return static_cast<float>(powered < knee ? powered * kKneeError / knee
+                                           : kKneeError + (powered - knee) / (largest - knee) *
+                                                              (1 - kKneeError));
+}
+
+std::vector<Vec3f> filteredLab(const Planes& opponent) {
+  const Planes filtered{filterContrast(opponent[0], {{1, 0.0047}}),
+                        filterContrast(opponent[1], {{1, 0.0053}}),
+                        filterContrast(opponent[2], {{34.1, 0.04}, {13.5, 0.025}})};
+  const Matrix& toRgb = colourSpace().toRgb;
+  std::vector<Vec3f> lab;
+  lab.reserve(filtered[0].values.size());
+  for (std::size_t i = 0; i < filtered[0].values.size(); ++i) {
+    const Vec3f rgb = toRgb * xyzOfOpponent({filtered[0].values[i], filtered[1].values[i],
+                                             filtered[2].values[i]});
+    lab.push_back(huntLab(min(max(rgb, Vec3f(0)), Vec3f(1))));
+  }
+  return lab;
+}
+
+// 3.2: taps of the Gaussian, of its first derivative (edges) and its second (points); the positive
+// weights sum to 1, the negative ones to -1.
+struct FeatureTaps {
+  Taps gaussian, edge, point;
+};
+Taps balanced(const std::vector<double>& weights) {
+  double positive = 0, negative = 0;
+  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
+  Taps taps;
+  for (const double w : weights)
+    taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
+  return taps;
+}
+FeatureTaps makeFeatureTaps() {
+  const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
+  const int radius = static_cast<int>(std::ceil(3 * deviation));
+  std::vector<double> gaussian, edge, point;
+  for (int x = -radius; x <= radius; ++x) {
+    const double square = x * x / (deviation * deviation);
+    const double g = std::exp(-square / 2);
+    gaussian.push_back(g);
+    edge.push_back(-x * g);
+    point.push_back((square - 1) * g);
+  }
+  return {normalised(gaussian), balanced(edge), balanced(point)};
+}
+
+struct Features {
+  std::vector<float> edge, point;  // magnitudes
+};
+
+std::vector<float> magnitudes(const Plane& x, const Plane& y) {
+  std::vector<float> result(x.values.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
+  return result;
+}
+
+Features findFeatures(const Plane& achromatic) {
+  const FeatureTaps taps = makeFeatureTaps();
+  Plane luminance = achromatic;
+  for (float& value : luminance.values) value = (value + 16) / 116;
+  const Plane smooth = filterAlongX(luminance, taps.gaussian);
+  return {magnitudes(filterAlongY(filterAlongX(luminance, taps.edge), taps.gaussian),
+                     filterAlongY(smooth, taps.edge)),
+          magnitudes(filterAlongY(filterAlongX(luminance, taps.point), taps.gaussian),
+                     filterAlongY(smooth, taps.point))};
+}
+
+}  // namespace
+
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
+  const Planes opponentA = opponentPlanes(a), opponentB = opponentPlanes(b);
+  const std::vector<Vec3f> labA = filteredLab(opponentA), labB = filteredLab(opponentB);
+  const Features featuresA = findFeatures(opponentA[0]), featuresB = findFeatures(opponentB[0]);
+  std::vector<float> flip(labA.size());
+  for (std::size_t i = 0; i < flip.size(); ++i) {
+    const float colour = redistribute(hyAb(labA[i], labB[i]));
+    const float feature = std::max(std::abs(featuresA.edge[i] - featuresB.edge[i]),
+                                   std::abs(featuresA.point[i] - featuresB.point[i]));
+    const float scaled = std::pow(feature / std::sqrt(2.0f), kFeatureExponent);
+    // 3.3
+    flip[i] = std::pow(colour, 1 - std::min(scaled, 1.0f));
+  }
+  return flip;
+}
+
+}  // namespace whit

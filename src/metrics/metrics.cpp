@@ -1,0 +1,89 @@
+#include "metrics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/display.h"
+#include "metrics/codes.h"
+
+namespace whit {
+
+namespace {
+
+constexpr double kRelativeEpsilon = 1e-2;
+
+// What is measured on linear values. Pixels that are not finite in either image are only counted:
+// one of them would make every mean meaningless.
+void measureLinear(const Image& a, const Image& b, ImageDifference& difference) {
+  double squares = 0, relative = 0, sumA = 0, sumB = 0;
+  std::uint64_t values = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (!isFinite(a.pixels[i]) || !isFinite(b.pixels[i])) {
+      ++difference.nonFinite;
+      continue;
+    }
+    values += 3;
+    for (int c = 0; c < 3; ++c) {
+      const double x = static_cast<double>(a.pixels[i][c]);
+      const double reference = static_cast<double>(b.pixels[i][c]);
+      const double square = (x - reference) * (x - reference);
+      squares += square;
+      relative += square / (reference * reference + kRelativeEpsilon);
+      sumA += x;
+      sumB += reference;
+    }
+  }
+  if (values == 0) return;
+  difference.rmse = std::sqrt(squares / static_cast<double>(values));
+  difference.relmse = relative / static_cast<double>(values);
+  difference.energyRatio = sumA == sumB ? 1 : sumA / sumB;
+}
+
+double psnr(const DisplayImage& a, const DisplayImage& b) {
+  std::uint64_t squares = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+    if (i % 4 == 3) continue;  // alpha
+    const int d = int{a.rgba[i]} - int{b.rgba[i]};
+    squares += static_cast<std::uint64_t>(d * d);
+  }
+  if (squares == 0) return std::numeric_limits<double>::infinity();
+  const double values = static_cast<double>(a.rgba.size() / 4 * 3);
+  return 10 * std::log10(255.0 * 255.0 * values / static_cast<double>(squares));
+}
+
+void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference& difference) {
+  std::uint64_t one = 0, two = 0;
+  const std::vector<std::uint8_t> codes = codeDifferences(a, b);
+  for (const int code : codes) {
+    difference.maxCode = std::max(difference.maxCode, code);
+    one += code >= 1;
+    two += code >= 2;
+  }
+  const double percent = 100.0 / static_cast<double>(codes.size());
+  difference.pixelsGe1CodePct = percent * static_cast<double>(one);
+  difference.pixelsGe2CodesPct = percent * static_cast<double>(two);
+}
+
+}  // namespace
+
+ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
+  checkComparable(a, b);
+  ImageDifference difference;
+  measureLinear(a, b, difference);
+  const DisplayImage shownA = toDisplay(a, exposure, curve), shownB = toDisplay(b, exposure, curve);
+  difference.psnrDb = psnr(shownA, shownB);
+  measureCodes(shownA, shownB, difference);
+  const std::vector<float> flip = flipOfCodes(shownA, shownB);
+  difference.flipMean =
+      std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size());
+  return difference;
+}
+
+std::vector<float> flipMap(const Image& a, const Image& b) {
+  checkComparable(a, b);
+  return flipOfCodes(toDisplay(a, 0, ToneCurve::none), toDisplay(b, 0, ToneCurve::none));
+}
+
+}  // namespace whit
