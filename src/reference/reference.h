@@ -2,6 +2,9 @@
 // no tiles, no variants; independent of the kernels.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/image.h"
 #include "core/options.h"
 #include "core/progress.h"
@@ -20,7 +23,16 @@ struct Settings {
 
 struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+
+  RayCounts& operator+=(const RayCounts& b) {
+    primary += b.primary, shadow += b.shadow;
+    reflection += b.reflection, refraction += b.refraction;
+    return *this;
+  }
 };
+
+struct Impulse;
+struct Surfel;
 
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
 // multiplied with on its way to the eye, for the cutoff.
@@ -33,9 +45,14 @@ class Tracer {
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
  private:
+  RgbD radianceFromLights(const Surfel& surfel, RayCounts& counts) const;
+  RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
+              RayCounts& counts) const;
+
   const Scene& scene_;
   const Intersector& intersector_;
   Settings settings_;
+  std::vector<Vec2f> samples_;
 };
 
 // All pixels of image.window, rows shared among settings.threads threads.
@@ -43,14 +60,18 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
                  const Settings& settings, Image& image, Progress* progress = nullptr);
 
 // Every triangle, instances included, in double. Quadratic; for small scenes and as an oracle.
+// Of the effects, alpha masks and instances matter here: without them masks cut no holes and
+// instanced geometry is not there.
 class BruteForce : public Intersector {
  public:
-  explicit BruteForce(const Scene& scene) : scene_(scene) {}
+  explicit BruteForce(const Scene& scene, EffectSet effects = EffectSet::all())
+      : scene_(scene), effects_(effects) {}
   bool closest(const Ray& ray, Candidate& candidate) const override;
   bool occluded(const Ray& ray, double tFar) const override;
 
  private:
   const Scene& scene_;
+  EffectSet effects_;
 };
 
 }  // namespace whit::reference

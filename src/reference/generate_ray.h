@@ -1,0 +1,16 @@
+// Rays from the eye.
+#pragma once
+
+#include "reference/intersector.h"
+#include "scene/camera.h"
+
+namespace whit::reference {
+
+// Through image position (x, y), in pixels from the top left; unit direction.
+inline Ray generateRay(const CameraFrame& camera, double x, double y) {
+  const Vec3d through = camera.forward + camera.right * (x - camera.width / 2.0) -
+                        camera.up * (y - camera.height / 2.0);
+  return {camera.eye, normalized(through, camera.forward)};
+}
+
+}  // namespace whit::reference

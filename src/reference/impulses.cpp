@@ -1,0 +1,66 @@
+#include "reference/impulses.h"
+
+#include <algorithm>
+
+#include "reference/fresnel.h"
+
+namespace whit::reference {
+
+namespace {
+
+Vec3d reflectedOrigin(const Surfel& s) { return s.position + s.geometricNormal * s.offset; }
+Vec3d refractedOrigin(const Surfel& s) { return s.position - s.geometricNormal * s.offset; }
+
+Ray reflectedRay(const Surfel& s) {
+  const Vec3d mirrored = reflect(-s.view, s.shadingNormal);
+  return {reflectedOrigin(s), lifted(mirrored, s.geometricNormal, smallestElevation(s))};
+}
+
+Ray refractedRay(const Surfel& s, const Interface& interface, double c) {
+  const Vec3d d = -s.view;
+  if (interface.k == 0) return {refractedOrigin(s), d};
+  const Vec3d bent = refract(interface, d, s.shadingNormal, c);
+  return {refractedOrigin(s), lifted(bent, -s.geometricNormal, smallestElevation(s))};
+}
+
+// The mirror coat's reflectance.
+RgbD coatReflectance(const Material& material, double c) {
+  const RgbD normal(material.mirror), grazing(material.mirrorGrazing);
+  return normal + (grazing - normal) * schlickTerm(c);
+}
+
+}  // namespace
+
+double smallestElevation(const Surfel& surfel) {
+  return std::min(0.9 * dot(surfel.view, surfel.geometricNormal), 0.01);
+}
+
+Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation) {
+  const double own = dot(r, normal);
+  return own < elevation ? normalized(r + normal * (elevation - own)) : r;
+}
+
+Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                      const Crossing& crossing, MediaStack stack) {
+  Impulses result;
+  if (crossing.hidden) {
+    result.refracted = {RgbD(1.0), {refractedOrigin(surfel), -surfel.view}, crossing.stackBehind};
+    return result;
+  }
+  const Material& material = scene.materials[surfel.material];
+  const double c = std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
+  RgbD reflectance;
+  if (effects.has(Effect::mirror)) reflectance = coatReflectance(material, c);
+  if (crossing.dielectric) {
+    const Interface interface = makeInterface(crossing.n1, crossing.n2, c);
+    if (effects.has(Effect::mirror)) reflectance += RgbD(interface.reflectance);
+    if (interface.reflectance < 1) {
+      result.refracted = {RgbD(material.transmission) * (1 - interface.reflectance),
+                          refractedRay(surfel, interface, c), crossing.stackBehind};
+    }
+  }
+  if (maxComponent(reflectance) > 0) result.reflected = {reflectance, reflectedRay(surfel), stack};
+  return result;
+}
+
+}  // namespace whit::reference

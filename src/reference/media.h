@@ -1,0 +1,37 @@
+// Nested dielectrics: which media a ray is inside of, and which of them counts.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace whit::reference {
+
+// The media a ray is inside of, by their numbers in Scene::media, a byte each; the one entered last
+// in the low byte, 0 where there is none. Four fit; a fifth pushes the oldest out.
+using MediaStack = std::uint32_t;
+
+MediaStack pushMedium(MediaStack stack, std::uint32_t medium);
+// Without the occurrence of `medium` that was entered last; unchanged if there is none (the ray
+// started inside).
+MediaStack removeMedium(MediaStack stack, std::uint32_t medium);
+// The medium that fills the space: the one of highest priority, among equals the one entered last;
+// the vacuum, 0, outside everything (Schmidt and Budge 2002, "Simple nested dielectrics in ray
+// traced images").
+std::uint32_t currentMedium(const Scene& scene, MediaStack stack);
+
+// A ray crossing the surface of a dielectric.
+struct Crossing {
+  bool dielectric = false;
+  bool hidden = false;         // the same medium on both sides: the surface is not there
+  double n1 = 1, n2 = 1;       // refractive indices in front and behind
+  MediaStack stackBehind = 0;  // of a refracted ray
+};
+Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t material, bool entering,
+                    MediaStack stack);
+
+// Beer's law: what is left of each channel after `distance` in the current medium; an infinite
+// distance leaves nothing of the channels that are absorbed at all.
+RgbD transmittance(const Scene& scene, MediaStack stack, double distance);
+
+}  // namespace whit::reference

@@ -1,0 +1,79 @@
+#include "reference/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/fresnel.h"
+
+namespace whit::reference {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kUnitRoundOff = 1.0 / (1 << 24);  // of float
+
+// Distance from O to the light, in lengths of the shadow ray, up to which occluders count: less
+// than the whole way by the rounding of the light's position in float.
+double shadowReach(const PointLight& light, double distance) {
+  const Vec3d p = abs(Vec3d(light.position));
+  const double uncertainty = 32 * kUnitRoundOff * (p.x + p.y + p.z) / distance;
+  return std::max(0.0, 1 - (uncertainty + 4 * kUnitRoundOff));
+}
+
+}  // namespace
+
+RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
+  if (!effects.has(Effect::sky)) return {};
+  if (scene.sky.kind == Sky::Kind::image && !effects.has(Effect::skyImage)) return {};
+  return skyRadiance(scene.sky, direction);
+}
+
+RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
+  RgbD radiance;
+  if (effects.has(Effect::emission)) radiance = RgbD(scene.materials[surfel.material].emission);
+  if (effects.has(Effect::ambient)) {
+    const RgbD up(scene.ambient.up), down(scene.ambient.down);
+    radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+  }
+  return radiance;
+}
+
+RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
+  const Vec3d& n = surfel.shadingNormal;
+  const Vec3d h = normalized(toLight + surfel.view, n);
+  const double nl = dot(n, toLight), nh = dot(n, h), vh = dot(surfel.view, h);
+  const double nv = std::max(dot(n, surfel.view), 1e-4);
+  const double a2 = surfel.alpha * surfel.alpha;
+  const double spread = nh * nh * (a2 - 1) + 1;
+  const double distribution = a2 / (kPi * spread * spread);
+  const double visibility =
+      0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+  const RgbD f0 = surfel.specular, f90(std::min(1.0, 25 * maxComponent(f0)));
+  const RgbD fresnel = f0 + (f90 - f0) * schlickTerm(vh);
+  return fresnel * (distribution * visibility);
+}
+
+LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light) {
+  LightArrival arrival;
+  const Vec3d toLight = Vec3d(light.position) - surfel.position;
+  const double squaredDistance = dot(toLight, toLight);
+  if (!(squaredDistance > 0)) return arrival;
+  const double distance = std::sqrt(squaredDistance);
+  const Vec3d l = toLight / distance;
+  const double cosine = dot(surfel.shadingNormal, l);
+  if (!(dot(surfel.geometricNormal, l) > 0 && cosine > 0)) return arrival;
+
+  const double radius = light.radius;
+  const RgbD biradiance = RgbD(light.intensity) / std::max(squaredDistance, radius * radius);
+  RgbD reflected = surfel.diffuse / kPi;
+  if (effects.has(Effect::glossy) && maxComponent(surfel.specular) > 0) {
+    reflected += glossyLobe(surfel, l);
+  }
+  arrival.radiance = reflected * biradiance * cosine;
+  const Vec3d origin = surfel.position + surfel.geometricNormal * surfel.offset;
+  arrival.shadowRay = {origin, Vec3d(light.position) - origin};
+  arrival.tFar = shadowReach(light, distance);
+  return arrival;
+}
+
+}  // namespace whit::reference

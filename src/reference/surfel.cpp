@@ -1,0 +1,143 @@
+#include "reference/surfel.h"
+
+#include <algorithm>
+
+#include "reference/texture_sampling.h"
+
+namespace whit::reference {
+
+namespace {
+
+constexpr double kUnitRoundOff = 1.0 / (1 << 24);  // of float
+
+Vec3d triple(const float* values) { return {values[0], values[1], values[2]}; }
+
+// A value given at the corners, at the hit.
+Vec3d interpolate(const float* corners, const TriangleHit& hit) {
+  return triple(corners) * (1 - hit.u - hit.v) + triple(corners + 3) * hit.u +
+         triple(corners + 6) * hit.v;
+}
+
+struct Edges {
+  Vec3d e1, e2;               // from corner 0 to corners 1 and 2
+  double du1, dv1, du2, dv2;  // the same in texture space
+};
+
+Edges edgesOf(const TriangleRecord& t) {
+  const Vec3d p0 = triple(t.position);
+  const double u0 = t.uv[0], v0 = t.uv[1];
+  return {triple(t.position + 3) - p0,
+          triple(t.position + 6) - p0,
+          t.uv[2] - u0,
+          t.uv[3] - v0,
+          t.uv[4] - u0,
+          t.uv[5] - v0};
+}
+
+// Sum of the magnitudes that the hit point is added up from, per axis, in the world.
+double magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* toWorld) {
+  const double w = std::max(0.0, 1 - hit.u - hit.v);
+  const Vec3d sum = abs(triple(t.position)) * w + abs(triple(t.position + 3)) * hit.u +
+                    abs(triple(t.position + 6)) * hit.v;
+  if (!toWorld) return sum.x + sum.y + sum.z;
+  const Vec3d carried =
+      abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z + abs(toWorld->p);
+  return carried.x + carried.y + carried.z;
+}
+
+// `normal` bent by a tangent-space normal map: x along growing u, y along growing v. Unchanged
+// where texture space has collapsed.
+Vec3d bentNormal(const Texture& map, const TriangleRecord& triangle, const TriangleHit& hit,
+                 const Affine* toWorld, const Vec3d& normal) {
+  const Edges e = edgesOf(triangle);
+  const double determinant = e.du1 * e.dv2 - e.du2 * e.dv1;
+  if (determinant == 0) return normal;
+  const double sign = determinant < 0 ? -1 : 1;
+  Vec3d tangent = (e.e1 * e.dv2 - e.e2 * e.dv1) * sign;
+  double handedness = sign;
+  if (toWorld) {
+    tangent = toWorld->vector(tangent);
+    // A mirroring instance turns right-handed frames into left-handed ones.
+    if (toWorld->determinant() < 0) handedness = -handedness;
+  }
+  tangent = normalized(tangent - normal * dot(normal, tangent));
+  if (tangent == Vec3d{}) return normal;
+  const Vec3d bitangent = cross(normal, tangent) * handedness;
+  const TexturePoint at = texturePoint(triangle, hit);
+  const DataSample m = sampleData(map, at.u, at.v);
+  return normalized(tangent * (2 * m.r - 1) + bitangent * (2 * m.g - 1) + normal * (2 * m.b - 1),
+                    normal);
+}
+
+// Both normals as modelled, on the outside of the surface.
+void findNormals(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                 const TriangleHit& hit, const Affine* toWorld, Surfel& s) {
+  const TriangleRecord& triangle = scene.triangles[candidate.triangle];
+  const auto carried = [&](const Vec3d& n) { return toWorld ? toWorld->normal(n) : n; };
+  const Edges e = edgesOf(triangle);
+  s.geometricNormal = normalized(carried(cross(e.e1, e.e2)), s.view);
+  s.shadingNormal = s.geometricNormal;
+  if (effects.has(Effect::smoothNormals) && !scene.normals.empty()) {
+    const Vec3d n = interpolate(scene.normals[candidate.triangle].normal, hit);
+    s.shadingNormal = normalized(carried(n), s.geometricNormal);
+  }
+  const std::int32_t map = scene.materials[triangle.material].normalMap;
+  if (effects.has(Effect::normalMaps) && map != kNoTexture) {
+    s.shadingNormal = bentNormal(scene.textures[static_cast<std::size_t>(map)], triangle, hit,
+                                 toWorld, s.shadingNormal);
+  }
+}
+
+void findColours(const Scene& scene, EffectSet effects, const TriangleRecord& triangle,
+                 const TriangleHit& hit, Surfel& s) {
+  const Material& material = scene.materials[triangle.material];
+  s.material = triangle.material;
+  const TexturePoint at = texturePoint(triangle, hit);
+  const auto textured = [&](const Rgb& factor, std::int32_t map) {
+    if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
+    return RgbD(factor) * sampleColour(scene.textures[static_cast<std::size_t>(map)], at.u, at.v);
+  };
+  s.diffuse = textured(material.diffuse, material.diffuseMap);
+  s.specular = textured(material.specular, material.specularMap);
+  const double roughness = std::max(material.roughness, kMinRoughness);
+  s.alpha = roughness * roughness;
+}
+
+}  // namespace
+
+TexturePoint texturePoint(const TriangleRecord& triangle, const TriangleHit& hit) {
+  const double w = 1 - hit.u - hit.v;
+  const float* uv = triangle.uv;
+  return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
+}
+
+bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
+  const TriangleRecord& record = scene.triangles[triangle];
+  const Material& material = scene.materials[record.material];
+  if (material.alphaMap == kNoTexture) return false;
+  const TexturePoint at = texturePoint(record, hit);
+  const Texture& mask = scene.textures[static_cast<std::size_t>(material.alphaMap)];
+  return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
+}
+
+Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                  const TriangleHit& hit, const Vec3d& direction) {
+  const TriangleRecord& triangle = scene.triangles[candidate.triangle];
+  const Affine* toWorld =
+      candidate.instance == kNoHit ? nullptr : &scene.instances[candidate.instance].toWorld;
+  Surfel s;
+  s.view = -direction;
+  s.position = interpolate(triangle.position, hit);
+  if (toWorld) s.position = toWorld->point(s.position);
+  s.offset = 32 * kUnitRoundOff * magnitude(triangle, hit, toWorld);
+  findNormals(scene, effects, candidate, hit, toWorld, s);
+  s.entering = dot(direction, s.geometricNormal) < 0;
+  if (!s.entering) {
+    s.geometricNormal = -s.geometricNormal;
+    s.shadingNormal = -s.shadingNormal;
+  }
+  findColours(scene, effects, triangle, hit, s);
+  return s;
+}
+
+}  // namespace whit::reference

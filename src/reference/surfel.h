@@ -1,0 +1,44 @@
+// A surfel: a point of a surface with all that shading needs to know about it.
+#pragma once
+
+#include "core/effects.h"
+#include "reference/intersector.h"
+#include "reference/triangle.h"
+#include "scene/scene.h"
+
+namespace whit::reference {
+
+struct Surfel {
+  Vec3d position;
+  Vec3d view;             // unit, back along the ray
+  Vec3d geometricNormal;  // unit, the triangle's, on the viewer's side
+  Vec3d shadingNormal;    // unit, interpolated and bent by the normal map; see makeSurfel
+  double offset = 0;      // how far along the geometric normal a new ray must start
+  bool entering = false;  // the ray met the outside, where corners run counter-clockwise
+  std::uint32_t material = 0;
+  RgbD diffuse, specular;  // textures applied
+  double alpha = 1;        // width of the glossy lobe (GGX), roughness squared
+};
+
+// `hit` must lie on the candidate's triangle (refineHit); `direction` is the ray's, unit length.
+//
+// The geometric normal alone decides which side was met, and both normals are turned over for a ray
+// that meets the inside, so that surfaces are two-sided. The shading normal may still point away
+// from the viewer, or disagree with the geometric one about a light; whoever uses it must check.
+//
+// `offset` bounds the rounding error of a float hit point interpolated from float corners:
+// 32 * 2^-24 times the sum of the magnitudes that go into it (numerics: H1-H4; after the error
+// bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
+Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                  const TriangleHit& hit, const Vec3d& direction);
+
+// Texture coordinates at the hit.
+struct TexturePoint {
+  double u = 0, v = 0;
+};
+TexturePoint texturePoint(const TriangleRecord& triangle, const TriangleHit& hit);
+
+// Whether an alpha mask has cut a hole where the ray meets the triangle.
+bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit);
+
+}  // namespace whit::reference

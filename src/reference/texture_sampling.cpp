@@ -1,0 +1,77 @@
+#include "reference/texture_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit::reference {
+
+namespace {
+
+constexpr double kLargestCoordinate = 1 << 20;
+
+double tame(double s) { return std::abs(s) <= kLargestCoordinate ? s : 0.0; }
+
+// The two texels that a coordinate lies between, and how far it is from the lower to the upper.
+struct Between {
+  int lower = 0, upper = 0;
+  double fraction = 0;
+};
+
+// A repeated coordinate close to either border lies between the last texel and the first.
+Between repeated(double s, int size) {
+  const double x = (s - std::floor(s)) * size - 0.5;
+  const int lower = static_cast<int>(std::floor(x));
+  return {lower < 0 ? size - 1 : lower, lower + 1 < size ? lower + 1 : 0, x - std::floor(x)};
+}
+
+Between held(double s, int size) {
+  const double x = s * size - 0.5;
+  const int lower = static_cast<int>(std::floor(x));
+  return {std::max(lower, 0), std::min(lower + 1, size - 1), x - std::floor(x)};
+}
+
+Between texelsAround(double s, int size, Wrap wrap) {
+  if (wrap == Wrap::repeat) return repeated(s, size);
+  if (wrap == Wrap::clamp) return held(std::clamp(s, 0.0, 1.0), size);
+  const double phase = 2 * (s / 2 - std::floor(s / 2));
+  return held(std::min(phase, 2 - phase), size);
+}
+
+// One channel: `decode` turns a texel into its value.
+template <typename Decode>
+double filtered(const Texture& texture, double u, double v, Decode&& decode) {
+  const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
+  const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
+  const auto value = [&](int column, int row) {
+    const std::size_t stride = static_cast<std::size_t>(texture.width);
+    return decode(
+        texture.texels[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)]);
+  };
+  const double upperRow =
+      value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
+  const double lowerRow =
+      value(x.lower, y.upper) * (1 - x.fraction) + value(x.upper, y.upper) * x.fraction;
+  return upperRow * (1 - y.fraction) + lowerRow * y.fraction;
+}
+
+}  // namespace
+
+RgbD sampleColour(const Texture& texture, double u, double v) {
+  const auto channel = [&](int shift) {
+    return filtered(texture, u, v, [shift](std::uint32_t texel) {
+      const double root = (texel >> shift & 1023u) / 1023.0;
+      return root * root;
+    });
+  };
+  return {channel(0), channel(10), channel(20)};
+}
+
+DataSample sampleData(const Texture& texture, double u, double v) {
+  const auto channel = [&](int shift) {
+    return filtered(texture, u, v,
+                    [shift](std::uint32_t texel) { return (texel >> shift & 255u) / 255.0; });
+  };
+  return {channel(0), channel(8), channel(16), channel(24)};
+}
+
+}  // namespace whit::reference

@@ -1,0 +1,85 @@
+#include <limits>
+
+#include "reference/generate_ray.h"
+#include "reference/impulses.h"
+#include "reference/media.h"
+#include "reference/reference.h"
+#include "reference/shading.h"
+#include "reference/surfel.h"
+#include "scene/sample_pattern.h"
+
+namespace whit::reference {
+
+Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
+    : scene_(scene),
+      intersector_(intersector),
+      settings_(settings),
+      samples_(samplePattern(settings.spp)) {}
+
+RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
+                          RayCounts& counts) const {
+  const bool absorbs = settings_.effects.has(Effect::absorption) && media != 0;
+  Candidate candidate;
+  if (!intersector_.closest(ray, candidate)) {
+    const RgbD sky = skyAlong(scene_, settings_.effects, ray.direction);
+    constexpr double kForEver = std::numeric_limits<double>::infinity();
+    return absorbs ? sky * transmittance(scene_, media, kForEver) : sky;
+  }
+
+  const TriangleHit hit = refineHit(scene_, ray, candidate);
+  const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
+  const Surfel surfel = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction);
+  const Crossing crossing =
+      crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
+
+  RgbD radiance;
+  if (!crossing.hidden) {
+    radiance = emittedAndAmbient(scene_, settings_.effects, surfel);
+    if (settings_.effects.has(Effect::lights)) radiance += radianceFromLights(surfel, counts);
+  }
+  if (depth < settings_.depth) {
+    const Impulses children = findImpulses(scene_, settings_.effects, surfel, crossing, media);
+    const double left = throughput * maxComponent(arrives);
+    radiance += follow(children.reflected, depth + 1, left, counts.reflection, counts);
+    radiance += follow(children.refracted, depth + 1, left, counts.refraction, counts);
+  }
+  return radiance * arrives;
+}
+
+// What an impulse brings back, if it is worth following.
+RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
+                    RayCounts& counts) const {
+  const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
+  // Written so that a NaN ends the path.
+  if (!(largest > 0 && contribution >= settings_.cutoff)) return {};
+  ++counter;
+  return impulse.weight * traceImpulse(impulse.ray, depth, contribution, impulse.media, counts);
+}
+
+RgbD Tracer::radianceFromLights(const Surfel& surfel, RayCounts& counts) const {
+  RgbD sum;
+  for (const PointLight& light : scene_.lights) {
+    const LightArrival arrival = radianceFromLight(settings_.effects, surfel, light);
+    if (arrival.radiance == RgbD{}) continue;
+    if (settings_.effects.has(Effect::shadows)) {
+      ++counts.shadow;
+      if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;
+    }
+    sum += arrival.radiance;
+  }
+  return sum;
+}
+
+RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  // A running mean: samples that are all equal give just that, without any rounding.
+  RgbD mean;
+  double taken = 0;
+  for (const Vec2f& sample : samples_) {
+    ++counts.primary;
+    const Ray ray = generateRay(camera, x + double{sample.x}, y + double{sample.y});
+    mean += (traceImpulse(ray, 0, 1.0, 0, counts) - mean) / ++taken;
+  }
+  return mean;
+}
+
+}  // namespace whit::reference

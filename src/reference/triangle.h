@@ -1,0 +1,37 @@
+// Where a ray meets one triangle, in double precision.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "reference/intersector.h"
+#include "scene/scene.h"
+
+namespace whit::reference {
+
+using Corners = std::array<Vec3d, 3>;
+
+// World-space corners of a triangle of the scene (an index into Scene::triangles), carried by the
+// instance unless that is kNoHit.
+Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance);
+
+// t counts in lengths of the ray's direction; u and v weigh corners 1 and 2.
+struct TriangleHit {
+  double t = 0, u = 0, v = 0;
+};
+
+// Where the ray's line pierces the triangle's plane: any t, any u and v. None if the ray runs along
+// the plane or the triangle has no area.
+std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
+
+// The same, but only hits on the triangle, border included, with t > 0. Two triangles that share an
+// edge decide with the same numbers on which side of it a ray passes, so none slips between them
+// (the edge tests of Embree's robust mode, in double).
+std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corners);
+
+// The hit that a candidate stands for, computed again: u, v >= 0, u + v <= 1, t > 0. Rounding may
+// have put the hit just beside the triangle; it is moved onto it. The candidate's own u and v serve
+// where ray and triangle leave nothing to compute with.
+TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
+
+}  // namespace whit::reference
