@@ -4,14 +4,10 @@
 #include <array>
 #include <cstdint>
 
+#include "stages/ray_tally.h"
 #include "stages/stage.h"
 
 namespace whit {
-
-struct RayTally {
-  std::uint64_t rays = 0;   // traced
-  std::uint64_t lanes = 0;  // lanes sent to Embree for them: packets times width
-};
 
 // Times are summed over the workers; `stageMs` and `embreeMs` divide by their number, which gives
 // the wall-clock share. All that happens below depth 0 counts as addImpulses.

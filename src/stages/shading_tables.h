@@ -45,8 +45,8 @@ inline constexpr int kTextureStride = sizeof(TextureRecord) / sizeof(std::uint32
 // Object to world; `normal` holds the cofactors (Affine::normal).
 struct alignas(64) InstanceTransform {
   float toWorld[12];  // row-major 3x4
-  float normal[9];    // row-major 3x3
-  float spare[11];
+  float normal[12];   // row-major 3x3, rows padded to four
+  float spare[8];
 };
 static_assert(sizeof(InstanceTransform) == 128);
 inline constexpr int kInstanceStride = sizeof(InstanceTransform) / sizeof(float);
@@ -77,7 +77,7 @@ struct ShadingTables {
   std::vector<PointLight> lights;
   SkyTable sky;
   Ambient ambient;
-  bool absorbing = false;
+  bool samePriority = true;                   // no medium outranks another
 };
 
 }  // namespace whit

@@ -1,0 +1,224 @@
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/fresnel-inl.h"
+#include "simd/media-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// What both kinds of impulse need of a vector of surfels.
+struct ImpulseLanes {
+  MF live;        // the surfel has an impulse of the kind in question
+  MF dielectric;  // and bounds a medium
+  MF hidden;      // and is not there, because a higher priority fills its place
+  V3 direction, ng, ns;
+  VF cosine;  // between viewer and shading normal, in [0, 1]
+  VF lift;    // least cosine with the geometric normal that a child must keep
+  VI material;
+};
+
+HWY_INLINE ImpulseLanes LoadImpulseLanes(const ShadingTables& tables, bool transmission,
+                                         uint32_t wanted, const RayColumns& rays,
+                                         const SurfelColumns& surfels, size_t i) {
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
+  ImpulseLanes lanes;
+  lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
+  lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
+  lanes.dielectric = lanes.hidden = hn::MaskFromVec(hn::Zero(d));
+  if (hn::AllFalse(d, lanes.live)) return lanes;
+  const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
+  const VU flags = hn::BitCast(du, reader.Columns4(12).z);
+  const auto has = [&](VU word, uint32_t bits) HWY_ATTR {
+    return hn::RebindMask(d, hn::Ne(hn::And(word, hn::Set(du, bits)), hn::Zero(du)));
+  };
+  lanes.live = hn::And(lanes.live, has(flags, wanted));
+  if (hn::AllFalse(d, lanes.live)) return lanes;
+  if (transmission) {
+    lanes.dielectric = hn::And(lanes.live, has(flags, kMaterialTransmits));
+    lanes.hidden = hn::And(lanes.dielectric, has(hn::Load(du, surfels.flags + i), kHidden));
+  }
+  lanes.direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+  lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+  lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
+  lanes.cosine = hn::Min(hn::Max(towards, zero), one);
+  const VF facing = hn::Neg(Dot(lanes.direction, lanes.ng));
+  lanes.lift = hn::Min(hn::Mul(hn::Set(d, 0.9f), facing), hn::Set(d, 0.01f));
+  return lanes;
+}
+
+HWY_INLINE Interface InterfaceOf(const ShadingTables& tables, const ImpulseLanes& lanes,
+                                 const RayColumns& rays, const SurfelColumns& surfels, size_t i) {
+  const IntTag di;
+  const UintTag du;
+  const FloatTag d;
+  const auto ior = [&](VU stack) HWY_ATTR {
+    const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
+    const float* table = reinterpret_cast<const float*>(tables.media.data());
+    return hn::GatherIndex(d, table, hn::Mul(medium, hn::Set(di, kMediumStride)));
+  };
+  return DielectricInterface(ior(hn::Load(du, rays.media + i)),
+                             ior(hn::Load(du, surfels.mediaBehind + i)), lanes.cosine);
+}
+
+// Appends the children of the lanes that are worth tracing; returns how many.
+struct Child {
+  V3 origin, direction, weight;
+  VU media;
+};
+
+HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayColumns& rays,
+                         size_t i, const RayColumns& children, size_t at) {
+  const FloatTag d;
+  const UintTag du;
+  const VF largest = MaxComponent(child.weight);
+  const VF throughput = hn::Mul(hn::Load(d, rays.throughput + i), largest);
+  const MF traced =
+      hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))));
+  if (hn::AllFalse(d, traced)) return 0;
+  hn::CompressStore(child.origin.x, traced, d, children.orgX + at);
+  hn::CompressStore(child.origin.y, traced, d, children.orgY + at);
+  hn::CompressStore(child.origin.z, traced, d, children.orgZ + at);
+  hn::CompressStore(child.direction.x, traced, d, children.dirX + at);
+  hn::CompressStore(child.direction.y, traced, d, children.dirY + at);
+  hn::CompressStore(child.direction.z, traced, d, children.dirZ + at);
+  hn::CompressStore(child.weight.x, traced, d, children.weightR + at);
+  hn::CompressStore(child.weight.y, traced, d, children.weightG + at);
+  hn::CompressStore(child.weight.z, traced, d, children.weightB + at);
+  hn::CompressStore(throughput, traced, d, children.throughput + at);
+  if (children.media) {
+    hn::CompressStore(child.media, hn::RebindMask(du, traced), du, children.media + at);
+  }
+  return hn::CompressStore(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, traced), du,
+                           children.parent + at);
+}
+
+HWY_INLINE V3 ChildOrigin(const SurfelColumns& surfels, const ImpulseLanes& lanes, size_t i,
+                          float side) {
+  const FloatTag d;
+  const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+  const VF offset = hn::Mul(hn::Load(d, surfels.offset + i), hn::Set(d, side));
+  return MulAdd3(lanes.ng, offset, position);
+}
+
+size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
+                      const RayColumns& rays, const SurfelColumns& surfels, size_t n,
+                      const RayColumns& children, size_t first) {
+  const FloatTag d;
+  const UintTag du;
+  const bool transmission = effects.has(Effect::transmission);
+  size_t count = first;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes =
+        LoadImpulseLanes(tables, transmission, kMaterialReflects, rays, surfels, i);
+    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
+    const V4 mirror = reader.Columns4(16), grazing = reader.Columns4(20);
+    V3 weight = MulAdd3({grazing.x, grazing.y, grazing.z}, SchlickTerm(lanes.cosine),
+                        {mirror.x, mirror.y, mirror.z});
+    if (transmission && !hn::AllFalse(d, lanes.dielectric)) {
+      const VF f = hn::IfThenElseZero(lanes.dielectric,
+                                      InterfaceOf(tables, lanes, rays, surfels, i).reflectance);
+      weight = Add3(weight, {f, f, f});
+    }
+    // d - 2 (d.n) n, lifted where a bent normal would send it below the surface (numerics H32).
+    const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
+    V3 r = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
+    const VF height = Dot(r, lanes.ng);
+    const MF low = hn::Lt(height, lanes.lift);
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(low, lanes.live)))) {
+      const V3 lifted = NormalizeOr(MulAdd3(lanes.ng, hn::Sub(lanes.lift, height), r), lanes.ng);
+      r = Select3(low, lifted, r);
+    }
+    const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
+    const Child child{ChildOrigin(surfels, lanes, i, 1.0f), r, weight, media};
+    count += Append(child, lanes.live, cutoff, rays, i, children, count);
+  }
+  return count - first;
+}
+
+size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
+                      const RayColumns& rays, const SurfelColumns& surfels, size_t n,
+                      const RayColumns& children, size_t first) {
+  (void)effects;
+  const FloatTag d;
+  const UintTag du;
+  const VF one = hn::Set(d, 1.0f);
+  size_t count = first;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const ImpulseLanes lanes = LoadImpulseLanes(tables, true, kMaterialTransmits, rays, surfels, i);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const Interface interface = InterfaceOf(tables, lanes, rays, surfels, i);
+    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
+    const V4 tint = reader.Columns4(24);
+    const VF through = hn::Sub(one, interface.reflectance);
+    const V3 weight =
+        Select3(lanes.hidden, {one, one, one}, Scale3({tint.x, tint.y, tint.z}, through));
+    const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
+    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
+    const VF height = Dot(r, lanes.ng);
+    const MF high = hn::Gt(height, hn::Neg(lanes.lift));
+    const V3 pressed =
+        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lanes.lift, height)), r), lanes.direction);
+    r = Select3(high, pressed, r);
+    r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
+    const Child child{ChildOrigin(surfels, lanes, i, -1.0f), r, weight,
+                      hn::Load(du, surfels.mediaBehind + i)};
+    count += Append(child, lanes.live, cutoff, rays, i, children, count);
+  }
+  return count - first;
+}
+
+void ReturnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, size_t n,
+                    const RadianceColumns& parentRadiance) {
+  const FloatTag d;
+  HWY_ALIGN float r[16], g[16], b[16];
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V3 weight = Load3(children.weightR, children.weightG, children.weightB, i);
+    const V3 light = Load3(childRadiance.r, childRadiance.g, childRadiance.b, i);
+    Store3(Mul3(weight, light), r, g, b, 0);
+    // A parent may occur twice, for its reflected and its refracted child: one after the other.
+    const size_t live = HWY_MIN(hn::Lanes(d), n - i);
+    for (size_t lane = 0; lane < live; ++lane) {
+      const uint32_t parent = children.parent[i + lane];
+      parentRadiance.r[parent] += r[lane];
+      parentRadiance.g[parent] += g[lane];
+      parentRadiance.b[parent] += b[lane];
+    }
+  }
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(AddReflections);
+HWY_EXPORT(AddRefractions);
+HWY_EXPORT(ReturnImpulses);
+
+std::size_t addReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
+                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
+                           const RayColumns& children, std::size_t first) noexcept {
+  return HWY_DYNAMIC_DISPATCH(AddReflections)(tables, effects, cutoff, rays, surfels, n, children,
+                                              first);
+}
+std::size_t addRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
+                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
+                           const RayColumns& children, std::size_t first) noexcept {
+  return HWY_DYNAMIC_DISPATCH(AddRefractions)(tables, effects, cutoff, rays, surfels, n, children,
+                                              first);
+}
+void returnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, std::size_t n,
+                    const RadianceColumns& parentRadiance) noexcept {
+  HWY_DYNAMIC_DISPATCH(ReturnImpulses)(children, childRadiance, n, parentRadiance);
+}
+}  // namespace whit::simd
+#endif

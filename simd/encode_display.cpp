@@ -1,0 +1,83 @@
+// The 8-bit half of updateImage.
+#include "simd/display_tables.h"
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/encode_display.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// round(255 * srgb(x)), exactly as the scalar srgbCode of the same float.
+HWY_INLINE VU SrgbCode(const DisplayTables& tables, VF x) {
+  const FloatTag d;
+  const IntTag di;
+  const VF one = hn::Set(d, 1.0f);
+  // A comparison that NaN fails, so that NaN becomes 0 on every target.
+  const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), one);
+  const VF bin = hn::Mul(hn::Sqrt(clamped), hn::Set(d, static_cast<float>(kGuessBins)));
+  const VI guess = hn::GatherIndex(di, tables.guess.data(), hn::ConvertTo(di, bin));
+  const VF next = hn::GatherIndex(d, tables.least.data(), hn::Add(guess, hn::Set(di, 1)));
+  const VI step = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(clamped, next)), hn::Set(di, 1));
+  return hn::BitCast(UintTag(), hn::Add(guess, step));
+}
+
+// Hable's shoulder-and-toe curve (2010), scaled so that 11.2 becomes 1.
+HWY_INLINE VF HableCurve(VF x) {
+  const FloatTag d;
+  const VF a = hn::Set(d, 0.15f), b = hn::Set(d, 0.50f), cb = hn::Set(d, 0.05f);
+  const VF de = hn::Set(d, 0.20f * 0.02f), df = hn::Set(d, 0.20f * 0.30f);
+  const VF numerator = hn::MulAdd(x, hn::MulAdd(a, x, cb), de);
+  const VF denominator = hn::MulAdd(x, hn::MulAdd(a, x, b), df);
+  return hn::Sub(hn::Div(numerator, denominator), hn::Set(d, 0.02f / 0.30f));
+}
+
+HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
+  const FloatTag d;
+  const VF positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+  switch (curve) {
+    case ToneCurve::reinhard: {
+      // Infinity stays 1, not infinity over infinity.
+      const VF bounded = hn::Min(positive, hn::Set(d, 1e30f));
+      return hn::Div(bounded, hn::Add(bounded, hn::Set(d, 1.0f)));
+    }
+    case ToneCurve::filmic: {
+      const VF bounded = hn::Min(positive, hn::Set(d, 1e15f));
+      return hn::Div(HableCurve(bounded), HableCurve(hn::Set(d, 11.2f)));
+    }
+    case ToneCurve::none:
+      break;
+  }
+  return positive;
+}
+
+void EncodeDisplay(float exposureScale, ToneCurve curve, const RadianceColumns& radiance, size_t n,
+                   uint32_t* codes) {
+  const FloatTag d;
+  const UintTag du;
+  const DisplayTables& tables = displayTables();
+  const VF scale = hn::Set(d, exposureScale);
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto encode = [&](const float* column) HWY_ATTR {
+      return SrgbCode(tables, ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale)));
+    };
+    const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
+    const VU b = hn::ShiftLeft<16>(encode(radiance.b));
+    hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, codes + i);
+  }
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(EncodeDisplay);
+void encodeDisplay(float exposureScale, ToneCurve curve, const RadianceColumns& radiance,
+                   std::size_t n, std::uint32_t* codes) noexcept {
+  HWY_DYNAMIC_DISPATCH(EncodeDisplay)(exposureScale, curve, radiance, n, codes);
+}
+}  // namespace whit::simd
+#endif

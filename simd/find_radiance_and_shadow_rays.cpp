@@ -1,0 +1,140 @@
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// GGX lobe with height-correlated Smith masking (Walter et al. 2007; Heitz 2014, equation 99) and
+// Schlick's Fresnel term, whose grazing value fades out for reflectances below 4 %.
+HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, VF nh, VF vh) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const VF a2 = hn::Mul(alpha, alpha);
+  const VF denominator = hn::MulAdd(hn::Mul(nh, nh), hn::Sub(a2, one), one);
+  const VF distribution =
+      hn::Div(a2, hn::Mul(hn::Set(d, 3.14159265f), hn::Mul(denominator, denominator)));
+  const VF rest = hn::Sub(one, a2);
+  const VF maskV = hn::Mul(nl, hn::Sqrt(hn::MulAdd(hn::Mul(nv, nv), rest, a2)));
+  const VF maskL = hn::Mul(nv, hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), rest, a2)));
+  const VF visibility = hn::Div(hn::Set(d, 0.5f), hn::Add(maskV, maskL));
+  const VF f90 = hn::Min(one, hn::Mul(hn::Set(d, 25.0f), MaxComponent(f0)));
+  const VF m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
+  const VF schlick = hn::Mul(hn::Mul(m2, m2), m);
+  const VF scale = hn::Mul(distribution, visibility);
+  const V3 grazing{hn::Sub(f90, f0.x), hn::Sub(f90, f0.y), hn::Sub(f90, f0.z)};
+  return Scale3(MulAdd3(grazing, schlick, f0), scale);
+}
+
+// Where on the way to the light shadow rays stop: short of it by the rounding error of its
+// position.
+HWY_INLINE float LightBound(const PointLight& light) {
+  const Vec3f p = abs(light.position);
+  return 0x1p-19f * (p.x + p.y + p.z);
+}
+
+template <bool kGlossy>
+HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const PointLight& light,
+                                                     const RayColumns& rays,
+                                                     const SurfelColumns& surfels, size_t n,
+                                                     const UnshadowedColumns& unshadowed,
+                                                     const ShadowColumns& shadows) {
+  const FloatTag d;
+  const UintTag du;
+  const bool traced = effects.has(Effect::shadows), hidden = effects.has(Effect::transmission);
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V3 lightPosition = Broadcast3(light.position), intensity = Broadcast3(light.intensity);
+  const VF radiusSquared = hn::Set(d, light.radius * light.radius);
+  const VF bound = hn::Set(d, LightBound(light)), shortest = hn::Set(d, 1.0f - 0x1p-22f);
+  size_t count = 0;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const VU material = hn::Load(du, surfels.material + i);
+    MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
+    if (hidden) {
+      const VU flags = hn::Load(du, surfels.flags + i);
+      live = hn::And(live,
+                     hn::RebindMask(d, hn::Eq(hn::And(flags, hn::Set(du, kHidden)), hn::Zero(du))));
+    }
+    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+    const V3 toLight = Sub3(lightPosition, position);
+    const VF distanceSquared = Dot(toLight, toLight);
+    live = hn::And(live, hn::And(hn::Gt(Dot(ng, toLight), zero), hn::Gt(Dot(ns, toLight), zero)));
+    live = hn::And(live, hn::Gt(distanceSquared, zero));
+    if (hn::AllFalse(d, live)) {
+      hn::Store(zero, d, unshadowed.visible + i);
+      continue;
+    }
+    const VF inverseDistance = hn::Div(one, hn::Sqrt(distanceSquared));
+    const V3 l = Scale3(toLight, inverseDistance);
+    const VF nl = Dot(ns, l);
+    V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
+                     hn::Set(d, 0.318309886f));
+    if constexpr (kGlossy) {
+      const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
+      const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
+      if (!hn::AllFalse(d, shiny)) {
+        const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+        const V3 v{hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)};
+        const V3 h = NormalizeOr(Add3(l, v), ns);
+        const VF nv = hn::Max(Dot(ns, v), hn::Set(d, 1e-4f));
+        const VF alpha = hn::Load(d, surfels.alpha + i);
+        const V3 lobe = GlossyLobe(f0, alpha, nl, nv, Dot(ns, h), Dot(v, h));
+        bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
+      }
+    }
+    const VF falloff = hn::Div(nl, hn::Max(distanceSquared, radiusSquared));
+    const V3 radiance = Scale3(Mul3(bsdf, intensity), falloff);
+    live = hn::And(live, hn::Gt(MaxComponent(radiance), zero));
+    Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
+    if (!traced) {
+      hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
+      continue;
+    }
+    hn::Store(zero, d, unshadowed.visible + i);
+    const V3 origin = MulAdd3(ng, hn::Load(d, surfels.offset + i), position);
+    const V3 direction = Sub3(lightPosition, origin);
+    const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);
+    hn::CompressStore(origin.x, live, d, shadows.orgX + count);
+    hn::CompressStore(origin.y, live, d, shadows.orgY + count);
+    hn::CompressStore(origin.z, live, d, shadows.orgZ + count);
+    hn::CompressStore(direction.x, live, d, shadows.dirX + count);
+    hn::CompressStore(direction.y, live, d, shadows.dirY + count);
+    hn::CompressStore(direction.z, live, d, shadows.dirZ + count);
+    hn::CompressStore(tFar, live, d, shadows.tFar + count);
+    count += hn::CompressStore(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, live), du,
+                               shadows.slot + count);
+  }
+  return count;
+}
+
+size_t FindRadianceAndShadowRays(const ShadingTables&, EffectSet effects, const PointLight& light,
+                                 const RayColumns& rays, const SurfelColumns& surfels, size_t n,
+                                 const UnshadowedColumns& unshadowed,
+                                 const ShadowColumns& shadows) {
+  return effects.has(Effect::glossy) ? FindRadianceAndShadowRaysVariant<true>(
+                                           effects, light, rays, surfels, n, unshadowed, shadows)
+                                     : FindRadianceAndShadowRaysVariant<false>(
+                                           effects, light, rays, surfels, n, unshadowed, shadows);
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(FindRadianceAndShadowRays);
+std::size_t findRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
+                                      const PointLight& light, const RayColumns& rays,
+                                      const SurfelColumns& surfels, std::size_t n,
+                                      const UnshadowedColumns& unshadowed,
+                                      const ShadowColumns& shadows) noexcept {
+  return HWY_DYNAMIC_DISPATCH(FindRadianceAndShadowRays)(tables, effects, light, rays, surfels, n,
+                                                         unshadowed, shadows);
+}
+}  // namespace whit::simd
+#endif

@@ -1,0 +1,96 @@
+// Radiance of the sky along unit directions.
+#if defined(WHIT_SIMD_SKY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_SKY_INL_H_
+#undef WHIT_SIMD_SKY_INL_H_
+#else
+#define WHIT_SIMD_SKY_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+#include "simd/vec3-inl.h"
+#include "stages/shading_tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+HWY_INLINE V3 Mix3(const V3& a, const V3& b, VF t) { return MulAdd3(Sub3(b, a), t, a); }
+
+HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
+  const FloatTag d;
+  const V3 horizon = Broadcast3(sky.horizon);
+  const MF above = hn::Ge(direction.y, hn::Zero(d));
+  const V3 end = Select3(above, Broadcast3(sky.zenith), Broadcast3(sky.ground));
+  return Mix3(horizon, end, hn::Min(hn::Abs(direction.y), hn::Set(d, 1.0f)));
+}
+
+// Azimuth from -z towards +x as a fraction of a turn, in [0, 1].
+HWY_INLINE VF AzimuthFraction(VF x, VF z) {
+  const FloatTag d;
+  const VF cosine = hn::Neg(z);
+  const VF ax = hn::Abs(x), ac = hn::Abs(cosine);
+  // Atan of the smaller over the larger keeps the quotient in [0, 1].
+  const MF steep = hn::Gt(ax, ac);
+  const VF larger = hn::Max(hn::Max(ax, ac), hn::Set(d, 1e-30f));
+  const VF a = hn::Atan(d, hn::Div(hn::Min(ax, ac), larger));
+  VF angle = hn::IfThenElse(steep, hn::Sub(hn::Set(d, 1.57079637f), a), a);
+  angle =
+      hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(hn::Set(d, 3.14159274f), angle), angle);
+  angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 6.28318548f), angle), angle);
+  return hn::Mul(angle, hn::Set(d, 0.159154943f));
+}
+
+// Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles.
+HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
+  const FloatTag d;
+  const IntTag di;
+  const VF width = hn::Set(d, static_cast<float>(sky.width));
+  const VF height = hn::Set(d, static_cast<float>(sky.height));
+  VF turn = hn::Sub(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
+  turn = hn::Sub(turn, hn::Floor(turn));
+  const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
+  const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));
+  const VF px = hn::MulSub(turn, width, hn::Set(d, 0.5f));
+  const VF py = hn::MulSub(polar, height, hn::Set(d, 0.5f));
+  const VF floorX = hn::Floor(px), floorY = hn::Floor(py);
+  const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
+  const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
+  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  const VI x0 = hn::ConvertTo(di, floorX), y0 = hn::ConvertTo(di, floorY);
+  const VI x1 = hn::Add(x0, one), y1 = hn::Add(y0, one);
+  const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
+  const VI right = hn::IfThenZeroElse(hn::Gt(x1, lastX), x1);
+  const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
+  const VI stride = hn::Set(di, sky.width);
+  const auto liveInt = hn::RebindMask(di, live);
+  const auto index = [&](VI row, VI column) HWY_ATTR {
+    return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(row, stride), column));
+  };
+  const VI i00 = index(top, left), i10 = index(top, right);
+  const VI i01 = index(bottom, left), i11 = index(bottom, right);
+  const auto channel = [&](const float* plane) HWY_ATTR {
+    const VF a = hn::GatherIndex(d, plane, i00), b = hn::GatherIndex(d, plane, i10);
+    const VF c = hn::GatherIndex(d, plane, i01), e = hn::GatherIndex(d, plane, i11);
+    const VF upper = hn::MulAdd(hn::Sub(b, a), fx, a), lower = hn::MulAdd(hn::Sub(e, c), fx, c);
+    return hn::Mul(hn::MulAdd(hn::Sub(lower, upper), fy, upper), hn::Set(d, sky.scale));
+  };
+  return {channel(sky.r), channel(sky.g), channel(sky.b)};
+}
+
+// `live` lanes only; the others may hold anything.
+HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
+  switch (sky.kind) {
+    case Sky::Kind::colour:
+      return Broadcast3(sky.zenith);
+    case Sky::Kind::gradient:
+      return GradientSky(sky, direction);
+    case Sky::Kind::image:
+      return ImageSky(sky, direction, live);
+    case Sky::Kind::none:
+      break;
+  }
+  return Broadcast3(Vec3f());
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

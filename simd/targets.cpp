@@ -1,0 +1,83 @@
+// Which SIMD target the kernels run on.
+#include <cstdint>
+
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/targets.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+int CountLanes() { return static_cast<int>(hn::Lanes(FloatTag())); }
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(CountLanes);
+
+namespace {
+
+struct TargetName {
+  std::int64_t bit;
+  const char* name;
+};
+// Best first.
+constexpr TargetName kTargetNames[] = {
+    {HWY_AVX3_DL, "avx3_dl"}, {HWY_AVX3, "avx3"}, {HWY_AVX2, "avx2"},     {HWY_SSE4, "sse4"},
+    {HWY_SSSE3, "ssse3"},     {HWY_NEON, "neon"}, {HWY_SCALAR, "scalar"},
+};
+
+// What the CPU has, whatever has been chosen since.
+std::int64_t detectedTargets() {
+  static const std::int64_t detected = [] {
+    hwy::SetSupportedTargetsForTest(0);
+    return (hwy::SupportedTargets() | HWY_STATIC_TARGET) & HWY_TARGETS;
+  }();
+  return detected;
+}
+
+void use(std::int64_t targets) {
+  hwy::SetSupportedTargetsForTest(targets);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace
+
+std::vector<std::string> availableTargets() {
+  std::vector<std::string> names;
+  for (const TargetName& target : kTargetNames) {
+    if ((detectedTargets() & target.bit) != 0) names.emplace_back(target.name);
+  }
+  return names;
+}
+
+bool chooseTarget(const std::string& name) {
+  const std::int64_t detected = detectedTargets();
+  if (name == "auto") {
+    use(0);
+    return true;
+  }
+  for (const TargetName& target : kTargetNames) {
+    if (target.name == name && (detected & target.bit) != 0) {
+      use(target.bit);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string chosenTarget() {
+  const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+  for (const TargetName& target : kTargetNames) {
+    if ((usable & target.bit) != 0) return target.name;
+  }
+  return "scalar";
+}
+
+int chosenLanes() { return HWY_DYNAMIC_DISPATCH(CountLanes)(); }
+
+}  // namespace whit::simd
+#endif

@@ -1,0 +1,113 @@
+// Vectors of three vectors: one Vec3 a lane.
+#if defined(WHIT_SIMD_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_VEC3_INL_H_
+#undef WHIT_SIMD_VEC3_INL_H_
+#else
+#define WHIT_SIMD_VEC3_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/vec3.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A packet of 16 is one vector on AVX-512, two on AVX2, four on SSE4 and NEON.
+using FloatTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using UintTag = hn::RebindToUnsigned<FloatTag>;
+using VF = hn::Vec<FloatTag>;
+using VI = hn::Vec<IntTag>;
+using VU = hn::Vec<UintTag>;
+using MF = hn::Mask<FloatTag>;
+
+// Lanes that name a record; kMiss and kNoTexture are negative.
+HWY_INLINE hn::Mask<IntTag> NonNegative(VI index) { return hn::Gt(index, hn::Set(IntTag(), -1)); }
+
+struct V3 {
+  VF x, y, z;
+};
+
+HWY_INLINE V3 Broadcast3(const Vec3f& v) {
+  const FloatTag d;
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+HWY_INLINE V3 Load3(const float* x, const float* y, const float* z, size_t i) {
+  const FloatTag d;
+  return {hn::Load(d, x + i), hn::Load(d, y + i), hn::Load(d, z + i)};
+}
+HWY_INLINE void Store3(const V3& v, float* x, float* y, float* z, size_t i) {
+  const FloatTag d;
+  hn::Store(v.x, d, x + i);
+  hn::Store(v.y, d, y + i);
+  hn::Store(v.z, d, z + i);
+}
+
+HWY_INLINE V3 Add3(const V3& a, const V3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE V3 Sub3(const V3& a, const V3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V3 Mul3(const V3& a, const V3& b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+HWY_INLINE V3 Scale3(const V3& a, VF s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+// a * s + b
+HWY_INLINE V3 MulAdd3(const V3& a, VF s, const V3& b) {
+  return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
+}
+HWY_INLINE V3 Abs3(const V3& a) { return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)}; }
+HWY_INLINE V3 Select3(MF m, const V3& yes, const V3& no) {
+  return {hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y),
+          hn::IfThenElse(m, yes.z, no.z)};
+}
+HWY_INLINE VF Dot(const V3& a, const V3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE VF MaxComponent(const V3& a) { return hn::Max(a.x, hn::Max(a.y, a.z)); }
+
+// a * b - c * d without the cancellation of rounding errors (Kahan's difference of products; with a
+// fused multiply-add the error is at most 1.5 ulp, without one it is the plain formula).
+HWY_INLINE VF DifferenceOfProducts(VF a, VF b, VF c, VF d) {
+  const VF cd = hn::Mul(c, d);
+  const VF error = hn::NegMulAdd(c, d, cd);
+  return hn::Add(hn::MulSub(a, b, cd), error);
+}
+HWY_INLINE V3 Cross(const V3& a, const V3& b) {
+  return {DifferenceOfProducts(a.y, b.z, a.z, b.y), DifferenceOfProducts(a.z, b.x, a.x, b.z),
+          DifferenceOfProducts(a.x, b.y, a.y, b.x)};
+}
+
+// True division and square root: the same bits on every target. Vectors of ordinary length only.
+HWY_INLINE V3 Normalize3(const V3& a) {
+  const FloatTag d;
+  return Scale3(a, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(Dot(a, a))));
+}
+// `a` normalised, or `fallback` where it has no length.
+HWY_INLINE V3 NormalizeOr(const V3& a, const V3& fallback) {
+  const FloatTag d;
+  const VF squared = Dot(a, a);
+  const MF good = hn::Gt(squared, hn::Set(d, 1e-30f));
+  const VF inverse =
+      hn::Div(hn::Set(d, 1.0f), hn::Sqrt(hn::IfThenElse(good, squared, hn::Set(d, 1.0f))));
+  return Select3(good, Scale3(a, inverse), fallback);
+}
+// The power of two 2^-e where 2^e <= a < 2^(e+1); products with it are exact. `a` above zero and
+// normal. Brings lengths into the range where squares neither overflow nor vanish.
+HWY_INLINE VF InverseExponent(VF a) {
+  const UintTag du;
+  const VU exponent = hn::And(hn::BitCast(du, a), hn::Set(du, 0x7F800000u));
+  return hn::BitCast(FloatTag(), hn::Sub(hn::Set(du, 0x7F000000u), exponent));
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

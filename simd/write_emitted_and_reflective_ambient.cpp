@@ -1,0 +1,70 @@
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/write_emitted_and_reflective_ambient.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/records-inl.h"
+#include "simd/sky-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+void WriteEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
+                                      const RayColumns& rays, const SurfelColumns& surfels,
+                                      size_t n, const RadianceColumns& radiance) {
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
+  const bool emission = effects.has(Effect::emission), ambient = effects.has(Effect::ambient);
+  const bool sky = effects.has(Effect::sky), hidden = effects.has(Effect::transmission);
+  const V3 black = Broadcast3(Vec3f());
+  // down + (up - down) * (1 + n.y) / 2 as middle + half * n.y
+  const Vec3f up = tables.ambient.up, down = tables.ambient.down;
+  const V3 middle = Broadcast3((up + down) * 0.5f), half = Broadcast3((up - down) * 0.5f);
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const VU material = hn::Load(du, surfels.material + i);
+    const MF hit = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
+    V3 result = black;
+    if (ambient) {
+      const VF ny = hn::Load(d, surfels.nsY + i);
+      const V3 albedo = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+      result = Mul3(albedo, MulAdd3(half, ny, middle));
+    }
+    if (emission && !hn::AllFalse(d, hit)) {
+      const TableReader reader(tables.materials.data(), kMaterialStride, hn::BitCast(di, material),
+                               hit);
+      const V4 emitted = reader.Columns4(8);
+      result = Add3(result, {emitted.x, emitted.y, emitted.z});
+    }
+    if (hidden) {
+      const VU flags = hn::Load(du, surfels.flags + i);
+      const auto there = hn::Eq(hn::And(flags, hn::Set(du, kHidden)), hn::Zero(du));
+      result = Select3(hn::RebindMask(d, there), result, black);
+    }
+    if (hn::AllTrue(d, hit)) {
+      Store3(result, radiance.r, radiance.g, radiance.b, i);
+      continue;
+    }
+    V3 beyond = black;
+    if (sky) {
+      const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+      beyond = SkyRadiance(tables.sky, direction, hn::Not(hit));
+    }
+    Store3(Select3(hit, result, beyond), radiance.r, radiance.g, radiance.b, i);
+  }
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(WriteEmittedAndReflectiveAmbient);
+void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
+                                      const RayColumns& rays, const SurfelColumns& surfels,
+                                      std::size_t n, const RadianceColumns& radiance) noexcept {
+  HWY_DYNAMIC_DISPATCH(WriteEmittedAndReflectiveAmbient)
+  (tables, effects, rays, surfels, n, radiance);
+}
+}  // namespace whit::simd
+#endif

@@ -1,0 +1,80 @@
+// The acceleration structure: the only folder that includes Embree. Rays come in columns, go to
+// Embree in packets of 1, 4, 8 or 16, and come back as hits in columns.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "scene/scene.h"
+#include "stages/columns.h"
+#include "stages/ray_tally.h"
+
+namespace whit {
+
+struct AccelOptions {
+  bool robust = true;      // watertight traversal
+  bool alphaMasks = true;  // respect them (a filter on masked triangles only)
+  int threads = 0;         // for building; 0: all
+  int packet = 0;          // 0: the widest the CPU runs natively
+  std::string isa;         // "avx512", "avx2", "avx", "sse4.2"; empty: the CPU's best
+};
+
+// Rays of one tile as they went to Embree, for measuring the floor. Rays of one kind of call lie
+// together, in the order in which they were traced.
+class RayLog {
+ public:
+  struct Stream {
+    bool occlusion = false, coherent = false;
+    std::vector<float> rays;  // 7 floats a ray: origin, direction, tFar
+  };
+  void append(bool occlusion, bool coherent, const float* const columns[7], std::size_t n);
+  const std::vector<Stream>& streams() const { return streams_; }
+
+ private:
+  std::vector<Stream> streams_;
+};
+
+// What tracing adds up to, for one worker.
+struct TraceMeter {
+  RayTally* tally = nullptr;  // of the kind of ray that is being traced; never null
+  double embreeMs = 0;        // inside Embree's calls alone
+  RayLog* log = nullptr;      // when rays are being captured
+};
+
+class Accel {
+ public:
+  // `scene` must outlive the structure. Throws Error(limit) when memory runs out, Error(usage) when
+  // the packet width or ISA is not there.
+  Accel(const Scene& scene, const AccelOptions& options, Progress* progress = nullptr);
+  ~Accel();
+  Accel(const Accel&) = delete;
+  Accel& operator=(const Accel&) = delete;
+
+  // The nearest hit of rays [0, n). Slots up to the next multiple of 16 become misses.
+  void findHits(const RayColumns& rays, std::size_t n, bool coherent, const HitColumns& hits,
+                TraceMeter& meter) const noexcept;
+  // visible[slot] = 1 for each of the n shadow rays that meets nothing before tFar.
+  void checkShadows(const ShadowColumns& shadows, std::size_t n, bool coherent, float* visible,
+                    TraceMeter& meter) const noexcept;
+
+  // Single rays, for the reference's candidates.
+  bool closest(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
+               std::uint32_t& instance, float& u, float& v) const noexcept;
+  bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
+
+  // Milliseconds that Embree needs for the rays of a log, in full packets.
+  double replay(const RayLog& log) const;
+
+  int packet() const;
+  std::string description() const;  // "3.13.5 avx2"
+  std::uint64_t memoryBytes() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace whit

@@ -1,0 +1,120 @@
+#include "accel/embree_scene.h"
+
+#include "core/error.h"
+
+namespace whit {
+
+namespace {
+
+bool countMemory(void* user, ssize_t bytes, bool) {
+  static_cast<std::atomic<std::uint64_t>*>(user)->fetch_add(static_cast<std::uint64_t>(bytes));
+  return true;
+}
+
+bool reportBuild(void* user, double fraction) {
+  reportProgress(static_cast<Progress*>(user), "building the BVH", fraction);
+  return true;
+}
+
+// Called for each hit on a masked triangle, with as many lanes as Embree has at hand.
+void filterByAlpha(const RTCFilterFunctionNArguments* args) {
+  const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
+    const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
+    if (!isOpaqueAt(geometry, primitive, u, v)) args->valid[lane] = 0;
+  }
+}
+
+std::string deviceConfiguration(const AccelOptions& options) {
+  std::string text = "threads=" + std::to_string(options.threads);
+  if (!options.isa.empty()) text += ",max_isa=" + options.isa;
+  return text;
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
+  device_ = rtcNewDevice(deviceConfiguration(options).c_str());
+  if (!device_) throwUsage("Embree has no device for '" + deviceConfiguration(options) + "'");
+  rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
+  triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);
+  for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
+    scenes_.push_back(rtcNewScene(device_));
+    rtcSetSceneFlags(scenes_[i], options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    addGeometry(i, scene, options);
+    if (i != 0) commit(scenes_[i], progress);
+  }
+  addInstances(scene);
+  commit(scenes_[0], progress);
+  const Geometry& world = scene.geometries[0];
+  plain_ = scene.instances.empty() && world.firstTriangle == 0 &&
+           world.classBegin[1] == world.index.size();
+}
+
+EmbreeScene::~EmbreeScene() {
+  for (RTCScene scene : scenes_) rtcReleaseScene(scene);
+  rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options) {
+  const Geometry& source = scene.geometries[index];
+  for (unsigned c = 0; c < kTriangleClasses; ++c) {
+    const std::uint32_t first = source.classBegin[c], end = source.classBegin[c + 1];
+    if (index == 0) triangleBase_[c] = source.firstTriangle + first;
+    for (std::size_t k = 0; k < scene.instances.size(); ++k) {
+      if (scene.instances[k].geometry != index) continue;
+      triangleBase_[(1 + k) * kTriangleClasses + c] = source.firstTriangle + first;
+    }
+    if (first == end) continue;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               source.position.data(), 0, sizeof(Vec3f), source.position.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               source.index.data(), first * sizeof(source.index[0]),
+                               sizeof(source.index[0]), end - first);
+    rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
+    if ((c & kMaskedBit) != 0 && options.alphaMasks) {
+      masked_.push_back(
+          std::make_unique<MaskedGeometry>(MaskedGeometry{&scene, source.firstTriangle + first}));
+      rtcSetGeometryUserData(geometry, masked_.back().get());
+      rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
+      rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scenes_[index], geometry, c);
+    rtcReleaseGeometry(geometry);
+  }
+}
+
+void EmbreeScene::addInstances(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.instances.size(); ++k) {
+    const InstanceRecord& instance = scene.instances[k];
+    const Affine& m = instance.toWorld;
+    const Vec3f columns[4] = {Vec3f(m.x), Vec3f(m.y), Vec3f(m.z), Vec3f(m.p)};
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, scenes_[instance.geometry]);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scenes_[0], geometry, kFirstInstanceId + static_cast<unsigned>(k));
+    rtcReleaseGeometry(geometry);
+  }
+}
+
+void EmbreeScene::commit(RTCScene scene, Progress* progress) {
+  rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
+  rtcCommitScene(scene);
+  requireNoError("building the BVH");
+}
+
+void EmbreeScene::requireNoError(const char* doing) const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error == RTC_ERROR_NONE) return;
+  const std::string what = std::string("Embree failed while ") + doing;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
+  throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
+}
+
+}  // namespace whit

@@ -1,0 +1,54 @@
+// Embree's device and scenes, built from a frozen Scene.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "accel/accel.h"
+#include "accel/alpha_filter.h"
+#include "accel/embree_calls.h"
+
+namespace whit {
+
+// Instances follow the four classes of world triangles in the top-level scene.
+inline constexpr unsigned kFirstInstanceId = kTriangleClasses;
+// Ray masks: shadow rays do not see triangles that cast no shadow.
+inline constexpr unsigned kSeenMask = 1, kShadowMask = 2;
+
+class EmbreeScene {
+ public:
+  EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  RTCScene top() const { return scenes_[0]; }
+  RTCDevice device() const { return device_; }
+  std::uint64_t memoryBytes() const { return bytes_; }
+
+  // The number of the first triangle that an Embree geometry holds, by class, for the world and for
+  // each instance (at 4 * (1 + instance)).
+  const std::uint32_t* triangleBase(std::size_t placed) const {
+    return &triangleBase_[placed * kTriangleClasses];
+  }
+  // Whether primitive numbers in the world are triangle numbers as they are.
+  bool plain() const { return plain_; }
+
+ private:
+  void addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options);
+  void addInstances(const Scene& scene);
+  void commit(RTCScene scene, Progress* progress);
+  void requireNoError(const char* doing) const;
+
+  RTCDevice device_ = nullptr;
+  std::vector<RTCScene> scenes_;  // one a Scene::geometries
+  std::vector<std::unique_ptr<MaskedGeometry>> masked_;
+  std::vector<std::uint32_t> triangleBase_;
+  std::atomic<std::uint64_t> bytes_{0};
+  bool plain_ = false;
+};
+
+}  // namespace whit

@@ -1,0 +1,18 @@
+// What an Accel holds.
+#pragma once
+
+#include <string>
+
+#include "accel/embree_scene.h"
+
+namespace whit {
+
+struct Accel::Parts {
+  Parts(const Scene& scene, const AccelOptions& options, Progress* progress)
+      : embree(scene, options, progress) {}
+  EmbreeScene embree;
+  int packet = 8;
+  std::string description;
+};
+
+}  // namespace whit

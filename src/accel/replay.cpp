@@ -1,0 +1,132 @@
+// The floor: what Embree alone needs for the rays of a frame.
+#include <chrono>
+#include <limits>
+#include <vector>
+
+#include "accel/embree_scene.h"
+#include "accel/parts.h"
+
+namespace whit {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kFloatsPerRay = 7;
+
+template <int kWidth, typename Ray>
+void loadLane(Ray& ray, int lane, const float* r, unsigned mask) {
+  ray.org_x[lane] = r[0];
+  ray.org_y[lane] = r[1];
+  ray.org_z[lane] = r[2];
+  ray.dir_x[lane] = r[3];
+  ray.dir_y[lane] = r[4];
+  ray.dir_z[lane] = r[5];
+  ray.tfar[lane] = r[6];
+  ray.tnear[lane] = ray.time[lane] = 0;
+  ray.mask[lane] = mask;
+  ray.id[lane] = ray.flags[lane] = 0;
+}
+
+// Full packets; the last one of a stream repeats its final ray in the lanes left over, masked off.
+template <int kWidth>
+double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
+  using RayHit = typename PacketTypes<kWidth>::RayHit;
+  using Ray = typename PacketTypes<kWidth>::Ray;
+  const std::size_t n = stream.rays.size() / kFloatsPerRay;
+  const std::size_t count = (n + kWidth - 1) / kWidth;
+  std::vector<RayHit> hits(stream.occlusion ? 0 : count);
+  std::vector<Ray> shadows(stream.occlusion ? count : 0);
+  struct alignas(64) Valid {
+    int lane[kWidth];
+  };
+  std::vector<Valid> valid(count);
+  for (std::size_t i = 0; i < count * kWidth; ++i) {
+    const std::size_t packet = i / kWidth;
+    const int lane = static_cast<int>(i % kWidth);
+    const float* ray = &stream.rays[std::min(i, n - 1) * kFloatsPerRay];
+    valid[packet].lane[lane] = i < n ? -1 : 0;
+    if (stream.occlusion) {
+      loadLane<kWidth>(shadows[packet], lane, ray, kShadowMask);
+      continue;
+    }
+    loadLane<kWidth>(hits[packet].ray, lane, ray, kSeenMask);
+    hits[packet].hit.geomID[lane] = hits[packet].hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
+    hits[packet].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+  QueryContext context(stream.coherent);
+  const Clock::time_point start = Clock::now();
+  for (std::size_t p = 0; p < count; ++p) {
+    if (stream.occlusion) {
+      occluded(valid[p].lane, scene.top(), context, shadows[p]);
+    } else {
+      intersect(valid[p].lane, scene.top(), context, hits[p]);
+    }
+  }
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
+  const std::size_t n = stream.rays.size() / kFloatsPerRay;
+  std::vector<RTCRayHit> rays(n, RTCRayHit{});
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* r = &stream.rays[i * kFloatsPerRay];
+    RTCRayHit& ray = rays[i];
+    ray.ray.org_x = r[0];
+    ray.ray.org_y = r[1];
+    ray.ray.org_z = r[2];
+    ray.ray.dir_x = r[3];
+    ray.ray.dir_y = r[4];
+    ray.ray.dir_z = r[5];
+    ray.ray.tfar = r[6];
+    ray.ray.mask = stream.occlusion ? kShadowMask : kSeenMask;
+    ray.hit.geomID = ray.hit.primID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  }
+  QueryContext context(stream.coherent);
+  const Clock::time_point start = Clock::now();
+  for (RTCRayHit& ray : rays) {
+    if (stream.occlusion) {
+      occluded(nullptr, scene.top(), context, ray.ray);
+    } else {
+      intersect(nullptr, scene.top(), context, ray);
+    }
+  }
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+void RayLog::append(bool occlusion, bool coherent, const float* const columns[7], std::size_t n) {
+  Stream* stream = nullptr;
+  for (Stream& s : streams_) {
+    if (s.occlusion == occlusion && s.coherent == coherent) stream = &s;
+  }
+  if (!stream) {
+    streams_.push_back({occlusion, coherent, {}});
+    stream = &streams_.back();
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t c = 0; c < kFloatsPerRay; ++c) stream->rays.push_back(columns[c][i]);
+  }
+}
+
+double Accel::replay(const RayLog& log) const {
+  double sum = 0;
+  for (const RayLog::Stream& stream : log.streams()) {
+    switch (parts_->packet) {
+      case 16:
+        sum += replayStream<16>(parts_->embree, stream);
+        break;
+      case 8:
+        sum += replayStream<8>(parts_->embree, stream);
+        break;
+      case 4:
+        sum += replayStream<4>(parts_->embree, stream);
+        break;
+      default:
+        sum += replaySingly(parts_->embree, stream);
+    }
+  }
+  return sum;
+}
+
+}  // namespace whit
