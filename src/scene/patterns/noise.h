@@ -1,0 +1,48 @@
+// Deterministic noise for shapes and patterns: integer hashes, so that every machine generates the
+// same scene, and lattice gradient noise that may repeat (Perlin, "Improving Noise", 2002).
+#pragma once
+
+#include <cstdint>
+
+namespace whit::procedural {
+
+// A well-mixed hash of lattice coordinates (the finalizer of MurmurHash3 after each word).
+std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y = 0, std::int32_t z = 0);
+
+// The hash as a number in [0, 1).
+double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y = 0, std::int32_t z = 0);
+
+// Smooth noise in about [-1, 1], zero at lattice points. `period` above zero repeats the lattice
+// after that many cells along x and y.
+double gradientNoise(std::uint32_t seed, double x, double y, int period = 0);
+double gradientNoise3(std::uint32_t seed, double x, double y, double z);
+
+// Sum of `octaves` noises, each of double frequency and half amplitude, scaled to about [-1, 1].
+// A period is that of the first octave.
+double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int period = 0);
+
+// Like fractalNoise, but folded at zero into sharp crests: about [0, 1], 1 on the crests (Musgrave,
+// "Texturing and Modeling", ch. 16).
+double ridgedNoise(std::uint32_t seed, double x, double y, int octaves);
+
+double lerp(double a, double b, double t);
+// 0 below `low`, 1 above `high`, smooth between.
+double smoothStep(double low, double high, double x);
+
+// A stream of numbers in [0, 1) for things that are generated one after the other.
+class RandomStream {
+ public:
+  explicit RandomStream(std::uint32_t seed) : seed_(seed) {}
+  double next() {
+    const std::uint64_t k = count_++;
+    return unitHash(seed_, static_cast<std::int32_t>(k & 0x7fffffffu),
+                    static_cast<std::int32_t>(k >> 31));
+  }
+  double between(double low, double high) { return low + (high - low) * next(); }
+
+ private:
+  std::uint32_t seed_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace whit::procedural

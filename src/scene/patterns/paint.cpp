@@ -1,0 +1,75 @@
+#include "scene/patterns/paint.h"
+
+namespace whit::procedural {
+namespace {
+
+Texture blank(const std::string& name, int side, TexelFormat format) {
+  Texture texture;
+  texture.name = name;
+  texture.format = format;
+  texture.width = texture.height = side;
+  texture.texels.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  return texture;
+}
+
+// Calls visit(u, v) at the texel centres, row by row from the top.
+template <typename Visitor>
+void forEachTexel(int side, Visitor&& visit) {
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      visit((column + 0.5) / side, 1 - (row + 0.5) / side);
+    }
+  }
+}
+
+double repeated(double x) { return x - std::floor(x); }
+
+}  // namespace
+
+Texture paintColour(const std::string& name, int side, const ColourFormula& colour) {
+  Texture texture = blank(name, side, TexelFormat::colour);
+  forEachTexel(
+      side, [&](double u, double v) { texture.texels.push_back(encodeColourTexel(colour(u, v))); });
+  return texture;
+}
+
+Texture paintNormals(const std::string& name, int side, const ScalarFormula& height) {
+  Texture texture = blank(name, side, TexelFormat::data);
+  const double step = 0.5 / side;
+  forEachTexel(side, [&](double u, double v) {
+    const double du = height(repeated(u + step), v) - height(repeated(u - step), v);
+    const double dv = height(u, repeated(v + step)) - height(u, repeated(v - step));
+    const Vec3d n = normalized(Vec3d{-du, -dv, 2 * step});
+    const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
+    texture.texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
+  });
+  return texture;
+}
+
+Texture paintScalar(const std::string& name, int side, const ScalarFormula& value) {
+  Texture texture = blank(name, side, TexelFormat::data);
+  forEachTexel(side, [&](double u, double v) {
+    const auto x = static_cast<float>(value(u, v));
+    texture.texels.push_back(encodeDataTexel(x, x, x, 1));
+  });
+  return texture;
+}
+
+int sideOf(ShapeParameters& parameters, int fallback) {
+  return parameters.integer("size", fallback, 1, 8192);
+}
+
+std::uint32_t seedOf(ShapeParameters& parameters) {
+  return static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
+}
+
+Rgb colourOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
+  return Rgb(parameters.vector(key, fallback));
+}
+
+Rgb mix(const Rgb& a, const Rgb& b, double t) {
+  const auto s = static_cast<float>(t);
+  return a * (1 - s) + b * s;
+}
+
+}  // namespace whit::procedural

@@ -1,0 +1,207 @@
+#include "scene/shapes/tree.h"
+
+#include "scene/patterns/noise.h"
+#include "scene/shapes/generators.h"
+#include "scene/shapes/icosphere.h"
+#include "scene/shapes/mesh_builder.h"
+#include "scene/shapes/terrain.h"
+
+namespace whit::procedural {
+namespace {
+
+struct Twig {
+  Vec3d position, direction;
+};
+
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const TreePlan& plan) : plan_(plan), random_(plan.seed * 977u + 13u) {}
+
+  TreeMeshes build() {
+    if (plan_.kind == "conifer") {
+      growConifer();
+    } else {
+      grow({0, 0, 0}, {0, 1, 0}, 0.34 * plan_.height, 0.035 * plan_.height, 0);
+    }
+    addLeaves();
+    return {bark_.take("bark"), leaves_.take("leaves")};
+  }
+
+ private:
+  // A tapering limb, closed by its tip: `points` from foot to tip, one radius each.
+  void limb(const std::vector<Vec3d>& points, const std::vector<double>& radii, int sides) {
+    const Vec3d course = normalized(points.back() - points.front(), Vec3d{0, 1, 0});
+    const Vec3d side =
+        normalized(cross(course, std::fabs(course.x) < 0.8 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1}));
+    const Vec3d other = cross(side, course);
+    const int last = static_cast<int>(points.size()) - 1;
+    const double around = std::max(1.0, std::round(4 * radii[0]));
+    // Two more rows than points: both ends close in a point.
+    const auto node = [&](int j) { return static_cast<std::size_t>(std::clamp(j - 1, 0, last)); };
+    bark_.sheet(sides, last + 2, [&](int i, int j) {
+      const TurnPoint t = turn(i, sides);
+      const bool foot = j == 0, tip = j == last + 2;
+      const Vec3d out = side * t.cosine - other * t.sine;
+      const Vec3d& middle = points[node(j)];
+      return SurfacePoint{middle + out * (foot || tip ? 0 : radii[node(j)]),
+                          foot  ? -course
+                          : tip ? course
+                                : out,
+                          {around * i / sides, length(middle - points[0])}};
+    });
+  }
+
+  Vec3d anyDirection() {
+    const double y = random_.between(-1, 1), a = random_.between(0, 2 * kPi);
+    const double r = std::sqrt(std::max(0.0, 1 - y * y));
+    return {r * std::cos(a), y, r * std::sin(a)};
+  }
+
+  void grow(const Vec3d& foot, const Vec3d& course, double size, double radius, int level) {
+    const int pieces = level == 0 ? 6 : level == 1 ? 4 : 3;
+    std::vector<Vec3d> points{foot};
+    std::vector<double> radii{level == 0 ? radius * 1.5 : radius};
+    Vec3d direction = course;
+    for (int k = 1; k <= pieces; ++k) {
+      const Vec3d up{0, level == 0 ? 0.4 : 0.12, 0};
+      direction = normalized(direction + anyDirection() * (level == 0 ? 0.10 : 0.24) + up * 0.5);
+      points.push_back(points.back() + direction * (size / pieces));
+      radii.push_back(radius * (1 - 0.45 * k / pieces));
+    }
+    limb(points, radii, level == 0 ? 10 : level == 1 ? 7 : level == 2 ? 5 : 3);
+    if (level >= plan_.levels - 2) {
+      for (std::size_t k = 1; k < points.size(); ++k) {
+        twigs_.push_back({points[k], normalized(points[k] - points[k - 1])});
+      }
+    }
+    if (level + 1 >= plan_.levels) return;
+    const int children = level == 0 ? 6 : 4;
+    const double turnStart = random_.between(0, 2 * kPi);
+    for (int c = 0; c < children; ++c) {
+      const double t = c == 0 ? 1.0 : lerp(level == 0 ? 0.55 : 0.35, 1.0, random_.next());
+      const double at = t * pieces;
+      const auto k = static_cast<std::size_t>(std::min(pieces - 1, static_cast<int>(at)));
+      const Vec3d origin = points[k] + (points[k + 1] - points[k]) * (at - static_cast<double>(k));
+      const double a = turnStart + 2.39996 * c, spread = c == 0 ? 0.25 : random_.between(0.7, 1.1);
+      const Vec3d side = normalized(cross(direction, Vec3d{std::cos(a), 0.3, std::sin(a)}));
+      const Vec3d way = normalized(direction * std::cos(spread) + side * std::sin(spread));
+      grow(origin, way, size * random_.between(0.62, 0.82), radius * 0.5, level + 1);
+    }
+  }
+
+  // A straight trunk with whorls of drooping boughs that shorten upwards.
+  void growConifer() {
+    const double h = plan_.height;
+    limb({{0, 0, 0}, {0, 0.5 * h, 0}, {0, h, 0}}, {0.022 * h, 0.014 * h, 0.002 * h}, 8);
+    const int whorls = 5 + 5 * plan_.levels;
+    for (int w = 0; w < whorls; ++w) {
+      const double t = lerp(0.10, 0.97, static_cast<double>(w) / whorls);
+      const double reach = 0.24 * h * std::pow(1 - t, 0.85) + 0.015 * h;
+      const int boughs = 7;
+      for (int b = 0; b < boughs; ++b) {
+        const double a = 2 * kPi * (b + 0.5 * (w % 2) + 0.3 * random_.next()) / boughs;
+        const Vec3d out{std::cos(a), 0, std::sin(a)};
+        const double size = reach * random_.between(0.8, 1.1);
+        const Vec3d foot{0, t * h, 0};
+        const Vec3d middle = foot + out * (0.5 * size) + Vec3d{0, -0.10 * size, 0};
+        const Vec3d tip = foot + out * size + Vec3d{0, -0.32 * size, 0};
+        limb({foot, middle, tip}, {0.005 * h, 0.004 * h, 0.001 * h}, 3);
+        for (int k = 1; k <= 5; ++k) {
+          const double s = k / 5.0;
+          const Vec3d p =
+              s < 0.5 ? foot + (middle - foot) * (2 * s) : middle + (tip - middle) * (2 * s - 1);
+          twigs_.push_back({p, normalized(tip - middle)});
+        }
+      }
+    }
+  }
+
+  void addLeaves() {
+    if (twigs_.empty()) return;
+    for (int k = 0; k < plan_.leaves; ++k) {
+      const auto pick =
+          static_cast<std::size_t>(random_.next() * static_cast<double>(twigs_.size()));
+      const Twig& twig = twigs_[std::min(pick, twigs_.size() - 1)];
+      const Vec3d p = twig.position + anyDirection() * (plan_.leafSize * random_.between(0.2, 1.2));
+      if (plan_.leafStyle == "blobs") {
+        addBlob(p);
+      } else {
+        addLeaf(p, twig.direction);
+      }
+    }
+  }
+
+  void addLeaf(const Vec3d& p, const Vec3d& course) {
+    const bool conifer = plan_.kind == "conifer";
+    const Vec3d way = normalized(course * (conifer ? 1.6 : 0.7) + anyDirection() +
+                                 Vec3d{0, conifer ? -0.2 : -0.3, 0});
+    const Vec3d side = normalized(cross(way, anyDirection()), Vec3d{1, 0, 0});
+    const double size = plan_.leafSize * random_.between(0.7, 1.2);
+    const Vec3d half = side * (size * (conifer ? 0.16 : 0.36)), tip = p + way * size;
+    // Leaves are lit as parts of the crown, not as single cards.
+    const Vec3d crown{0, 0.55 * plan_.height, 0};
+    const Vec3d face = cross(half, way);
+    const Vec3d normal = normalized(normalized(p - crown) + normalized(face) * 0.6);
+    const bool flip = dot(face, normal) < 0;
+    const auto corner = [&](const Vec3d& q, double u, double v) {
+      return leaves_.vertex({q, normal, {u, v}});
+    };
+    const bool diamond = plan_.leafStyle == "diamonds";
+    const Vec3d middle = p + way * (0.45 * size);
+    const std::uint32_t a = diamond ? corner(p, 0.5, 0) : corner(p - half, 0, 0);
+    const std::uint32_t b = diamond ? corner(middle + half, 1, 0.45) : corner(p + half, 1, 0);
+    const std::uint32_t c = diamond ? corner(tip, 0.5, 1) : corner(tip + half, 1, 1);
+    const std::uint32_t d = diamond ? corner(middle - half, 0, 0.45) : corner(tip - half, 0, 1);
+    if (flip) {
+      leaves_.quad(a, d, c, b);
+    } else {
+      leaves_.quad(a, b, c, d);
+    }
+  }
+
+  void addBlob(const Vec3d& p) {
+    static const auto kBall = icosphereMesh(1);
+    const double size = 4 * plan_.leafSize * random_.between(0.7, 1.2);
+    const auto noiseSeed = static_cast<std::uint32_t>(random_.next() * 1e6);
+    std::vector<std::uint32_t> index;
+    for (const Vec3d& q : kBall.first) {
+      const double push = 1 + 0.25 * gradientNoise3(noiseSeed, 2 * q.x, 2 * q.y, 2 * q.z);
+      index.push_back(
+          leaves_.vertex({p + q * Vec3d{size, 0.8 * size, size} * push, q, {q.x, q.y}}));
+    }
+    for (const auto& [a, b, c] : kBall.second) leaves_.triangle(index[a], index[b], index[c]);
+  }
+
+  const TreePlan& plan_;
+  RandomStream random_;
+  std::vector<Twig> twigs_;
+  MeshBuilder bark_, leaves_;
+};
+
+}  // namespace
+
+TreePlan readTree(ShapeParameters& parameters, const std::string& heightKey, std::uint32_t seed) {
+  TreePlan plan;
+  plan.kind = parameters.word("kind", plan.kind, {"broadleaf", "conifer"});
+  plan.leafStyle = parameters.word("leafStyle", plan.leafStyle, {"quads", "diamonds", "blobs"});
+  plan.height = parameters.number(heightKey, plan.height, 1e-3, 1e6);
+  plan.levels = parameters.integer("levels", plan.levels, 2, 6);
+  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 2'000'000);
+  plan.leafSize = parameters.number("leafSize", 0.04 * plan.height, 1e-6, 1e6);
+  plan.seed = seed;
+  return plan;
+}
+
+TreeMeshes buildTree(const TreePlan& plan) { return TreeBuilder(plan).build(); }
+
+// Standing on y = 0: slots bark, leaves.
+Shape makeTree(ShapeParameters& parameters) {
+  const auto seed = static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
+  TreeMeshes meshes = buildTree(readTree(parameters, "height", seed));
+  Shape shape;
+  shape.parts.push_back({"bark", std::move(meshes.bark)});
+  shape.parts.push_back({"leaves", std::move(meshes.leaves)});
+  return shape;
+}
+
+}  // namespace whit::procedural

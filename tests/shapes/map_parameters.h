@@ -1,0 +1,79 @@
+// Parameters from maps, as strict about ranges as a scene file's reader, for tests.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/error.h"
+#include "scene/shape.h"
+
+namespace whit::test {
+
+using Value = std::variant<double, bool, Vec3d, std::string>;
+
+class MapParameters : public ShapeParameters {
+ public:
+  MapParameters() = default;
+  explicit MapParameters(std::map<std::string, Value> values) : values_(std::move(values)) {}
+
+  double number(const std::string& key, double fallback, double low, double high) override {
+    // Defaults have to keep to the range as well.
+    const double value = get(key, fallback);
+    if (!(value >= low && value <= high)) throwBadScene(key, "out of range");
+    return value;
+  }
+  int integer(const std::string& key, int fallback, int low, int high) override {
+    return static_cast<int>(number(key, fallback, low, high));
+  }
+  bool flag(const std::string& key, bool fallback) override { return get(key, fallback); }
+  Vec3d vector(const std::string& key, const Vec3d& fallback) override {
+    return get(key, fallback);
+  }
+  std::string word(const std::string& key, const std::string& fallback,
+                   const std::vector<std::string>& choices) override {
+    const std::string value = get(key, fallback);
+    if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
+      throwBadScene(key, "not a choice");
+    }
+    return value;
+  }
+  // Keys that were given but that nobody asked for.
+  std::vector<std::string> unasked() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : values_) {
+      if (!asked_.count(key)) keys.push_back(key);
+    }
+    return keys;
+  }
+
+ private:
+  template <typename T>
+  T get(const std::string& key, const T& fallback) {
+    asked_.insert(key);
+    const auto found = values_.find(key);
+    return found == values_.end() ? fallback : std::get<T>(found->second);
+  }
+
+  std::map<std::string, Value> values_;
+  std::set<std::string> asked_;
+};
+
+inline Shape generate(const std::string& name, std::map<std::string, Value> values = {}) {
+  MapParameters parameters(std::move(values));
+  Shape shape = shapeGenerators().at(name)(parameters);
+  if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
+  return shape;
+}
+
+inline Texture paint(const std::string& name, std::map<std::string, Value> values = {}) {
+  MapParameters parameters(std::move(values));
+  Texture texture = patternGenerators().at(name)(parameters);
+  if (!parameters.unasked().empty()) throwBadScene(parameters.unasked()[0], "unknown key");
+  return texture;
+}
+
+}  // namespace whit::test
