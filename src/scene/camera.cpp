@@ -23,13 +23,11 @@ Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*
   return (Vec3d(after.camera.*point) - Vec3d(before.camera.*point)) / seconds;
 }
 
-// A direction across `forward` that looks like up, for cameras whose own `up` is of no use.
+// For cameras whose own `up` is of no use: +y is up, and where the view is vertical, what a level
+// camera looking along -z comes to by tilting.
 Vec3d fallbackRight(const Vec3d& forward) {
-  for (const Vec3d& up : {Vec3d{0, 1, 0}, Vec3d{0, 0, -1}}) {
-    const Vec3d right = cross(forward, up);
-    if (dot(right, right) > 1e-3) return normalized(right);
-  }
-  return {1, 0, 0};
+  const bool vertical = std::abs(forward.y) > 0.999;
+  return normalized(cross(forward, vertical ? Vec3d{0, 0, forward.y} : Vec3d{0, 1, 0}));
 }
 
 }  // namespace

@@ -1,0 +1,173 @@
+#include "scene/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace whit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRounding = 8 * 0x1p-53;
+
+Vec3d directionAt(const CameraFrame& f, double x, double y) {
+  return normalized(f.forward + f.right * (x - f.width / 2.0) - f.up * (y - f.height / 2.0));
+}
+
+double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+
+void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = kRounding) {
+  EXPECT_LE(length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+// Unit forward; right and up across it and each other, of one length: nothing else makes a picture.
+void expectSound(const CameraFrame& f) {
+  ASSERT_TRUE(isFinite(f.eye) && isFinite(f.forward) && isFinite(f.right) && isFinite(f.up));
+  EXPECT_NEAR(length(f.forward), 1, kRounding);
+  EXPECT_GT(length(f.right), 0);
+  EXPECT_NEAR(length(f.up) / length(f.right), 1, kRounding);
+  EXPECT_NEAR(dot(normalized(f.right), f.forward), 0, kRounding);
+  EXPECT_NEAR(dot(normalized(f.right), normalized(f.up)), 0, kRounding);
+  EXPECT_GT(dot(cross(f.right, f.up), -f.forward), 0);  // right-handed, looking along -z
+}
+
+TEST(CameraFrame, EdgesOfARightAngle) {
+  Camera camera;
+  camera.fov = 90;
+  const CameraFrame f = makeCameraFrame(camera, 200, 100);
+  expectSound(f);
+  expectNear(directionAt(f, 100, 50), {0, 0, -1});
+  expectNear(directionAt(f, 100, 0), normalized(Vec3d{0, 1, -1}));
+  expectNear(directionAt(f, 100, 100), normalized(Vec3d{0, -1, -1}));
+  // Twice as wide as high, so twice the slope.
+  expectNear(directionAt(f, 200, 50), normalized(Vec3d{2, 0, -1}));
+  expectNear(directionAt(f, 0, 50), normalized(Vec3d{-2, 0, -1}));
+}
+
+TEST(CameraFrame, VerticalFovFromTheNarrowestToTheWidest) {
+  for (const float fov : {1e-3f, 0.1f, 45.0f, 179.9f}) {
+    Camera camera;
+    camera.fov = fov;
+    const CameraFrame f = makeCameraFrame(camera, 64, 48);
+    expectSound(f);
+    const double seen = angle(directionAt(f, 32, 0), directionAt(f, 32, 48)) * 180 / kPi;
+    // tan magnifies the rounding of its argument by 1 / cos^2 and the inverse takes it back; the
+    // float fov itself is exact.
+    EXPECT_NEAR(seen, std::min(static_cast<double>(fov), 179.9), 1e-12) << fov;
+  }
+}
+
+TEST(CameraFrame, FovBeyondTheLimitsIsClamped) {
+  const auto pixel = [](float fov) {
+    Camera camera;
+    camera.fov = fov;
+    return length(makeCameraFrame(camera, 10, 10).up);
+  };
+  const double narrowest = 2 * std::tan(0.5e-3 * kPi / 180) / 10;
+  EXPECT_NEAR(pixel(0) / narrowest, 1, kRounding);
+  EXPECT_NEAR(pixel(-20) / narrowest, 1, kRounding);
+  EXPECT_NEAR(pixel(std::nanf("")) / narrowest, 1, kRounding);
+  EXPECT_NEAR(pixel(500) / (2 * std::tan(89.95 * kPi / 180) / 10), 1, 1e-12);
+}
+
+// H75: directions do not depend on where the camera stands.
+TEST(CameraFrame, FarFromTheOriginNothingIsLost) {
+  Camera near, far;
+  near.eye = {0, 0, 0};
+  near.at = {1, 2, -4};
+  far.eye = Vec3f(8388608.0f);  // 2^23: floats are whole numbers here
+  far.at = far.eye + near.at;
+  const CameraFrame a = makeCameraFrame(near, 640, 480), b = makeCameraFrame(far, 640, 480);
+  EXPECT_EQ(a.forward, b.forward);
+  EXPECT_EQ(a.right, b.right);
+  EXPECT_EQ(a.up, b.up);
+  EXPECT_EQ(b.eye, Vec3d(far.eye));
+}
+
+TEST(CameraFrame, UpAlongTheViewPicksAnother) {
+  for (const Vec3f& at : {Vec3f{0, -1, 0}, Vec3f{0, 1, 0}, Vec3f{0, -3, 1e-8f}}) {
+    Camera camera;
+    camera.eye = {0, 0, 0};
+    camera.at = at;
+    const CameraFrame f = makeCameraFrame(camera, 30, 20);
+    expectSound(f);
+    expectNear(normalized(f.right), {1, 0, 0}, 1e-7);
+  }
+  Camera sideways;
+  sideways.eye = {0, 0, 0};
+  sideways.at = sideways.up = {0, 0, -1};
+  expectNear(normalized(makeCameraFrame(sideways, 30, 20).up), {0, 1, 0});
+}
+
+TEST(CameraFrame, SenselessCamerasStillGiveAPicture) {
+  const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+  Camera camera;
+  camera.at = camera.eye;
+  expectSound(makeCameraFrame(camera, 30, 20));
+  expectNear(makeCameraFrame(camera, 30, 20).forward, {0, 0, -1});
+  camera = {};
+  camera.up = {0, 0, 0};
+  expectSound(makeCameraFrame(camera, 30, 20));
+  camera.up = {nan, 0, 0};
+  camera.at = {0, inf, 0};
+  camera.eye = {nan, 1, 2};
+  expectSound(makeCameraFrame(camera, 30, 20));
+  camera = {};
+  camera.eye = Vec3f(-3e38f);
+  camera.at = Vec3f(3e38f);
+  expectSound(makeCameraFrame(camera, 30, 20));
+}
+
+std::vector<Keyframe> pathOf(const std::vector<std::pair<float, float>>& timeAndX) {
+  std::vector<Keyframe> path;
+  for (const auto& [time, x] : timeAndX) {
+    Keyframe k;
+    k.time = time;
+    k.camera.eye = {x, 0, 0};
+    k.camera.at = {x, 0, -1};
+    k.camera.fov = 10 * x;
+    path.push_back(k);
+  }
+  return path;
+}
+
+TEST(CameraPath, PassesThroughItsKeyframesAndStopsAtItsEnds) {
+  const auto path = pathOf({{1, 0}, {2, 5}, {4, 3}});
+  EXPECT_EQ(cameraAt(path, 0).eye.x, 0);
+  EXPECT_EQ(cameraAt(path, 1).eye.x, 0);
+  EXPECT_EQ(cameraAt(path, 2).eye.x, 5);
+  EXPECT_EQ(cameraAt(path, 4).eye.x, 3);
+  EXPECT_EQ(cameraAt(path, 1e30).eye.x, 3);
+  EXPECT_EQ(cameraAt(path, std::nan("")).eye.x, 0);
+  EXPECT_EQ(cameraAt(pathOf({{3, 7}}), 5).eye.x, 7);
+}
+
+// Slopes at the keyframes (0, 0), (1, 1), (2, 4): 1 at the end, (4 - 0) / 2 = 2 in the middle.
+// Half-way a Hermite segment is (p0 + p1) / 2 + (m0 - m1) / 8 = 0.5 - 0.125.
+TEST(CameraPath, CatmullRomHalfWay) {
+  const Camera c = cameraAt(pathOf({{0, 0}, {1, 1}, {2, 4}}), 0.5);
+  EXPECT_FLOAT_EQ(c.eye.x, 0.375f);
+  EXPECT_FLOAT_EQ(c.at.x, 0.375f);
+  EXPECT_FLOAT_EQ(c.fov, 5);  // linear
+}
+
+TEST(CameraPath, UniformMotionStaysUniformForUnevenKeyframes) {
+  const auto path = pathOf({{0, 0}, {1, 2}, {4, 8}, {4.5f, 9}});
+  for (int i = 0; i <= 45; ++i) {
+    EXPECT_NEAR(cameraAt(path, i / 10.0).eye.x, 2 * i / 10.0, 1e-6) << i;
+  }
+}
+
+TEST(CameraPath, VelocityIsContinuous) {
+  const auto path = pathOf({{0, 0}, {1, 3}, {3, -2}, {4, 4}});
+  const double h = 1e-3;
+  for (const double t : {1.0, 3.0}) {
+    const double before = (cameraAt(path, t).eye.x - cameraAt(path, t - h).eye.x) / h;
+    const double after = (cameraAt(path, t + h).eye.x - cameraAt(path, t).eye.x) / h;
+    // First differences: off by h times the acceleration (below 40), and floats by 1e-6 / h.
+    EXPECT_NEAR(before, after, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,194 @@
+// What becomes of bad triangles, texture coordinates and normals.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "unit/scene_builder.h"
+
+namespace whit {
+namespace {
+
+using test::expectError;
+using test::finalized;
+using test::normalOf;
+using test::sceneOf;
+using test::square;
+using test::warned;
+using test::whiteTexture;
+
+const std::string kDegenerate = "degenerate triangle dropped";
+const std::string kBadCorner = "triangle with a non-finite or enormous corner dropped";
+const std::string kBadIndex = "triangle with a vertex index out of range dropped";
+
+// H23
+TEST(Mending, DegenerateTrianglesAreDroppedAndCounted) {
+  Mesh mesh = square();
+  const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {a, b, c});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  };
+  mesh.triangles.push_back({1, 1, 2});             // repeated index
+  add({0, 0, 0}, {1, 0, 0}, {2, 0, 0});            // collinear
+  add({3, 3, 3}, {4, 4, 4}, {3, 3, 3});            // repeated position
+  const float x = -1113.45459f, z = -56.2396317f;  // after pbrt's bad cases: one line
+  add({x, -79.049614f, z}, {x, -87.0922699f, z}, {x, -79.2090149f, z});
+  add({0, 0, 9}, {1, 0, 9}, {0, 1e-20f, 9});            // thin but with an area: stays
+  add({0, 0, 9}, {1e-12f, 0, 9}, {0, 1e-12f, 9});       // tiny: stays (H24)
+  add({1e-30f, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e-30f});  // squares vanish in float: stays
+  Warnings warnings;
+  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  EXPECT_EQ(scene.triangles.size(), 2u + 3);
+  EXPECT_EQ(warned(warnings, kDegenerate), 4u);
+  EXPECT_EQ(warnings.entries().at(kDegenerate).first, "mesh 'square', triangle 2");
+  EXPECT_EQ(scene.upper, (Vec3f{1, 1, 9}));
+}
+
+// H27
+TEST(Mending, BadVerticesTakeOnlyTheirTriangles) {
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const float bad : {std::nanf(""), inf, -inf, 1e19f, -1e19f}) {
+    Mesh mesh = square();
+    mesh.positions[3].y = bad;  // of the second triangle only
+    Warnings warnings;
+    const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(warned(warnings, kBadCorner), 1u);
+    EXPECT_EQ(scene.lower, (Vec3f{0, 0, 0}));
+    EXPECT_EQ(scene.upper, (Vec3f{1, 1, 0}));
+  }
+  Mesh large = square();
+  large.positions[2].y = 1e18f;
+  EXPECT_EQ(finalized(sceneOf(large)).triangles.size(), 2u);
+}
+
+TEST(Mending, IndicesOutOfRangeTakeTheirTriangle) {
+  Mesh mesh = square();
+  mesh.triangles.push_back({0, 1, 4});
+  mesh.triangles.push_back({0xffffffffu, 1, 2});
+  SceneDescription d = sceneOf(mesh);
+  d.objects[0].meshes.push_back(square());  // whose vertices must not be reached
+  Warnings warnings;
+  EXPECT_EQ(Scene::finalize(std::move(d), warnings).triangles.size(), 4u);
+  EXPECT_EQ(warned(warnings, kBadIndex), 2u);
+}
+
+TEST(Mending, StrictRefusesDroppedTriangles) {
+  Mesh mesh = square();
+  mesh.triangles.push_back({1, 1, 2});
+  Warnings strict(true);
+  expectError(ExitStatus::badScene, {"mesh 'square', triangle 2", kDegenerate},
+              [&] { Scene::finalize(sceneOf(mesh), strict); });
+}
+
+TEST(Mending, TextureCoordinatesThatAreNotFiniteBecomeZero) {
+  Mesh mesh = square();
+  mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
+  Warnings warnings;
+  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  EXPECT_EQ(scene.triangles[0].uv[0], 0.25f);
+  EXPECT_EQ(scene.triangles[0].uv[1], 0);
+  EXPECT_EQ(scene.triangles[1].uv[4], 0);
+  // By corner: vertex 0 has two, vertex 3 one.
+  EXPECT_EQ(warned(warnings, "non-finite texture coordinate set to 0"), 3u);
+}
+
+// H68: whole numbers off, so the picture is the same, with all bits for the fraction.
+TEST(Mending, FarTextureCoordinatesAreRecentredWhereTheyRepeat) {
+  Mesh mesh = square();
+  mesh.uvs = {{1000000.25f, -20.5f}, {1000001.5f, -17}, {1000000, -30}, {1000002, -18}};
+  const auto firstUv = [&](Wrap wrapU, Wrap wrapV) {
+    SceneDescription d = sceneOf(mesh);
+    d.textures.push_back(whiteTexture(TexelFormat::colour));
+    d.textures[0].wrapU = wrapU;
+    d.textures[0].wrapV = wrapV;
+    d.materials[0].diffuseMap = 0;
+    const Scene scene = finalized(std::move(d));
+    return std::vector<float>(scene.triangles[0].uv, scene.triangles[0].uv + 6);
+  };
+  using Uv = std::vector<float>;
+  EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{0.25f, 9.5f, 1.5f, 13, 0, 0}));
+  EXPECT_EQ(firstUv(Wrap::clamp, Wrap::repeat),
+            (Uv{1000000.25f, 9.5f, 1000001.5f, 13, 1000000, 0}));
+  EXPECT_EQ(firstUv(Wrap::repeat, Wrap::mirror), (Uv{0.25f, -20.5f, 1.5f, -17, 0, -30}));
+  mesh.uvs[1] = {16, -16};  // one corner near: left alone
+  EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
+}
+
+// H34
+TEST(Mending, NormalsOfNoUseBecomeTheFaces) {
+  Mesh mesh = square();
+  mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
+  Warnings warnings;
+  const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+  ASSERT_EQ(scene.normals.size(), 2u);
+  EXPECT_EQ(normalOf(scene.normals[0], 0), (Vec3f{0, 0, 1}));
+  EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0.6f, 0.8f}));
+  EXPECT_EQ(normalOf(scene.normals[0], 2), (Vec3f{0, 0, 1}));
+  EXPECT_EQ(normalOf(scene.normals[1], 2), (Vec3f{0, 0, -1}));  // opposite, but a direction
+  EXPECT_EQ(warned(warnings, "zero or non-finite normal replaced by the face's"), 4u);
+}
+
+TEST(Mending, FlatNormalsAreNotKept) {
+  EXPECT_TRUE(finalized(sceneOf(square())).normals.empty());
+  Mesh flat = square();
+  flat.normals.assign(4, {0, 0, 7});
+  EXPECT_TRUE(finalized(sceneOf(flat)).normals.empty());
+}
+
+TEST(Mending, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
+  Mesh smooth = square();
+  smooth.normals.assign(4, {1, 0, 1});
+  SceneDescription d = sceneOf(square());
+  d.objects[0].meshes.push_back(smooth);
+  const Scene scene = finalized(std::move(d));
+  ASSERT_EQ(scene.normals.size(), 4u);
+  EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0, 1}));
+  EXPECT_FLOAT_EQ(normalOf(scene.normals[2], 1).x, std::sqrt(0.5f));
+}
+
+// H29: whatever the bits, there is an error or a scene that can be rendered.
+TEST(Mending, GarbageNeverReachesTheTables) {
+  std::mt19937 random(29);
+  const auto word = [&] { return static_cast<std::uint32_t>(random()); };
+  const auto anyFloat = [&] {
+    return word() % 4 ? std::bit_cast<float>(word()) : static_cast<float>(word() % 5);
+  };
+  std::size_t kept = 0;
+  for (int round = 0; round < 1000; ++round) {
+    Mesh mesh;
+    const std::size_t vertices = word() % 40;
+    for (std::size_t i = 0; i < vertices; ++i) {
+      mesh.positions.push_back({anyFloat(), anyFloat(), anyFloat()});
+      mesh.normals.push_back({anyFloat(), anyFloat(), anyFloat()});
+      mesh.uvs.push_back({anyFloat(), anyFloat()});
+    }
+    for (std::size_t i = word() % 60; i-- > 0;) {
+      mesh.triangles.push_back({word() % 41, word() % 41, word() % 41});
+    }
+    mesh.materials = {0};
+    SceneDescription d = sceneOf(mesh);
+    d.textures.push_back(whiteTexture(TexelFormat::colour));
+    d.materials[0].diffuseMap = 0;
+    const Scene scene = finalized(std::move(d));
+    ASSERT_TRUE(isFinite(scene.lower) && isFinite(scene.upper));
+    for (const TriangleRecord& t : scene.triangles) {
+      for (const float x : t.position) ASSERT_LE(std::abs(x), 1.844e18f) << "round " << round;
+      for (const float x : t.uv) ASSERT_TRUE(std::isfinite(x)) << "round " << round;
+    }
+    for (const NormalRecord& n : scene.normals) {
+      for (int i = 0; i < 3; ++i) {
+        // Three components rounded to float: half an ulp each.
+        ASSERT_NEAR(length(Vec3d(normalOf(n, i))), 1, 2e-7) << "round " << round;
+      }
+    }
+    kept += scene.triangles.size();
+  }
+  EXPECT_GT(kept, 500u);  // so that there was something to check
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,24 @@
+#include "core/nearest_name.h"
+
+#include <gtest/gtest.h>
+
+namespace whit {
+namespace {
+
+TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
+  const std::vector<std::string> names{"sphere", "spiral", "sponge"};
+  EXPECT_EQ(nearestName("sphere", names), "sphere");
+  EXPECT_EQ(nearestName("spere", names), "sphere");
+  EXPECT_EQ(nearestName("spiiral", names), "spiral");
+  EXPECT_EQ(nearestName("sponce", names), "sponge");
+}
+
+TEST(NearestName, TheFirstOfEquallyNearOnes) {
+  EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax");
+  EXPECT_EQ(nearestName("", {"long", "a"}), "a");
+}
+
+TEST(NearestName, NothingToChooseFrom) { EXPECT_EQ(nearestName("x", {}), ""); }
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,207 @@
+// Which effects a scene calls for, and why.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "unit/scene_builder.h"
+
+namespace whit {
+namespace {
+
+using test::finalized;
+using test::sceneOf;
+using test::square;
+using test::whiteTexture;
+
+const EffectReason& reason(const Scene& scene, Effect e) {
+  return scene.reasons[static_cast<std::size_t>(e)];
+}
+
+std::int32_t addTexture(SceneDescription& d, TexelFormat format) {
+  d.textures.push_back(whiteTexture(format));
+  return static_cast<std::int32_t>(d.textures.size() - 1);
+}
+
+void addLight(SceneDescription& d, const Rgb& intensity = {1, 1, 1}) {
+  d.lights.push_back({"lamp", {0, 0, 1}, intensity});
+}
+
+Material& first(SceneDescription& d) { return d.materials[0]; }
+
+void useSky(SceneDescription& d, Sky::Kind kind) {
+  d.sky.kind = kind;
+  d.sky.zenith = {0, 0, 1};
+  d.sky.image = {2, 1, {0, 0}, {0, 0}, {0, 1}};
+}
+
+struct Rule {
+  Effect effect;
+  std::function<void(SceneDescription&)> add;
+  std::string because;
+  EffectSet also;  // what comes with it
+};
+
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> all{
+      {Effect::textures,
+       [](auto& d) { first(d).diffuseMap = addTexture(d, TexelFormat::colour); },
+       "1 material with a colour texture, 2 triangles use it",
+       {}},
+      {Effect::normalMaps,
+       [](auto& d) { first(d).normalMap = addTexture(d, TexelFormat::data); },
+       "1 material with a normal map, 2 triangles use it",
+       {}},
+      {Effect::alphaMasks,
+       [](auto& d) { first(d).alphaMap = addTexture(d, TexelFormat::data); },
+       "1 material with an alpha mask, 2 triangles use it",
+       {}},
+      {Effect::smoothNormals,
+       [](auto& d) {
+         d.objects[0].meshes[0].normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1e-3f, 1}};
+       },
+       "some vertex normals differ from their triangle's",
+       {}},
+      {Effect::glossy,
+       [](auto& d) { first(d).specular = Rgb(0.04f); },
+       "1 material with a glossy lobe, 2 triangles use it",
+       {}},
+      {Effect::emission,
+       [](auto& d) {
+         first(d).emission = {0, 0, 1};
+       },
+       "1 material with emission, 2 triangles use it",
+       {}},
+      {Effect::sky, [](auto& d) { useSky(d, Sky::Kind::colour); }, "the sky is not black", {}},
+      {Effect::skyImage, [](auto& d) { useSky(d, Sky::Kind::image); }, "the sky is an image",
+       EffectSet().with(Effect::sky)},
+      {Effect::ambient,
+       [](auto& d) {
+         d.ambient.down = {0, 1, 0};
+       },
+       "the ambient light is not black",
+       {}},
+      {Effect::lights,
+       [](auto& d) {
+         addLight(d);
+         addLight(d);
+         addLight(d, {});
+         first(d).castsShadow = false;
+       },
+       "2 point lights",
+       {}},
+      {Effect::shadows, [](auto& d) { addLight(d); }, "1 point light, 2 triangles cast shadows",
+       EffectSet().with(Effect::lights)},
+      {Effect::mirror,
+       [](auto& d) { first(d).mirrorGrazing = Rgb(1.0f); },
+       "1 material with a mirror or a reflecting dielectric, 2 triangles use it",
+       {}},
+      {Effect::transmission,
+       [](auto& d) {
+         first(d).transmission = Rgb(1.0f);
+         first(d).ior = 1;
+       },
+       "1 material with transmission, 2 triangles use it",
+       {}},
+      {Effect::absorption,
+       [](auto& d) {
+         first(d).transmission = Rgb(1.0f);
+         first(d).absorption = {0, 1, 0};
+       },
+       "1 material with absorption, 2 triangles use it",
+       EffectSet().with(Effect::transmission).with(Effect::mirror)},
+      {Effect::instances,
+       [](auto& d) {
+         d.instances.push_back({0, Affine::translation({3, 0, 0})});
+       },
+       "2 instances of 1 object",
+       {}},
+  };
+  return all;
+}
+
+TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
+  const Scene scene = finalized(sceneOf(square()));
+  EXPECT_EQ(scene.effects, EffectSet());
+  for (const EffectReason& r : scene.reasons) {
+    EXPECT_FALSE(r.on);
+    EXPECT_FALSE(r.because.empty());
+  }
+  EXPECT_EQ(reason(scene, Effect::transmission).because,
+            "no mesh uses a material with transmission");
+  EXPECT_EQ(reason(scene, Effect::shadows).because, "the scene has no point light");
+  EXPECT_EQ(reason(scene, Effect::skyImage).because, "the sky is black");
+}
+
+TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
+  EXPECT_EQ(rules().size(), static_cast<std::size_t>(kEffectCount));
+  for (const Rule& rule : rules()) {
+    SCOPED_TRACE(kEffectNames[static_cast<std::size_t>(rule.effect)].name);
+    SceneDescription d = sceneOf(square());
+    rule.add(d);
+    const Scene scene = finalized(std::move(d));
+    EXPECT_EQ(scene.effects.bits(), rule.also.with(rule.effect).bits());
+    EXPECT_TRUE(reason(scene, rule.effect).on);
+    EXPECT_EQ(reason(scene, rule.effect).because, rule.because);
+  }
+}
+
+// What a scene has but does not show calls for nothing.
+TEST(SceneEffects, UnusedMaterialsDoNotCount) {
+  SceneDescription d = sceneOf(square());
+  for (int i = 1; i <= 2; ++i) d.materials.emplace_back().mirror = Rgb(1.0f);
+  d.materials.emplace_back().transmission = Rgb(1.0f);
+  d.objects.push_back({"never placed", {square()}});
+  d.objects[1].meshes[0].materials = {1};
+  // Material 2 only colours a triangle that is dropped.
+  Mesh& mesh = d.objects[0].meshes[0];
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.materials = {0, 0, 2};
+  const Scene scene = finalized(std::move(d));
+  EXPECT_EQ(scene.effects, EffectSet());
+  EXPECT_EQ(scene.media.size(), 1u);
+}
+
+TEST(SceneEffects, CountsMaterialsAndTriangles) {
+  SceneDescription d = sceneOf(square());
+  d.materials.resize(3);
+  d.materials[1].mirror = d.materials[2].mirror = Rgb(0.5f);
+  d.objects[0].meshes[0].materials = {1, 2};
+  EXPECT_EQ(reason(finalized(std::move(d)), Effect::mirror).because,
+            "2 materials with a mirror or a reflecting dielectric, 2 triangles use them");
+}
+
+TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
+  SceneDescription d = sceneOf(square());
+  first(d).diffuse = {};
+  first(d).diffuseMap = first(d).specularMap = addTexture(d, TexelFormat::colour);
+  first(d).alphaMap = addTexture(d, TexelFormat::data);
+  first(d).alphaCutoff = 0;
+  first(d).absorption = Rgb(1.0f);  // of what nothing enters
+  useSky(d, Sky::Kind::image);
+  d.sky.scale = 0;
+  addLight(d, {});
+  const Scene scene = finalized(std::move(d));
+  EXPECT_EQ(scene.effects, EffectSet());
+  EXPECT_EQ(reason(scene, Effect::lights).because, "every point light is black");
+}
+
+TEST(SceneEffects, DielectricsReflectUnlessAllIndicesAreOne) {
+  SceneDescription d = sceneOf(square());
+  d.materials.resize(2);
+  for (Material& m : d.materials) m.transmission = Rgb(1.0f), m.ior = 1;
+  d.materials[1].absorption = Rgb(1.0f);
+  d.objects[0].meshes[0].materials = {0, 1};
+  EXPECT_FALSE(finalized(d).effects.has(Effect::mirror));
+  d.materials[1].ior = 1.0001f;
+  EXPECT_TRUE(finalized(d).effects.has(Effect::mirror));
+}
+
+TEST(SceneEffects, DarkImageIsABlackSky) {
+  SceneDescription d = sceneOf(square());
+  useSky(d, Sky::Kind::image);
+  d.sky.image.b = {0, 0};
+  EXPECT_EQ(finalized(std::move(d)).effects, EffectSet());
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/affine.h"
+#include "scene/light.h"
+
+namespace whit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// At `azimuth` turns from -z towards +x, `polar` half-turns from the zenith.
+Vec3d direction(double azimuth, double polar) {
+  const double a = 2 * kPi * azimuth, p = kPi * polar;
+  return {std::sin(p) * std::sin(a), std::cos(p), -std::sin(p) * std::cos(a)};
+}
+
+template <typename Value>
+Sky imageSky(int width, int height, const Value& value) {
+  Sky sky;
+  sky.kind = Sky::Kind::image;
+  sky.image.width = width;
+  sky.image.height = height;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float v = static_cast<float>(value(x, y));
+      sky.image.r.push_back(v);
+      sky.image.g.push_back(2 * v);
+      sky.image.b.push_back(3 * v);
+    }
+  }
+  return sky;
+}
+
+Sky gradientSky() {
+  Sky sky;
+  sky.kind = Sky::Kind::gradient;
+  sky.zenith = {0, 0, 8};
+  sky.horizon = {4, 4, 4};
+  sky.ground = {2, 0, 0};
+  sky.scale = 0.5f;
+  return sky;
+}
+
+TEST(SkyRadiance, NoneAndColour) {
+  Sky sky;
+  sky.zenith = {1, 2, 3};
+  EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), RgbD{});
+  sky.kind = Sky::Kind::colour;
+  sky.scale = 2;
+  EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), (RgbD{2, 4, 6}));
+  EXPECT_EQ(skyRadiance(sky, {0, -1, 0}), (RgbD{2, 4, 6}));
+}
+
+TEST(SkyRadiance, GradientIsLinearInTheSineOfTheElevation) {
+  const Sky sky = gradientSky();
+  EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), (RgbD{0, 0, 4}));
+  EXPECT_EQ(skyRadiance(sky, {0, 0, 1}), (RgbD{2, 2, 2}));
+  EXPECT_EQ(skyRadiance(sky, {0, -1, 0}), (RgbD{1, 0, 0}));
+  EXPECT_EQ(skyRadiance(sky, {0.8, 0.25, 0}), (RgbD{1.5, 1.5, 2.5}));
+  EXPECT_EQ(skyRadiance(sky, {0.8, -0.5, 0}), (RgbD{1.5, 1, 1}));
+}
+
+TEST(SkyRadiance, TexelCentresAreExactAndInTheStatedOrder) {
+  const Sky sky = imageSky(8, 4, [](int x, int y) { return 1 + x + 10 * y; });
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const RgbD c = skyRadiance(sky, direction((x + 0.5) / 8, (y + 0.5) / 4));
+      EXPECT_NEAR(c.x, 1 + x + 10 * y, 1e-12);
+      EXPECT_NEAR(c.z, 3 * c.x, 1e-12);
+    }
+  }
+}
+
+TEST(SkyRadiance, ColumnsBeginAtMinusZAndRunTowardsPlusX) {
+  const Sky sky = imageSky(4, 1, [](int x, int) { return x; });
+  // Cardinal directions lie on the borders of columns: the mean of two, across the seam at -z.
+  EXPECT_NEAR(skyRadiance(sky, {0, 0, -1}).x, 1.5, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, {1, 0, 0}).x, 0.5, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, {0, 0, 1}).x, 1.5, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, {-1, 0, 0}).x, 2.5, 1e-12);
+  // A quarter of a column before and behind the seam: between columns 3 and 0.
+  EXPECT_NEAR(skyRadiance(sky, direction(0.0625, 0.5)).x, 0.75, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, direction(-0.0625, 0.5)).x, 2.25, 1e-12);
+}
+
+TEST(SkyRadiance, PolesAreClamped) {
+  const Sky sky = imageSky(4, 2, [](int, int y) { return y == 0 ? 5 : 7; });
+  EXPECT_NEAR(skyRadiance(sky, {0, 1, 0}).x, 5, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, {0, -1, 0}).x, 7, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.1)).x, 5, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.5)).x, 6, 1e-12);
+  EXPECT_NEAR(skyRadiance(sky, direction(0.3, 0.95)).x, 7, 1e-12);
+}
+
+TEST(SkyRadiance, RotationTurnsThePictureAboutUp) {
+  const Sky still = imageSky(16, 8, [](int x, int y) { return x * x + 3 * y; });
+  for (const double degrees : {90.0, -37.0, 400.0}) {
+    Sky turned = still;
+    turned.rotation = static_cast<float>(degrees);
+    const Affine turn = Affine::rotation({0, 1, 0}, degrees);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3d d = direction(0.37 * i, (i + 0.5) / 50);
+      // Contrast of 225 a texel of 1/16 turn, turns known to 1e-15.
+      EXPECT_NEAR(skyRadiance(turned, turn.vector(d)).x, skyRadiance(still, d).x, 1e-9);
+    }
+  }
+  Sky turned = still;
+  turned.rotation = 90;
+  EXPECT_NEAR(skyRadiance(turned, {-1, 0, 0}).x, skyRadiance(still, {0, 0, -1}).x, 1e-9);
+}
+
+TEST(SkyRadiance, OneTexelAndExactSeamStayInRange) {
+  const Sky sky = imageSky(1, 1, [](int, int) { return 3; });
+  for (const double tiny : {0.0, -0.0, 1e-300, -1e-300, -1e-17}) {
+    EXPECT_EQ(skyRadiance(sky, {tiny, 0, -1}).x, 3);
+    EXPECT_EQ(skyRadiance(sky, {tiny, 1, tiny}).x, 3);
+  }
+}
+
+TEST(AmbientFromSky, ConstantSkyGivesItself) {
+  Sky colour;
+  colour.kind = Sky::Kind::colour;
+  colour.zenith = {1, 2, 4};
+  colour.scale = 0.5f;
+  const Ambient a = ambientFromSky(colour, 3);
+  EXPECT_EQ(a.up, (Rgb{1.5f, 3, 6}));
+  EXPECT_EQ(a.down, a.up);
+  // The weights of the rows of a hemisphere sum to 1, also where the horizon cuts a row.
+  for (const int height : {1, 2, 3, 8, 33}) {
+    const Ambient b = ambientFromSky(imageSky(5, height, [](int, int) { return 1; }), 1);
+    EXPECT_NEAR(b.up.x, 1, 1e-6) << height;
+    EXPECT_NEAR(b.down.z, 3, 3e-6) << height;
+  }
+}
+
+TEST(AmbientFromSky, GradientInClosedForm) {
+  // The cosine-weighted mean of y is 2/3: a third horizon, two thirds zenith or ground.
+  const Ambient a = ambientFromSky(gradientSky(), 1);
+  EXPECT_FLOAT_EQ(a.up.x, 0.5f * 4 / 3);
+  EXPECT_FLOAT_EQ(a.up.z, 0.5f * (4 + 2 * 8) / 3);
+  EXPECT_FLOAT_EQ(a.down.x, 0.5f * (4 + 2 * 2) / 3);
+  EXPECT_FLOAT_EQ(a.down.y, 0.5f * 4 / 3);
+}
+
+TEST(AmbientFromSky, HemispheresAreKeptApart) {
+  const Ambient a = ambientFromSky(imageSky(4, 4, [](int, int y) { return y < 2 ? 1 : 0; }), 2);
+  EXPECT_NEAR(a.up.x, 2, 1e-6);
+  EXPECT_EQ(a.down, Rgb{});
+  // One of eight columns.
+  const Ambient b = ambientFromSky(imageSky(8, 2, [](int x, int) { return x == 3; }), 1);
+  EXPECT_NEAR(b.up.x, 0.125, 1e-7);
+  // The row at the zenith, down to 45 degrees: sin^2(45 degrees).
+  const Ambient c = ambientFromSky(imageSky(4, 4, [](int, int y) { return y == 0; }), 1);
+  EXPECT_NEAR(c.up.x, 0.5, 1e-6);
+}
+
+TEST(AmbientFromSky, ImageOfAGradientApproachesTheGradient) {
+  const int height = 128;
+  const Sky sky =
+      imageSky(4, height, [&](int, int y) { return 1 + std::cos(kPi * (y + 0.5) / height); });
+  const Ambient a = ambientFromSky(sky, 1);
+  // Texels hold the value at their centres: second order in the row's height.
+  EXPECT_NEAR(a.up.x, 1 + 2.0 / 3, 1e-4);
+  EXPECT_NEAR(a.down.x, 1 - 2.0 / 3, 1e-4);
+}
+
+TEST(AmbientFromSky, NoneIsBlack) {
+  EXPECT_EQ(ambientFromSky(Sky{}, 1).up, Rgb{});
+  EXPECT_EQ(ambientFromSky(Sky{}, 1).down, Rgb{});
+}
+
+}  // namespace
+}  // namespace whit

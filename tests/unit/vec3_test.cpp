@@ -1,0 +1,59 @@
+#include "core/vec3.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace whit {
+namespace {
+
+// Three roundings: of the scaled vector's length, of the quotient, of the sum of squares.
+constexpr double kUnitTolerance = 3 * 0x1p-24;
+
+TEST(Vec3, CrossIsRightHanded) {
+  EXPECT_EQ(cross(Vec3f{1, 0, 0}, Vec3f{0, 1, 0}), (Vec3f{0, 0, 1}));
+  EXPECT_EQ(cross(Vec3f{0, 1, 0}, Vec3f{0, 0, 1}), (Vec3f{1, 0, 0}));
+  EXPECT_EQ(dot(Vec3f{1, 2, 3}, Vec3f{4, -5, 6}), 12);
+}
+
+TEST(Vec3, ComponentsByIndex) {
+  Vec3d v{1, 2, 3};
+  v[1] = 7;
+  EXPECT_EQ(v, (Vec3d{1, 7, 3}));
+  EXPECT_EQ(maxComponent(abs(Vec3d{1, -8, 3})), 8);
+}
+
+// H51: neither overflow nor underflow of the squares may show.
+TEST(Normalized, UnitLengthFromTheSmallestToTheLargestFloat) {
+  double worst = 0;
+  for (int k = -44; k <= 38; ++k) {
+    const float s = std::pow(10.0f, static_cast<float>(k));
+    for (const Vec3f& v : {Vec3f{s, 2 * s, -2 * s}, Vec3f{s, 0, 0}, Vec3f{s, s, s}}) {
+      const Vec3f n = normalized(v);
+      if (!isFinite(v)) continue;  // 2e38 has no float
+      worst = std::max(worst, std::abs(length(Vec3d(n)) - 1));
+      EXPECT_GT(n.x, 0) << "10^" << k;
+    }
+  }
+  EXPECT_LE(worst, kUnitTolerance);
+}
+
+TEST(Normalized, PowersOfTwoLeaveTheBitsAlone) {
+  const Vec3f v{0.3f, -0.7f, 0.11f}, n = normalized(v);
+  for (int k = -100; k <= 120; ++k) {
+    EXPECT_EQ(normalized(v * std::ldexp(1.0f, k)), n) << "2^" << k;
+  }
+}
+
+TEST(Normalized, FallsBackWhereThereIsNoDirection) {
+  const Vec3f fallback{0, 0, 1};
+  const float inf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(normalized(Vec3f{}, fallback), fallback);
+  EXPECT_EQ(normalized(Vec3f{1, std::nanf(""), 0}, fallback), fallback);
+  EXPECT_EQ(normalized(Vec3f{std::nanf(""), 1, 0}, fallback), fallback);
+  EXPECT_EQ(normalized(Vec3f{1, inf, 0}, fallback), fallback);
+  EXPECT_EQ(normalized(Vec3f{}), Vec3f{});
+}
+
+}  // namespace
+}  // namespace whit
