@@ -1,0 +1,47 @@
+// Work that runs beside the reading of a scene.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/progress.h"
+
+namespace whit {
+
+// Starts tasks at once on up to threads - 1 workers; the caller of finish() is the last worker.
+class DecodeQueue {
+ public:
+  // threads 0: as many as the machine has for this process.
+  DecodeQueue(int threads, Progress* progress, std::string phase);
+  ~DecodeQueue();  // forgets tasks that have not begun, waits for those that have
+  DecodeQueue(const DecodeQueue&) = delete;
+  DecodeQueue& operator=(const DecodeQueue&) = delete;
+
+  void add(std::function<void()> task);
+  // Returns when every task has ended. Rethrows the exception of the task that was added first,
+  // whatever the order in which they failed.
+  void finish();
+
+ private:
+  void work();
+  bool runOne(std::unique_lock<std::mutex>& lock);
+
+  Progress* progress_;
+  std::string phase_;
+  std::size_t workerLimit_;
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  std::vector<std::function<void()>> tasks_;
+  std::vector<std::exception_ptr> failures_;
+  std::size_t begun_ = 0, ended_ = 0;
+  bool closing_ = false;
+  std::vector<std::thread> workers_;
+};
+
+}  // namespace whit

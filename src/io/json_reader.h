@@ -1,0 +1,90 @@
+// Reading a parsed JSON file: every value knows its place in the file, every object knows which of
+// its keys were asked for, so that errors name the place and misspelt keys do not go unnoticed.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/vec3.h"
+#include "io/json_text.h"
+
+namespace whit {
+
+// Numbers in a scene stay below what Embree takes for a coordinate.
+inline constexpr double kLargestNumber = 1e18;
+
+// What all values of one file share. Numbers may be written "$name", "$name*0.5" or "$name/2", with
+// a parameter's name.
+struct JsonDocument {
+  std::string file;
+  Json root;
+  std::map<std::string, double> parameters;
+};
+
+class JsonValue {
+ public:
+  explicit JsonValue(const JsonDocument& document) : JsonValue(document, document.root, "") {}
+  JsonValue(const JsonDocument& document, const Json& value, std::string pointer)
+      : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
+
+  std::string where() const { return document_->file + "#" + pointer_; }
+  [[noreturn]] void fail(const std::string& expected) const;
+
+  bool isObject() const { return value_->is_object(); }
+  bool isArray() const { return value_->is_array(); }
+  bool isNull() const { return value_->is_null(); }
+  bool isText() const { return value_->is_string(); }
+  bool isNumber() const;  // a number, or a string that stands for one
+
+  // Each of these fails unless the value is of that kind and in the (closed) range.
+  double number(double low = -kLargestNumber, double high = kLargestNumber) const;
+  int integer(int low, int high) const;
+  bool flag() const;
+  std::string text() const;
+  // One of `choices`; an error names the nearest.
+  std::string word(const std::vector<std::string>& choices) const;
+  Vec3d vector() const;
+  Rgb colour(double high = kLargestNumber) const;  // [r, g, b] or one number, at least 0
+  std::vector<JsonValue> elements() const;
+  std::vector<JsonValue> elements(std::size_t count, const std::string& expected) const;
+  // Members in the file's order.
+  std::vector<std::pair<std::string, JsonValue>> members() const;
+
+ private:
+  friend class JsonObject;
+  JsonValue child(const Json& value, const std::string& token) const;
+  double expression(const std::string& text) const;
+  std::string found() const;
+
+  const JsonDocument* document_;
+  const Json* value_;
+  std::string pointer_;
+};
+
+class JsonObject {
+ public:
+  explicit JsonObject(const JsonValue& value);  // fails unless an object
+
+  const JsonValue& value() const { return value_; }
+  bool has(const std::string& key) { return find(key).has_value(); }
+  std::optional<JsonValue> find(const std::string& key);
+  JsonValue need(const std::string& key);
+
+  float number(const std::string& key, double fallback, double low = -kLargestNumber,
+               double high = kLargestNumber);
+  Vec3f vector(const std::string& key, const Vec3f& fallback);
+  Rgb colour(const std::string& key, const Rgb& fallback, double high = kLargestNumber);
+
+  // Fails at a key that was never asked for, naming the nearest that was.
+  void finish() const;
+
+ private:
+  JsonValue value_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace whit

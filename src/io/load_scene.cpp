@@ -1,0 +1,141 @@
+#include "io/load_scene.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "io/json_reader.h"
+#include "io/paths.h"
+#include "io/scene_context.h"
+#include "io/scene_items.h"
+#include "io/scene_materials.h"
+#include "io/scene_view.h"
+
+namespace whit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSchemaVersion = 1;
+
+std::string lowerExtension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+// The scene's own values, then those that were given with its name.
+void readParameters(JsonObject& file, const std::map<std::string, double>& given,
+                    JsonDocument& document) {
+  std::vector<std::string> names;
+  if (const auto parameters = file.find("parameters")) {
+    std::map<std::string, double> values;  // apart: parameters do not refer to each other
+    for (const auto& [name, value] : parameters->members()) {
+      values[name] = value.number();
+      names.push_back(name);
+    }
+    document.parameters = std::move(values);
+  }
+  for (const auto& [name, value] : given) {
+    const auto known = document.parameters.find(name);
+    if (known == document.parameters.end()) {
+      const std::string nearest = nearestName(name, names);
+      throwUsage(document.file + " has no parameter \"" + name + "\"" +
+                 (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
+    }
+    if (!(std::abs(value) <= kLargestNumber)) {
+      throwUsage("parameter \"" + name + "\" is beyond what a scene can hold");
+    }
+    known->second = value;
+  }
+}
+
+void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyStrength) {
+  context.textures.finish(context.scene);
+  if (ambientFromSkyStrength) {
+    context.scene.ambient = ambientFromSky(context.scene.sky, *ambientFromSkyStrength);
+  }
+}
+
+SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
+                               const LoadOptions& options, Warnings& warnings, Progress* progress) {
+  JsonDocument document;
+  document.file = path.string();
+  document.root = parseJson(readTextFile(path, kJsonBytesLimit), document.file);
+  JsonObject file{JsonValue(document)};
+  file.need("whit").integer(kSchemaVersion, kSchemaVersion);
+  readParameters(file, name.parameters, document);
+  SceneContext context(path, options, warnings, progress);
+  readCameras(file, context.scene);
+  readLights(file, context.scene);
+  readSky(file, context);
+  const std::optional<double> fromSky = readAmbient(file, context.scene);
+  MaterialReader materials(file, context);
+  ItemReader(context, materials).read(file);
+  materials.checkUnused();
+  file.finish();
+  finishTextures(context, fromSky);
+  return std::move(context.scene);
+}
+
+// A light above, beside and in front of the model, and light from all around.
+void supplyLight(SceneDescription& scene) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Vec3f lower(kInfinity), upper(-kInfinity);
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes) {
+      for (const Vec3f& p : mesh.positions) {
+        if (!isFinite(p)) continue;
+        lower = min(lower, p);
+        upper = max(upper, p);
+      }
+    }
+  }
+  if (!(lower.x <= upper.x)) lower = upper = Vec3f();
+  const float size = std::max(length(upper - lower), 1e-6f);
+  const Vec3f offset = Vec3f(0.6f, 1.0f, 0.8f) * size;
+  PointLight light;
+  light.name = "supplied";
+  light.position = (lower + upper) * 0.5f + offset;
+  // A white surface that faces the light from the middle of the model is seen as 1.
+  light.intensity = Rgb(3.14159265f * dot(offset, offset));
+  light.radius = 0.01f * size;
+  scene.lights.push_back(light);
+  scene.ambient.up = Rgb(0.25f);
+  scene.ambient.down = Rgb(0.1f);
+}
+
+SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
+                               const LoadOptions& options, Warnings& warnings, Progress* progress) {
+  if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
+  SceneContext context(path, options, warnings, progress);
+  JsonDocument nothing;
+  nothing.root = Json::object();
+  JsonObject file{JsonValue(nothing)};
+  MaterialReader materials(file, context);
+  ItemReader(context, materials).readModelAlone(path);
+  finishTextures(context, std::nullopt);
+  supplyLight(context.scene);
+  return std::move(context.scene);
+}
+
+}  // namespace
+
+SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
+                           Progress* progress) {
+  const SceneName parsed = parseSceneName(name);
+  const fs::path path = findScene(parsed.file);
+  const std::string extension = lowerExtension(path);
+  if (extension == ".obj") return loadModelFile(path, parsed, options, warnings, progress);
+  if (extension == ".json") return loadSceneFile(path, parsed, options, warnings, progress);
+  throwUsage("\"" + parsed.file +
+             "\": expected a scene (.json), a model (.obj), or the name of a " + "shipped scene");
+}
+
+}  // namespace whit

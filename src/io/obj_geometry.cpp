@@ -1,0 +1,209 @@
+#include "io/obj_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "io/obj_parser.h"
+#include "io/polygon.h"
+
+namespace whit {
+namespace {
+
+// Vertex numbers of corners; open addressing, at most half full.
+class VertexTable {
+ public:
+  explicit VertexTable(std::size_t corners)
+      : slots_(std::bit_ceil(std::max<std::size_t>(2 * corners, 16)), kEmpty) {}
+
+  // The corner's number, and whether it is new. Numbers count up from 0.
+  std::pair<std::uint32_t, bool> number(const ObjCorner& corner) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = hash(corner) & mask;; slot = (slot + 1) & mask) {
+      if (slots_[slot] == kEmpty) {
+        slots_[slot] = static_cast<std::uint32_t>(corners_.size());
+        corners_.push_back(corner);
+        return {slots_[slot], true};
+      }
+      if (corners_[slots_[slot]] == corner) return {slots_[slot], false};
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kEmpty = 0xffffffffu;
+
+  // The finaliser of MurmurHash3 over the three indices.
+  static std::size_t hash(const ObjCorner& c) {
+    std::uint64_t h = static_cast<std::uint32_t>(c.position);
+    h = (h << 32 | static_cast<std::uint32_t>(c.uv)) ^
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.normal)) << 20);
+    h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdull;
+    h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ull;
+    return h ^ (h >> 33);
+  }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<ObjCorner> corners_;
+};
+
+class MeshBuilder {
+ public:
+  MeshBuilder(const ObjContents& contents, bool withNormals, std::size_t corners)
+      : contents_(contents), withNormals_(withNormals), table_(corners) {}
+
+  std::uint32_t vertex(ObjCorner corner) {
+    if (!withNormals_) corner.normal = kNoIndex;
+    const auto [number, isNew] = table_.number(corner);
+    if (isNew) {
+      mesh_.positions.push_back(contents_.positions[static_cast<std::size_t>(corner.position)]);
+      mesh_.uvs.push_back(
+          corner.uv == kNoIndex ? Vec2f() : contents_.uvs[static_cast<std::size_t>(corner.uv)]);
+      hasUvs_ |= corner.uv != kNoIndex;
+      if (withNormals_) {
+        mesh_.normals.push_back(contents_.normals[static_cast<std::size_t>(corner.normal)]);
+      }
+    }
+    return number;
+  }
+  void triangle(const std::array<std::uint32_t, 3>& corners, std::uint32_t material) {
+    mesh_.triangles.push_back(corners);
+    mesh_.materials.push_back(material);
+  }
+
+  bool empty() const { return mesh_.triangles.empty(); }
+  Mesh finish() {
+    if (!hasUvs_) mesh_.uvs.clear();
+    const std::uint32_t first = mesh_.materials[0];
+    const auto isFirst = [&](std::uint32_t m) { return m == first; };
+    if (std::all_of(mesh_.materials.begin(), mesh_.materials.end(), isFirst)) {
+      mesh_.materials = {first};
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  const ObjContents& contents_;
+  bool withNormals_;
+  bool hasUvs_ = false;
+  VertexTable table_;
+  Mesh mesh_;
+};
+
+class FaceReader {
+ public:
+  FaceReader(ObjText& text, ObjContents contents, Warnings& warnings)
+      : text_(text), contents_(std::move(contents)), warnings_(warnings) {}
+
+  std::vector<Mesh> run() {
+    std::array<std::size_t, 2> corners{};
+    std::vector<std::uint8_t> kind(contents_.faces.size());
+    constexpr std::uint8_t kDropped = 2;
+    for (std::size_t i = 0; i < contents_.faces.size(); ++i) {
+      kind[i] = check(contents_.faces[i]) ? hasNormals(contents_.faces[i]) : kDropped;
+      if (kind[i] != kDropped) corners[kind[i]] += contents_.faces[i].cornerCount;
+    }
+    std::vector<Mesh> meshes;
+    for (const std::size_t withNormals : {1u, 0u}) {
+      if (corners[withNormals] == 0) continue;
+      MeshBuilder builder(contents_, withNormals == 1, corners[withNormals]);
+      for (std::size_t i = 0; i < contents_.faces.size(); ++i) {
+        if (kind[i] == withNormals) build(contents_.faces[i], builder);
+      }
+      if (!builder.empty()) meshes.push_back(builder.finish());
+    }
+    return meshes;
+  }
+
+ private:
+  ObjCorner* cornersOf(const ObjFace& face) { return contents_.corners.data() + face.firstCorner; }
+  void warn(const std::string& kind, const ObjFace& face) {
+    warnings_.add(kind, text_.placeOf(face.textOffset));
+  }
+
+  // Whether the face can be built; forgets texture coordinates and normals that do not exist.
+  bool check(const ObjFace& face) {
+    if (face.cornerCount < 3) {
+      warn("face with fewer than three corners dropped", face);
+      return false;
+    }
+    ObjCorner* corners = cornersOf(face);
+    for (std::uint32_t i = 0; i < face.cornerCount; ++i) {
+      ObjCorner& c = corners[i];
+      if (c.position < 0 || static_cast<std::size_t>(c.position) >= contents_.positions.size()) {
+        warn("face with a vertex index out of range dropped", face);
+        return false;
+      }
+      if (c.uv >= 0 && static_cast<std::size_t>(c.uv) >= contents_.uvs.size()) {
+        warn("texture coordinate index out of range ignored", face);
+        c.uv = kNoIndex;
+      }
+      if (c.normal >= 0 && static_cast<std::size_t>(c.normal) >= contents_.normals.size()) {
+        warn("normal index out of range ignored", face);
+        c.normal = kNoIndex;
+      }
+    }
+    return true;
+  }
+
+  std::uint8_t hasNormals(const ObjFace& face) {
+    const ObjCorner* corners = cornersOf(face);
+    return std::none_of(corners, corners + face.cornerCount,
+                        [](const ObjCorner& c) { return c.normal == kNoIndex; });
+  }
+
+  void build(const ObjFace& face, MeshBuilder& builder) {
+    const ObjCorner* corners = cornersOf(face);
+    if (face.cornerCount == 3) {
+      builder.triangle(
+          {builder.vertex(corners[0]), builder.vertex(corners[1]), builder.vertex(corners[2])},
+          face.material);
+      return;
+    }
+    points_.clear();
+    numbers_.clear();
+    triangles_.clear();
+    for (std::uint32_t i = 0; i < face.cornerCount; ++i) {
+      points_.emplace_back(contents_.positions[static_cast<std::size_t>(corners[i].position)]);
+      numbers_.push_back(builder.vertex(corners[i]));
+    }
+    if (!triangulate(points_, triangles_)) warn("polygon without a simple outline", face);
+    for (const auto& t : triangles_) {
+      builder.triangle({numbers_[t[0]], numbers_[t[1]], numbers_[t[2]]}, face.material);
+    }
+  }
+
+  ObjText& text_;
+  ObjContents contents_;
+  Warnings& warnings_;
+  std::vector<Vec3d> points_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+
+void chargeFor(const ObjText& text, MemoryBudget& budget) {
+  const ObjSummary& s = text.summary();
+  constexpr std::uint64_t kIndexLimit = std::numeric_limits<std::int32_t>::max();
+  if (std::max({s.positions, s.normals, s.uvs, s.corners}) >= kIndexLimit) {
+    throwLimit(text.file() + " has more than 2^31 - 1 vertices or corners of faces");
+  }
+  budget.charge(s.positions + s.normals, sizeof(Vec3f), text.file());
+  budget.charge(s.uvs, sizeof(Vec2f), text.file());
+  budget.charge(s.faces, sizeof(ObjFace), text.file());
+  // Each corner as it is read, in the table, and at worst as a vertex and a triangle of its own.
+  constexpr std::uint64_t kMeshBytes =
+      2 * sizeof(Vec3f) + sizeof(Vec2f) + 4 * sizeof(std::uint32_t);
+  constexpr std::uint64_t kTableBytes = 4 * sizeof(std::uint32_t) + sizeof(ObjCorner);
+  budget.charge(s.corners, sizeof(ObjCorner) + kTableBytes + kMeshBytes, text.file());
+}
+
+}  // namespace
+
+std::vector<Mesh> readObjGeometry(ObjText& text, MemoryBudget& budget, Warnings& warnings) {
+  chargeFor(text, budget);
+  return FaceReader(text, parseObj(text), warnings).run();
+}
+
+}  // namespace whit

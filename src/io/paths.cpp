@@ -1,0 +1,159 @@
+#include "io/paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+
+namespace whit {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kDataVariable = "$WHIT_DATA";
+
+fs::path realPath(const fs::path& path) {
+  std::error_code error;
+  const fs::path result = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path.lexically_normal() : result;
+}
+
+bool isBelow(const fs::path& path, const fs::path& folder) {
+  if (folder.empty()) return false;
+  const auto [inFolder, inPath] =
+      std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  // A folder written with a final separator has an empty last part.
+  return inFolder == folder.end() || inFolder->empty();
+}
+
+std::vector<fs::path> sceneFolders() {
+  std::vector<fs::path> folders;
+  if (const char* variable = std::getenv("WHIT_SCENES"); variable && *variable) {
+    folders.emplace_back(variable);
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back(program.parent_path() / "scenes");
+    folders.push_back(program.parent_path().parent_path() / "share/whit/scenes");
+    folders.push_back(program.parent_path().parent_path() / "scenes");
+  }
+  folders.emplace_back(WHIT_SCENES_DIR);
+  return folders;
+}
+
+std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+      if (i->path().extension() == ".json") names.push_back(i->path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace
+
+fs::path dataFolder() {
+  if (const char* variable = std::getenv("WHIT_DATA"); variable && *variable) return variable;
+  return fs::path(WHIT_SOURCE_DIR).parent_path() / "shared/data";
+}
+
+PathRules::PathRules(const fs::path& sceneFolder, bool allowOutside)
+    : sceneFolder_(realPath(sceneFolder)),
+      dataFolder_(realPath(dataFolder())),
+      allowOutside_(allowOutside) {}
+
+bool PathRules::inside(const fs::path& path) const {
+  return isBelow(path, sceneFolder_) || isBelow(path, dataFolder_);
+}
+
+fs::path PathRules::resolve(std::string text, const fs::path& folder, const std::string& where,
+                            bool backslashes) const {
+  if (text.empty()) throwBadScene(where, "expected the path of a file, found an empty string");
+  if (text.find('\0') != std::string::npos || text.find("://") != std::string::npos) {
+    throwBadScene(where, "expected the path of a file on this machine");
+  }
+  if (backslashes) std::replace(text.begin(), text.end(), '\\', '/');
+  fs::path path;
+  if (text.starts_with(kDataVariable)) {
+    if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {
+      throwBadScene(where, "expected \"$WHIT_DATA/...\", found \"" + text + "\"");
+    }
+    path = dataFolder() / fs::path(text.substr(kDataVariable.size())).relative_path();
+  } else {
+    path = folder / text;
+  }
+  const fs::path result = realPath(path);
+  if (!allowOutside_ && !inside(result)) {
+    throwBadScene(where, "\"" + text +
+                             "\" leaves the scene's folder and $WHIT_DATA (--allow-outside "
+                             "permits that)");
+  }
+  return result;
+}
+
+std::string readTextFile(const fs::path& path, std::uint64_t maxBytes) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) throwIo("cannot open " + path.string() + ": no such file");
+  if (!fs::is_regular_file(status)) throwIo("cannot read " + path.string() + ": not a file");
+  std::ifstream in(path, std::ios::binary);
+  const std::uint64_t size = fs::file_size(path, error);
+  if (!in || error) throwIo("cannot open " + path.string());
+  if (size > maxBytes) {
+    throwLimit(path.string() + " has " + std::to_string(size) + " bytes, more than the limit of " +
+               std::to_string(maxBytes));
+  }
+  std::string text(size, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uint64_t>(in.gcount()) != size) throwIo("cannot read " + path.string());
+  return text;
+}
+
+SceneName parseSceneName(const std::string& name) {
+  std::error_code error;
+  const std::size_t mark = name.find('?');
+  if (mark == std::string::npos || fs::exists(name, error)) return {name, {}};
+  SceneName result{name.substr(0, mark), {}};
+  for (std::size_t begin = mark + 1; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('&', begin), name.size());
+    const std::string part = name.substr(begin, end - begin);
+    const std::size_t equals = part.find('=');
+    const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
+    char* rest = nullptr;
+    const double value = std::strtod(number.c_str(), &rest);
+    if (equals == 0 || number.empty() || *rest != '\0' || !std::isfinite(value)) {
+      throwUsage("\"" + name + "\": expected name=number after the question mark, found \"" + part +
+                 "\"");
+    }
+    result.parameters[part.substr(0, equals)] = value;
+    begin = end + 1;
+  }
+  return result;
+}
+
+fs::path findScene(const std::string& file) {
+  const fs::path path(file);
+  if (path.has_extension() || path.has_parent_path()) return path;
+  const std::vector<fs::path> folders = sceneFolders();
+  for (const fs::path& folder : folders) {
+    const fs::path candidate = folder / (file + ".json");
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  }
+  const std::string nearest = nearestName(file, shippedNames(folders));
+  throwUsage("no scene is called \"" + file + "\"" +
+             (nearest.empty() ? std::string(" (no scenes found; is $WHIT_SCENES set?)")
+                              : "; did you mean \"" + nearest + "\"?"));
+}
+
+}  // namespace whit

@@ -1,0 +1,28 @@
+// Looking into decoded images before they become textures: alpha channels and height maps.
+#pragma once
+
+#include <string>
+
+#include "io/image_file.h"
+
+namespace whit {
+
+// Whether there is an alpha channel (2 or 4 channels) with a texel below opaque.
+bool hasTranslucentAlpha(const RawImage& raw);
+// The alpha channel as an image of one channel.
+RawImage alphaOf(const RawImage& raw);
+
+// Whether an image named as a bump map holds heights: one or two channels, or grey. Normal maps
+// are never grey: their blue is near 1 where red and green are near 1/2.
+bool looksLikeHeights(const RawImage& raw);
+
+// The width of a tile, in heights: `-bm 1` raises white above black by 1/kTileHeights of the tile.
+// The MTL format leaves that open; this value gives common bump maps a visible, moderate relief.
+inline constexpr float kTileHeights = 64;
+
+// Tangent-space normals (data; +y towards greater v) of the height field in the first channel, by
+// central differences.
+Texture normalsFromHeights(const std::string& name, const RawImage& raw, float bumpScale,
+                           Wrap wrapU, Wrap wrapV);
+
+}  // namespace whit

@@ -1,0 +1,49 @@
+// What the parts of the scene reader share.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/progress.h"
+#include "core/warnings.h"
+#include "io/load_scene.h"
+#include "io/memory_budget.h"
+#include "io/model.h"
+#include "io/paths.h"
+#include "io/texture_loader.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+struct SceneContext {
+  SceneContext(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings_,
+               Progress* progress_)
+      : folder(file.parent_path()),
+        rules(folder, options.allowOutside),
+        budget(options.maxMemoryBytes),
+        warnings(warnings_),
+        progress(progress_),
+        textures(options.threads, budget, warnings, progress) {
+    scene.name = file.stem().string();
+  }
+
+  // The model at `path`, opened once.
+  Model& model(const std::filesystem::path& path) {
+    std::unique_ptr<Model>& entry = models[path.string()];
+    if (!entry) entry = std::make_unique<Model>(path, rules, budget, warnings);
+    return *entry;
+  }
+
+  std::filesystem::path folder;
+  PathRules rules;
+  MemoryBudget budget;
+  Warnings& warnings;
+  Progress* progress;
+  SceneDescription scene;
+  std::map<std::string, std::unique_ptr<Model>> models;
+  TextureLoader textures;  // last: its workers write to the scene
+};
+
+}  // namespace whit

@@ -1,0 +1,187 @@
+#include "io/scene_items.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "io/scene_transform.h"
+#include "io/shape_parameters.h"
+
+namespace whit {
+namespace {
+
+// The member of "materials" that has to do with `name` is read; the rest must be names as well.
+[[noreturn]] void failSlot(const JsonValue& slot, const std::string& key,
+                           const std::vector<std::string>& names, const std::string& kind) {
+  const std::string nearest = nearestName(key, names);
+  throwBadScene(
+      slot.where(),
+      "unknown " + kind + (nearest.empty() ? std::string() : "; is \"" + nearest + "\" meant?"));
+}
+
+}  // namespace
+
+void ItemReader::read(JsonObject& file) {
+  const auto objects = file.find("objects");
+  if (objects) {
+    for (const auto& [name, value] : objects->members()) {
+      objects_.emplace(name, NamedObject{value});
+    }
+    for (const auto& [name, value] : objects->members()) readObject(objects_.at(name), name);
+  }
+  if (const auto scene = file.find("scene")) readItems(*scene, layout_.body(0));
+  layout_.moveTo(context_.scene);
+}
+
+void ItemReader::readModelAlone(const std::filesystem::path& path) {
+  Model& model = context_.model(path);
+  std::vector<std::uint32_t> materials;
+  for (const MtlMaterial& material : model.materials()) {
+    materials.push_back(materials_.add(
+        loadTextures(material, path.parent_path(), context_.rules, context_.textures)));
+  }
+  addMeshes(model, materials, layout_.body(0));
+  layout_.moveTo(context_.scene);
+}
+
+std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& name) {
+  using State = NamedObject::State;
+  if (object.state == State::reading) {
+    throwBadScene(object.definition.where(), "this object contains itself");
+  }
+  if (object.state == State::unread) {
+    object.state = State::reading;
+    object.body = layout_.add(name);
+    readItems(object.definition, layout_.body(object.body));
+    object.state = State::read;
+  }
+  return object.body;
+}
+
+std::uint32_t ItemReader::object(const JsonValue& name) {
+  const auto found = objects_.find(name.text());
+  if (found != objects_.end()) return readObject(found->second, found->first);
+  std::vector<std::string> names;
+  for (const auto& [known, object] : objects_) names.push_back(known);
+  const std::string nearest = nearestName(name.text(), names);
+  name.fail("the name of an object" +
+            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+}
+
+void ItemReader::readItems(const JsonValue& list, Body& to) {
+  const std::vector<JsonValue> items = list.elements();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    reportProgress(context_.progress, "reading scene",
+                   static_cast<double>(i) / static_cast<double>(items.size()));
+    readItem(items[i], to);
+  }
+}
+
+void ItemReader::readItem(const JsonValue& value, Body& to) {
+  JsonObject item(value);
+  Body content;
+  if (const auto shape = item.find("shape")) {
+    content = readShape(item, *shape);
+  } else if (const auto model = item.find("model")) {
+    content = readModel(item, *model);
+  } else if (const auto use = item.find("use")) {
+    content.children.push_back({object(*use), Affine()});
+  } else if (const auto group = item.find("group")) {
+    readItems(*group, content);
+  } else {
+    item.finish();
+    value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
+  }
+  const std::vector<Affine> placements = readPlacements(item);
+  item.finish();
+  layout_.append(content, placements, to);
+}
+
+Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
+  JsonShapeParameters parameters(item);
+  Shape shape = findGenerator(name, shapeGenerators())(parameters);
+  const auto everywhere = item.find("material");
+  const auto bySlot = item.find("materials");
+  std::map<std::string, std::uint32_t> slots;
+  if (bySlot) {
+    std::vector<std::string> names;
+    for (const ShapePart& part : shape.parts) names.push_back(part.slot);
+    for (const auto& [slot, material] : bySlot->members()) {
+      if (std::find(names.begin(), names.end(), slot) == names.end()) {
+        failSlot(material, slot, names, "slot of this shape");
+      }
+      slots[slot] = materials_.find(material);
+    }
+  }
+  Body content;
+  for (ShapePart& part : shape.parts) {
+    const auto slot = slots.find(part.slot);
+    const std::uint32_t material = slot != slots.end() ? slot->second
+                                   : everywhere        ? materials_.find(*everywhere)
+                                                       : materials_.defaultMaterial();
+    context_.budget.charge(part.mesh.triangles.size(), 3 * sizeof(std::uint32_t), name.where());
+    context_.budget.charge(part.mesh.positions.size(), 2 * sizeof(Vec3f) + sizeof(Vec2f),
+                           name.where());
+    part.mesh.materials = {material};
+    if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
+    content.parts.push_back({std::make_shared<const Mesh>(std::move(part.mesh)), Affine()});
+  }
+  if (shape.placements.empty()) return content;
+  const std::uint32_t body = layout_.add(name.text());
+  layout_.body(body) = std::move(content);
+  Body placed;
+  for (const Affine& placement : shape.placements) placed.children.push_back({body, placement});
+  return placed;
+}
+
+Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
+  const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
+  Model& model = context_.model(file);
+  Body content;
+  addMeshes(model, modelMaterials(model, item), content);
+  return content;
+}
+
+// Overrides first, then images are asked for: they are decoded while the faces are parsed.
+std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
+  std::vector<MtlMaterial> materials = model.materials();
+  if (const auto overrides = item.find("materials")) {
+    std::vector<std::string> names;
+    for (const MtlMaterial& material : materials) names.push_back(material.material.name);
+    const auto apply = [&](const JsonValue& value, MtlMaterial& material) {
+      JsonObject object(value);
+      materials_.override(object, material);
+      object.finish();
+    };
+    for (const auto& [name, value] : overrides->members()) {
+      if (name != "*") continue;
+      for (MtlMaterial& material : materials) apply(value, material);
+    }
+    for (const auto& [name, value] : overrides->members()) {
+      if (name == "*") continue;
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) failSlot(value, name, names, "material of this model");
+      apply(value, materials[static_cast<std::size_t>(found - names.begin())]);
+    }
+  }
+  std::vector<std::uint32_t> indices;
+  const auto folder = model.path().parent_path();
+  for (const MtlMaterial& material : materials) {
+    indices.push_back(
+        materials_.add(loadTextures(material, folder, context_.rules, context_.textures)));
+  }
+  return indices;
+}
+
+void ItemReader::addMeshes(Model& model, const std::vector<std::uint32_t>& materials, Body& to) {
+  reportProgress(context_.progress, "reading " + model.path().filename().string(), 0);
+  for (const Mesh& mesh : model.meshes()) {
+    auto copy = std::make_shared<Mesh>(mesh);
+    for (std::uint32_t& material : copy->materials) material = materials[material];
+    to.parts.push_back({std::move(copy), Affine()});
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,48 @@
+// The sections "objects" and "scene" of a scene file.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/json_reader.h"
+#include "io/scene_context.h"
+#include "io/scene_layout.h"
+#include "io/scene_materials.h"
+
+namespace whit {
+
+class ItemReader {
+ public:
+  ItemReader(SceneContext& context, MaterialReader& materials)
+      : context_(context), materials_(materials), layout_(context.budget) {}
+
+  // Fills in the scene's objects and instances.
+  void read(JsonObject& file);
+  // A scene that is a model and nothing else.
+  void readModelAlone(const std::filesystem::path& path);
+
+ private:
+  struct NamedObject {
+    JsonValue definition;
+    enum class State { unread, reading, read } state = State::unread;
+    std::uint32_t body = 0;
+  };
+
+  void readItems(const JsonValue& list, Body& to);
+  void readItem(const JsonValue& value, Body& to);
+  Body readShape(JsonObject& item, const JsonValue& name);
+  Body readModel(JsonObject& item, const JsonValue& path);
+  std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
+  void addMeshes(Model& model, const std::vector<std::uint32_t>& materials, Body& to);
+  std::uint32_t object(const JsonValue& name);
+  std::uint32_t readObject(NamedObject& object, const std::string& name);
+
+  SceneContext& context_;
+  MaterialReader& materials_;
+  SceneLayout layout_;
+  std::map<std::string, NamedObject> objects_;
+};
+
+}  // namespace whit

@@ -1,0 +1,98 @@
+#include "io/scene_layout.h"
+
+#include <limits>
+
+namespace whit {
+namespace {
+
+constexpr std::uint32_t kNoObject = 0xffffffffu;
+constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t saturatingSum(std::uint64_t a, std::uint64_t b) {
+  return a > kMany - b ? kMany : a + b;
+}
+
+std::uint64_t bytesOf(const Mesh& mesh) {
+  return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
+         mesh.uvs.size() * sizeof(Vec2f) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
+         mesh.materials.size() * sizeof(std::uint32_t);
+}
+
+// Bodies reachable from `body`, each behind all that it holds.
+void orderBodies(const std::deque<Body>& bodies, std::uint32_t body, std::vector<bool>& seen,
+                 std::vector<std::uint32_t>& order) {
+  if (seen[body]) return;
+  seen[body] = true;
+  for (const Placement& child : bodies[body].children) {
+    orderBodies(bodies, child.body, seen, order);
+  }
+  order.push_back(body);
+}
+
+}  // namespace
+
+std::uint32_t SceneLayout::add(const std::string& name) {
+  bodies_.push_back({name, {}, {}});
+  return static_cast<std::uint32_t>(bodies_.size() - 1);
+}
+
+void SceneLayout::append(const Body& from, const std::vector<Affine>& placements, Body& to) {
+  budget_.charge(from.parts.size() * sizeof(Part) + from.children.size() * sizeof(Placement),
+                 placements.size(), "repeated items");
+  for (const Affine& placement : placements) {
+    for (const Part& part : from.parts) to.parts.push_back({part.mesh, placement * part.toBody});
+    for (const Placement& child : from.children) {
+      to.children.push_back({child.body, placement * child.toParent});
+    }
+  }
+}
+
+void SceneLayout::moveTo(SceneDescription& scene) {
+  std::vector<std::uint32_t> order;
+  std::vector<bool> seen(bodies_.size());
+  orderBodies(bodies_, 0, seen, order);
+  counts_.assign(bodies_.size(), 0);
+  objects_.assign(bodies_.size(), kNoObject);
+  counts_[0] = 1;
+  std::uint64_t instances = 0;
+  for (auto body = order.rbegin(); body != order.rend(); ++body) {
+    instances = saturatingSum(instances, counts_[*body]);
+    for (const Placement& child : bodies_[*body].children) {
+      counts_[child.body] = saturatingSum(counts_[child.body], counts_[*body]);
+    }
+  }
+  budget_.charge(instances, sizeof(Instance), "instances");
+  place(0, Affine(), scene);
+}
+
+void SceneLayout::placeOnce(const Body& body, const Affine& toWorld, SceneDescription& scene) {
+  for (const Part& part : body.parts) {
+    // The last user of a mesh could take it; copies are charged, so that repetition is bounded.
+    budget_.charge(1, bytesOf(*part.mesh), "object " + body.name);
+    scene.instances.push_back(
+        {static_cast<std::uint32_t>(scene.objects.size()), toWorld * part.toBody});
+    scene.objects.push_back({part.mesh->name, {*part.mesh}});
+  }
+}
+
+void SceneLayout::place(std::uint32_t index, const Affine& toWorld, SceneDescription& scene) {
+  const Body& body = bodies_[index];
+  if (counts_[index] == 1) {
+    placeOnce(body, toWorld, scene);
+  } else if (!body.parts.empty()) {
+    if (objects_[index] == kNoObject) {
+      objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
+      Object object{body.name, {}};
+      for (const Part& part : body.parts) {
+        budget_.charge(1, bytesOf(*part.mesh), "object " + body.name);
+        object.meshes.push_back(*part.mesh);
+        if (!(part.toBody == Affine())) transform(object.meshes.back(), part.toBody);
+      }
+      scene.objects.push_back(std::move(object));
+    }
+    scene.instances.push_back({objects_[index], toWorld});
+  }
+  for (const Placement& child : body.children) place(child.body, toWorld * child.toParent, scene);
+}
+
+}  // namespace whit

@@ -1,0 +1,59 @@
+// What stands where while a scene file is read: bodies that hold meshes and other bodies.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/affine.h"
+#include "io/memory_budget.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+struct Part {
+  std::shared_ptr<const Mesh> mesh;
+  Affine toBody;
+};
+
+struct Placement {
+  std::uint32_t body = 0;
+  Affine toParent;
+};
+
+struct Body {
+  std::string name;
+  std::vector<Part> parts;
+  std::vector<Placement> children;
+};
+
+// Body 0 is the scene; a body may hold only bodies that were added before it is placed (no
+// circles).
+class SceneLayout {
+ public:
+  explicit SceneLayout(MemoryBudget& budget) : budget_(budget) { add("scene"); }
+
+  std::uint32_t add(const std::string& name);
+  Body& body(std::uint32_t index) { return bodies_[index]; }
+  // Adds `count` copies of what `from` holds to `to`, moved by `placements`.
+  void append(const Body& from, const std::vector<Affine>& placements, Body& to);
+
+  // Fills in objects and instances. A body that is placed once adds its meshes to the world one by
+  // one, each with its own map, so that vertices are rounded once; one that is placed more often
+  // becomes an object with an instance for each place.
+  void moveTo(SceneDescription& scene);
+
+ private:
+  void count(std::uint32_t body, std::vector<std::uint64_t>& counts) const;
+  void place(std::uint32_t body, const Affine& toWorld, SceneDescription& scene);
+  void placeOnce(const Body& body, const Affine& toWorld, SceneDescription& scene);
+
+  MemoryBudget& budget_;
+  std::deque<Body> bodies_;  // a deque: references stay valid
+  std::vector<std::uint64_t> counts_;
+  std::vector<std::uint32_t> objects_;  // of bodies placed more than once
+};
+
+}  // namespace whit

@@ -1,0 +1,199 @@
+#include "io/scene_materials.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "io/shape_parameters.h"
+
+namespace whit {
+namespace {
+
+constexpr double kLeastIor = 0.1, kLargestIor = 10;
+constexpr int kLargestPriority = 1000;
+
+std::vector<std::string> useNames() { return {"colour", "data"}; }
+
+const char* formatName(TexelFormat format) {
+  return format == TexelFormat::colour ? "colour" : "data";
+}
+
+TexelFormat formatOf(TextureUse use) {
+  return use == TextureUse::colour ? TexelFormat::colour : TexelFormat::data;
+}
+
+Wrap readWrapWord(const JsonValue& value) {
+  const std::string word = value.word({"repeat", "mirror", "clamp"});
+  return word == "repeat" ? Wrap::repeat : word == "mirror" ? Wrap::mirror : Wrap::clamp;
+}
+
+void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
+  const auto value = object.find("wrap");
+  if (!value) return;
+  if (value->isArray()) {
+    const auto both = value->elements(2, "one way to wrap, or two [u, v]");
+    u = readWrapWord(both[0]);
+    v = readWrapWord(both[1]);
+  } else {
+    u = v = readWrapWord(*value);
+  }
+}
+
+Texture makePattern(JsonObject& object, const JsonValue& pattern) {
+  JsonShapeParameters parameters(object);
+  Texture made = findGenerator(pattern, patternGenerators())(parameters);
+  readWrap(object, made.wrapU, made.wrapV);
+  object.finish();
+  return made;
+}
+
+template <typename Entries>
+typename Entries::const_iterator findNamed(const Entries& entries, const JsonValue& name,
+                                           const std::string& kind) {
+  const auto found = entries.find(name.text());
+  if (found != entries.end()) return found;
+  std::vector<std::string> names;
+  for (const auto& [known, entry] : entries) names.push_back(known);
+  const std::string nearest = nearestName(name.text(), names);
+  name.fail("the name of a " + kind +
+            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+}
+
+[[noreturn]] void failFormat(const JsonValue& name, TexelFormat is, TexelFormat needed) {
+  name.fail("a texture that is read as " + std::string(formatName(needed)) + " (this one is " +
+            formatName(is) + ")");
+}
+
+}  // namespace
+
+MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {
+  if (const auto textures = file.find("textures")) {
+    for (const auto& [name, value] : textures->members()) {
+      if (!value.isObject()) value.fail("an object");
+      textures_.emplace(name, NamedTexture{value, {}});
+    }
+  }
+  const auto materials = file.find("materials");
+  if (!materials) return;
+  for (const auto& [name, value] : materials->members()) {
+    JsonObject object(value);
+    Material material;
+    material.name = name;
+    read(object, material);
+    object.finish();
+    materials_.emplace(name, add(material));
+  }
+}
+
+std::uint32_t MaterialReader::find(const JsonValue& name) const {
+  return findNamed(materials_, name, "material")->second;
+}
+
+std::uint32_t MaterialReader::add(Material material) {
+  context_.scene.materials.push_back(std::move(material));
+  return static_cast<std::uint32_t>(context_.scene.materials.size() - 1);
+}
+
+std::uint32_t MaterialReader::defaultMaterial() {
+  if (!default_) {
+    Material material;
+    material.name = "default";
+    default_ = add(material);
+  }
+  return *default_;
+}
+
+std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& name,
+                                  TextureUse use) {
+  JsonObject object(definition);
+  if (const auto pattern = object.find("pattern")) {
+    Texture made = makePattern(object, *pattern);
+    if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
+    made.name = name.text();
+    return context_.textures.add(std::move(made));
+  }
+  const JsonValue image = object.need("image");
+  TextureSource source;
+  source.where = image.where();
+  source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
+  readWrap(object, source.wrapU, source.wrapV);
+  if (const auto as = object.find("as")) {
+    const bool data = as->word(useNames()) == "data";
+    const TexelFormat is = data ? TexelFormat::data : TexelFormat::colour;
+    if (is != formatOf(use)) failFormat(name, is, formatOf(use));
+    use = data ? TextureUse::data : TextureUse::colour;
+  }
+  object.finish();
+  return context_.textures.add(source, {use})[0];
+}
+
+std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
+  findNamed(textures_, name, "texture");
+  NamedTexture& named = textures_.at(name.text());
+  const auto known = named.slots.find(use);
+  if (known != named.slots.end()) return known->second;
+  return named.slots[use] = load(named.definition, name, use);
+}
+
+void MaterialReader::checkUnused() {
+  for (const auto& [name, texture] : textures_) {
+    if (!texture.slots.empty()) continue;
+    JsonObject object(texture.definition);
+    const auto as = object.find("as");
+    if (const auto pattern = object.find("pattern"); pattern && !as) {
+      makePattern(object, *pattern);
+    } else {
+      const bool data = as && as->word(useNames()) == "data";
+      load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::colour);
+    }
+  }
+}
+
+void MaterialReader::readMap(JsonObject& object, const std::string& key, TextureUse use,
+                             std::int32_t& map) {
+  const auto name = object.find(key);
+  if (name) map = name->isNull() ? kNoTexture : texture(*name, use);
+}
+
+void MaterialReader::read(JsonObject& object, Material& m) {
+  m.diffuse = object.colour("diffuse", m.diffuse, 1);
+  readMap(object, "diffuseMap", TextureUse::colour, m.diffuseMap);
+  m.specular = object.colour("specular", m.specular, 1);
+  readMap(object, "specularMap", TextureUse::colour, m.specularMap);
+  m.roughness = object.number("roughness", m.roughness, 0, 1);
+  m.emission = object.colour("emission", m.emission);
+  readMap(object, "normalMap", TextureUse::data, m.normalMap);
+  readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
+  m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);
+  const bool mirrorGiven = object.has("mirror");
+  m.mirror = object.colour("mirror", m.mirror, 1);
+  m.mirrorGrazing = object.colour("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
+  const bool transmissionGiven = object.has("transmission");
+  m.transmission = object.colour("transmission", m.transmission, 1);
+  m.ior = object.number("ior", m.ior, kLeastIor, kLargestIor);
+  m.absorption = object.colour("absorption", m.absorption);
+  if (const auto priority = object.find("priority")) {
+    m.priority = priority->integer(-kLargestPriority, kLargestPriority);
+  }
+  if (const auto castsShadow = object.find("castsShadow")) {
+    m.castsShadow = castsShadow->flag();
+  } else if (transmissionGiven) {
+    m.castsShadow = !m.hasTransmission();
+  }
+}
+
+void MaterialReader::override(JsonObject& object, MtlMaterial& source) {
+  read(object, source.material);
+  if (object.has("diffuseMap")) source.diffuse.name.clear();
+  if (object.has("specularMap")) source.specular.name.clear();
+  if (object.has("normalMap")) {
+    source.normal.name.clear();
+    source.bump.name.clear();
+  }
+  if (object.has("alphaMap")) {
+    source.alpha.name.clear();
+    source.alphaFromDiffuse = false;
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,133 @@
+#include "io/scene_view.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/options.h"
+
+namespace whit {
+namespace {
+
+constexpr double kLeastFov = 0.01, kLargestFov = 179;
+constexpr double kLeastRadius = 1e-6;
+
+// The fields that are given; the others stay.
+void readCamera(JsonObject& object, Camera& camera) {
+  camera.eye = object.vector("eye", camera.eye);
+  camera.at = object.vector("at", camera.at);
+  camera.up = object.vector("up", camera.up);
+  camera.fov = object.number("fov", camera.fov, kLeastFov, kLargestFov);
+  const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
+  if (forward == Vec3d()) object.value().fail("eye and at to differ");
+  const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
+  constexpr double kLeastSine = 1e-6;
+  if (!(length(right) > kLeastSine)) object.value().fail("an up that is not along the view");
+}
+
+void readPath(JsonObject& file, SceneDescription& scene) {
+  const auto path = file.find("path");
+  if (!path) return;
+  Camera camera = scene.cameras.empty() ? Camera() : scene.cameras.front();
+  for (const JsonValue& value : path->elements()) {
+    JsonObject object(value);
+    Keyframe frame;
+    frame.time = static_cast<float>(object.need("time").number());
+    if (!scene.cameraPath.empty() && !(frame.time > scene.cameraPath.back().time)) {
+      object.need("time").fail("a time after that of the keyframe before");
+    }
+    readCamera(object, camera);
+    object.finish();
+    frame.camera = camera;
+    frame.camera.name = "path";
+    scene.cameraPath.push_back(frame);
+  }
+}
+
+}  // namespace
+
+void readCameras(JsonObject& file, SceneDescription& scene) {
+  if (const auto size = file.find("size")) {
+    const auto sides = size->elements(2, "[width, height]");
+    scene.width = sides[0].integer(1, kImageSideLimit);
+    scene.height = sides[1].integer(1, kImageSideLimit);
+  }
+  if (const auto cameras = file.find("cameras")) {
+    for (const auto& [name, value] : cameras->members()) {
+      JsonObject object(value);
+      object.need("eye");
+      object.need("at");
+      Camera camera;
+      camera.name = name;
+      readCamera(object, camera);
+      object.finish();
+      scene.cameras.push_back(camera);
+    }
+  }
+  readPath(file, scene);
+}
+
+void readLights(JsonObject& file, SceneDescription& scene) {
+  const auto lights = file.find("lights");
+  if (!lights) return;
+  for (const JsonValue& value : lights->elements()) {
+    JsonObject object(value);
+    PointLight light;
+    const auto name = object.find("name");
+    light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
+    light.position = Vec3f(object.need("position").vector());
+    light.intensity = object.need("intensity").colour();
+    light.radius = object.number("radius", light.radius, kLeastRadius);
+    object.finish();
+    scene.lights.push_back(light);
+  }
+}
+
+void readSky(JsonObject& file, SceneContext& context) {
+  const auto value = file.find("sky");
+  if (!value) return;
+  JsonObject object(*value);
+  Sky& sky = context.scene.sky;
+  sky.scale = object.number("scale", sky.scale, 0);
+  if (const auto image = object.find("image")) {
+    sky.kind = Sky::Kind::image;
+    sky.rotation = object.number("rotation", sky.rotation);
+    const auto path = context.rules.resolve(image->text(), context.folder, image->where());
+    context.textures.addEnvironment(path.string(), sky.image);
+  } else if (const auto colour = object.find("colour")) {
+    sky.kind = Sky::Kind::colour;
+    sky.zenith = sky.horizon = sky.ground = colour->colour();
+  } else if (const auto zenith = object.find("zenith")) {
+    sky.kind = Sky::Kind::gradient;
+    sky.zenith = zenith->colour();
+    sky.horizon = object.need("horizon").colour();
+    sky.ground = object.need("ground").colour();
+  } else {
+    object.finish();
+    value->fail(
+        "a sky with \"colour\", with \"zenith\", \"horizon\" and \"ground\", or with \"image\"");
+  }
+  object.finish();
+}
+
+std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
+  const auto value = file.find("ambient");
+  if (!value) return std::nullopt;
+  JsonObject object(*value);
+  std::optional<double> fromSky;
+  if (const auto strength = object.find("fromSky")) {
+    fromSky = strength->number(0);
+    if (scene.sky.kind == Sky::Kind::none) strength->fail("a scene with a sky");
+  } else if (const auto colour = object.find("colour")) {
+    scene.ambient.up = scene.ambient.down = colour->colour();
+  } else if (const auto up = object.find("up")) {
+    scene.ambient.up = up->colour();
+    scene.ambient.down = object.need("down").colour();
+  } else {
+    object.finish();
+    value->fail("\"fromSky\", \"colour\", or \"up\" and \"down\"");
+  }
+  object.finish();
+  return fromSky;
+}
+
+}  // namespace whit

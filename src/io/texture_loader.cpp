@@ -1,0 +1,129 @@
+#include "io/texture_loader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.h"
+#include "io/raw_channels.h"
+
+namespace whit {
+namespace {
+
+// Nothing: the image has no such texture.
+std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
+                               const TextureSource& source) {
+  switch (use) {
+    case TextureUse::colour:
+      return makeTexture(name, raw, TexelFormat::colour);
+    case TextureUse::data:
+      return makeTexture(name, raw, TexelFormat::data);
+    case TextureUse::bump:
+      if (!looksLikeHeights(raw)) return makeTexture(name, raw, TexelFormat::data);
+      return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
+    case TextureUse::mask:
+      return makeTexture(name, hasTranslucentAlpha(raw) ? alphaOf(raw) : raw, TexelFormat::data);
+    case TextureUse::colourAlpha:
+      if (!hasTranslucentAlpha(raw)) return std::nullopt;
+      return makeTexture(name, alphaOf(raw), TexelFormat::data);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TextureLoader::TextureLoader(int threads, MemoryBudget& budget, Warnings& warnings,
+                             Progress* progress)
+    : budget_(budget), warnings_(warnings), queue_(threads, progress, "decoding textures") {}
+
+std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
+                                             const std::vector<TextureUse>& uses) {
+  std::vector<std::int32_t> slots, newSlots;
+  std::vector<TextureUse> newUses;
+  for (const TextureUse use : uses) {
+    const Key key{source.path, use, source.wrapU, source.wrapV,
+                  use == TextureUse::bump ? source.bumpScale : 1.0f};
+    const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
+    slots.push_back(entry->second);
+    if (!isNew) continue;
+    slots_.emplace_back();
+    newSlots.push_back(entry->second);
+    newUses.push_back(use);
+  }
+  if (!newUses.empty()) {
+    std::vector<std::optional<Texture>*> targets;
+    for (const std::int32_t slot : newSlots) {
+      targets.push_back(&slots_[static_cast<std::size_t>(slot)]);
+    }
+    queue_.add([this, source, newUses, targets] { decode(source, newUses, targets); });
+  }
+  return slots;
+}
+
+std::int32_t TextureLoader::add(Texture texture) {
+  budget_.charge(texture.texels.size(), sizeof(std::uint32_t), "texture " + texture.name);
+  slots_.emplace_back(std::move(texture));
+  return static_cast<std::int32_t>(slots_.size() - 1);
+}
+
+void TextureLoader::addEnvironment(const std::string& path, EnvironmentImage& image) {
+  queue_.add([this, path, &image] {
+    const RawImage raw = read(path);
+    budget_.charge(static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height),
+                   3 * sizeof(float), path);
+    image = makeEnvironment(raw);
+  });
+}
+
+RawImage TextureLoader::read(const std::string& path) {
+  ImageLimits limits;
+  limits.bytes = std::min(limits.bytes, budget_.left());
+  return readRawImage(path, limits, warnings_);
+}
+
+void TextureLoader::decode(const TextureSource& source, const std::vector<TextureUse>& uses,
+                           const std::vector<std::optional<Texture>*>& targets) {
+  RawImage raw;
+  try {
+    raw = read(source.path);
+  } catch (const Error& error) {
+    if (!source.lenient || error.status() == ExitStatus::limit) throw;
+    warnings_.add("texture left out", source.where + ": " + error.what());
+    return;
+  }
+  const std::string name = std::filesystem::path(source.path).filename().string();
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    budget_.charge(static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height),
+                   sizeof(std::uint32_t), source.path);
+    std::optional<Texture> texture = makeUse(name, raw, uses[i], source);
+    if (texture) {
+      texture->wrapU = source.wrapU;
+      texture->wrapV = source.wrapV;
+    }
+    *targets[i] = std::move(texture);
+  }
+}
+
+void TextureLoader::finish(SceneDescription& scene) {
+  queue_.finish();
+  // Only what some material refers to is kept: a colour without alpha leaves an empty slot, and an
+  // override may have replaced a map.
+  std::vector<std::int32_t> number(slots_.size(), kNoTexture);
+  const auto renumber = [&](std::int32_t& map) {
+    if (map == kNoTexture) return;
+    const std::size_t slot = static_cast<std::size_t>(map);
+    if (number[slot] == kNoTexture && slots_[slot]) {
+      number[slot] = static_cast<std::int32_t>(scene.textures.size());
+      scene.textures.push_back(std::move(*slots_[slot]));
+    }
+    map = number[slot];
+  };
+  for (Material& material : scene.materials) {
+    renumber(material.diffuseMap);
+    renumber(material.specularMap);
+    renumber(material.normalMap);
+    renumber(material.alphaMap);
+  }
+}
+
+}  // namespace whit

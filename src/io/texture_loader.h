@@ -1,0 +1,69 @@
+// The textures of a scene that is being read: each image is decoded once for each use that is made
+// of it, beside the reading of everything else.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/warnings.h"
+#include "io/decode_queue.h"
+#include "io/image_file.h"
+#include "io/memory_budget.h"
+#include "scene/material.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+// What an image is used for.
+enum class TextureUse {
+  colour,
+  data,
+  bump,         // a height map becomes a normal map, a normal map stays what it is
+  mask,         // alpha, if any texel is not opaque; else the first channel
+  colourAlpha,  // alpha, if any texel is not opaque; else no texture at all
+};
+
+struct TextureSource {
+  std::string path;
+  std::string where;  // who named it
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  float bumpScale = 1;
+  bool lenient = false;  // an image that cannot be read is a warning, and there is no texture
+};
+
+// Materials refer to slots until finish() numbers the textures that there are.
+class TextureLoader {
+ public:
+  TextureLoader(int threads, MemoryBudget& budget, Warnings& warnings, Progress* progress);
+
+  // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
+  // use gives the same slot again.
+  std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
+  std::int32_t add(Texture texture);
+  // The equirectangular map at `path`, in `sky` after finish().
+  void addEnvironment(const std::string& path, EnvironmentImage& image);
+
+  // Waits for all images, moves them to scene.textures and replaces the slots in its materials by
+  // their indices there. Throws what the decoding of an image threw.
+  void finish(SceneDescription& scene);
+
+ private:
+  using Key = std::tuple<std::string, TextureUse, Wrap, Wrap, float>;
+
+  void decode(const TextureSource& source, const std::vector<TextureUse>& uses,
+              const std::vector<std::optional<Texture>*>& targets);
+  RawImage read(const std::string& path);
+
+  MemoryBudget& budget_;
+  Warnings& warnings_;
+  std::deque<std::optional<Texture>> slots_;  // a deque: tasks keep references
+  std::map<Key, std::int32_t> known_;
+  DecodeQueue queue_;  // last: its workers write to the rest
+};
+
+}  // namespace whit
