@@ -24,9 +24,9 @@ struct TriangleHit {
 // the plane or the triangle has no area.
 std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
 
-// The same, but only hits on the triangle, border included, with t > 0. Two triangles that share an
-// edge decide with the same numbers on which side of it a ray passes, so none slips between them
-// (the edge tests of Embree's robust mode, in double).
+// The same, but only hits on the triangle, border included, with t > 0. Nothing slips between
+// triangles that share an edge or a corner (Woop, Benthin and Wald 2013, "Watertight ray/triangle
+// intersection"; border hits count for every triangle that they touch).
 std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corners);
 
 // The hit that a candidate stands for, computed again: u, v >= 0, u + v <= 1, t > 0. Rounding may
