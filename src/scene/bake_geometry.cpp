@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene/classify_triangles.h"
 #include "scene/finalize_steps.h"
 #include "scene/triangle_record.h"
 
@@ -10,41 +11,13 @@ namespace whit {
 namespace {
 
 constexpr std::uint64_t kIndexLimit = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint8_t kDropped = kTriangleClasses;
 
 // A mesh on its way into a geometry.
 struct Source {
   Mesh* mesh = nullptr;
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
-  // Class or kDropped, one a triangle; empty where all triangles are of `onlyClass`.
-  std::vector<std::uint8_t> classes;
-  std::uint8_t onlyClass = kDropped;
-  std::array<std::uint32_t, kTriangleClasses + 1> count{};
-
-  bool has(std::size_t triangle, std::size_t wanted) const {
-    return (classes.empty() ? onlyClass : classes[triangle]) == wanted;
-  }
-  bool isDone() const {
-    return std::all_of(count.begin(), count.begin() + kDropped, [](auto n) { return n == 0; });
-  }
-};
-
-// Something mended in one mesh: how often, and where first.
-struct Tally {
-  std::uint64_t count = 0;
-  std::size_t first = 0;
-  void add(std::size_t triangle, std::uint64_t times = 1) {
-    if (count == 0) first = triangle;
-    count += times;
-  }
-  void report(Warnings& warnings, const char* kind, const Mesh& mesh) const {
-    warnings.add(kind, "mesh '" + mesh.name + "', triangle " + std::to_string(first), count);
-  }
-};
-
-struct Dropped {
-  Tally badIndex, badCorner, degenerate;
+  TriangleClassification classified;
 };
 
 struct Box {
@@ -54,8 +27,6 @@ struct Box {
     upper = max(upper, p);
   }
 };
-
-bool isUsable(const Vec3f& p) { return isFinite(p) && maxComponent(abs(p)) <= kLargestCoordinate; }
 
 class Baker {
  public:
@@ -76,9 +47,6 @@ class Baker {
  private:
   void plan();
   void place(std::size_t g);
-  void classify(Source& source, const Geometry& geometry);
-  std::uint8_t classOf(const Mesh& mesh, std::size_t triangle, const Vec3f* position,
-                       std::size_t vertices, Dropped& dropped) const;
   void dropEmptyGeometries();
   void reserveTables();
   void emit(std::size_t g);
@@ -139,55 +107,16 @@ void Baker::place(std::size_t g) {
     source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
     const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
     geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
-    classify(source, geometry);
+    source.classified =
+        classifyTriangles(*source.mesh, geometry.position.data() + source.firstVertex,
+                          positions.size(), uses_, warnings_);
     for (std::size_t c = 0; c < kTriangleClasses; ++c) {
-      geometry.classBegin[c + 1] += source.count[c];
+      geometry.classBegin[c + 1] += source.classified.count[c];
     }
   }
   for (std::size_t c = 0; c < kTriangleClasses; ++c) {
     geometry.classBegin[c + 1] += geometry.classBegin[c];
   }
-}
-
-void Baker::classify(Source& source, const Geometry& geometry) {
-  const Mesh& mesh = *source.mesh;
-  const Vec3f* position = geometry.position.data() + source.firstVertex;
-  const std::size_t vertices = geometry.position.size() - source.firstVertex;
-  Dropped dropped;
-  source.classes.resize(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    source.classes[i] = classOf(mesh, i, position, vertices, dropped);
-    ++source.count[source.classes[i]];
-  }
-  dropped.badIndex.report(warnings_, "triangle with a vertex index out of range dropped", mesh);
-  dropped.badCorner.report(warnings_, "triangle with a non-finite or enormous corner dropped",
-                           mesh);
-  dropped.degenerate.report(warnings_, "degenerate triangle dropped", mesh);
-  for (std::uint8_t c = 0; c <= kDropped; ++c) {
-    if (source.count[c] != mesh.triangles.size()) continue;
-    source.onlyClass = c;
-    source.classes = {};
-    return;
-  }
-}
-
-std::uint8_t Baker::classOf(const Mesh& mesh, std::size_t triangle, const Vec3f* position,
-                            std::size_t vertices, Dropped& dropped) const {
-  const auto& [i, j, k] = mesh.triangles[triangle];
-  if (i >= vertices || j >= vertices || k >= vertices) {
-    dropped.badIndex.add(triangle);
-    return kDropped;
-  }
-  const Vec3f &a = position[i], &b = position[j], &c = position[k];
-  if (!isUsable(a) || !isUsable(b) || !isUsable(c)) {
-    dropped.badCorner.add(triangle);
-    return kDropped;
-  }
-  if (areaVector(a, b, c) == Vec3d{}) {
-    dropped.degenerate.add(triangle);
-    return kDropped;
-  }
-  return uses_[mesh.material(triangle)].triangleClass;
 }
 
 // A geometry of which nothing is left takes its instances with it.
@@ -226,10 +155,13 @@ void Baker::emit(std::size_t g) {
   geometry.index.reserve(geometry.classBegin.back());
   for (std::size_t c = 0; c < kTriangleClasses; ++c) {
     for (Source& source : sources_[g]) {
-      if (source.count[c] == 0) continue;
+      auto& count = source.classified.count;
+      if (count[c] == 0) continue;
       emitClass(source, c, geometry, boxes_[g]);
-      source.count[c] = 0;
-      if (source.isDone()) *source.mesh = {};
+      count[c] = 0;
+      const bool done = std::all_of(count.begin(), count.begin() + kTriangleClasses,
+                                    [](std::uint32_t n) { return n == 0; });
+      if (done) *source.mesh = {};
       reportProgress(progress_, "baking geometry",
                      static_cast<double>(scene_.triangles.size()) /
                          static_cast<double>(scene_.triangles.capacity()));
@@ -241,7 +173,7 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
   const Mesh& mesh = *source.mesh;
   Tally badUv, badNormal;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!source.has(i, wanted)) continue;
+    if (!source.classified.has(i, wanted)) continue;
     auto corners = mesh.triangles[i];
     for (std::uint32_t& corner : corners) {
       corner += source.firstVertex;
@@ -272,7 +204,12 @@ void Baker::addInstances() {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
                     corner & 4 ? own.upper.z : own.lower.z};
-      box.add(Vec3f(instance.toWorld.point(Vec3d(p))));
+      const Vec3d world = instance.toWorld.point(Vec3d(p));
+      if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
+        throwBadScene("instance of geometry " + std::to_string(instance.geometry),
+                      "expected coordinates up to 1.844e18 after its transform");
+      }
+      box.add(Vec3f(world));
     }
   }
   if (scene_.instancedTriangles == 0) return;

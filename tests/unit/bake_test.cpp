@@ -10,6 +10,7 @@ namespace whit {
 namespace {
 
 using test::corner;
+using test::expectError;
 using test::faceOf;
 using test::finalized;
 using test::normalOf;
@@ -143,6 +144,14 @@ TEST(Bake, GeometriesOfWhichNothingIsLeftTakeTheirInstancesAlong) {
   ASSERT_EQ(scene.instances.size(), 2u);
   for (const InstanceRecord& i : scene.instances) EXPECT_EQ(i.geometry, 1u);
   EXPECT_EQ(scene.geometries[1].index.size(), 2u);
+}
+
+TEST(Bake, InstancesMayNotLeaveTheRangeOfCoordinates) {
+  Mesh mesh = square();
+  for (Vec3f& p : mesh.positions) p *= 1e10f;
+  SceneDescription d = sceneOf(mesh);
+  d.instances.push_back({0, Affine::scaling(Vec3d(1e9))});
+  expectError(ExitStatus::badScene, {"instance", "1.844e18"}, [&] { finalized(std::move(d)); });
 }
 
 TEST(Bake, TrianglesAreSortedByClassAndKeepTheirOrder) {
