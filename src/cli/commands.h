@@ -1,0 +1,30 @@
+// The subcommands, one file each. They take the words after their name and return the exit status.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whit::cli {
+
+using Words = std::vector<std::string>;
+
+int renderCommand(const Words& words);
+int benchCommand(const Words& words);
+int compareCommand(const Words& words);
+int infoCommand(const Words& words);
+int mergeCommand(const Words& words);
+
+struct Command {
+  const char *name, *summary;
+  int (*run)(const Words& words);
+};
+
+inline constexpr Command kCommands[] = {
+    {"render", "one image, or the frames of a scene's camera path", renderCommand},
+    {"bench", "how long a frame takes, by stage and by kind of ray", benchCommand},
+    {"compare", "packets against the scalar reference, or two images", compareCommand},
+    {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
+    {"merge", "crops of one image, put together", mergeCommand},
+};
+
+}  // namespace whit::cli

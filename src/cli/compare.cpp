@@ -1,0 +1,154 @@
+// whit compare: packets against the scalar reference, or two images.
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/image_output.h"
+#include "cli/interrupt.h"
+#include "cli/json_report.h"
+#include "cli/open_scene.h"
+#include "cli/progress_bar.h"
+#include "core/error.h"
+#include "render/path_flips.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kUsage =
+    "whit compare SCENE [options]\n"
+    "       whit compare A B [options]";
+constexpr const char* kSummary =
+    "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two; or\n"
+    "compares the image files A and B, of which B counts as the reference.";
+
+struct CompareJob {
+  CommonOptions common;
+  std::vector<std::string> subjects;
+  std::optional<double> tolerance;
+  bool stages = false;
+  std::string heatmap, json;
+};
+
+struct Compared {
+  Comparison numbers;
+  Image a, b;
+};
+
+OptionList listOptions(CompareJob& job) {
+  OptionList list;
+  list.group("Comparing");
+  list.flag("stages", "also each vector stage against its scalar twin", job.stages);
+  list.value({"tolerance", "X", 0}, "largest RMSE that passes; else the exit status is 1",
+             job.tolerance);
+  list.value({"heatmap", "FILE"}, "PNG of the differences, in 8-bit steps", job.heatmap);
+  list.value({"json", "FILE"}, "the numbers for machines; - is standard output", job.json);
+  listCommonOptions(list, job.common);
+  list.operands("SCENE, or A B", "a scene, or two image files", 1, 2, job.subjects);
+  return list;
+}
+
+Compared compareFiles(const CompareJob& job) {
+  if (job.stages) throwUsage("--stages needs a scene, not two images");
+  Warnings warnings(job.common.render.strict);
+  Compared result;
+  result.a = readImage(job.subjects[0], ImageLimits(), warnings);
+  result.b = readImage(job.subjects[1], ImageLimits(), warnings);
+  if (!job.common.quiet) tellWarnings(warnings);
+  return result;
+}
+
+Compared compareModes(const CompareJob& job) {
+  const auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  const auto open = openScene(job.subjects[0], job.common, progress.get());
+  Renderer renderer(open->scene, job.common.render, progress.get());
+  const Camera camera = chooseCamera(open->scene, job.common.render);
+  Film packets = openFilm(open->scene, job.common), reference = packets;
+  Compared result;
+  result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
+  result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
+  const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;
+  result.numbers.pathFlipsPerMpx =
+      static_cast<double>(countPathFlips(renderer, camera, packets)) / megapixels;
+  if (job.stages) {
+    Film scratch = openFilm(open->scene, job.common);
+    result.numbers.stages = compareStages(renderer, camera, scratch);
+  }
+  result.a = std::move(packets.image);
+  result.b = std::move(reference.image);
+  return result;
+}
+
+void printNumbers(FILE* out, const Comparison& c) {
+  const ImageDifference& d = c.difference;
+  std::fprintf(out, "%-26s%.6g\n", "RMSE (linear)", d.rmse);
+  std::fprintf(out, "%-26s%.6g\n", "relMSE", d.relmse);
+  std::fprintf(out, "%-26s%.2f dB\n", "PSNR", d.psnrDb);
+  std::fprintf(out, "%-26s%.6f\n", "FLIP, mean", d.flipMean);
+  std::fprintf(out, "%-26s%d\n", "largest 8-bit difference", d.maxCode);
+  std::fprintf(out, "%-26s%.4f %%\n", "pixels off by 1 or more", d.pixelsGe1CodePct);
+  std::fprintf(out, "%-26s%.4f %%\n", "pixels off by 2 or more", d.pixelsGe2CodesPct);
+  std::fprintf(out, "%-26s%.6f\n", "energy of A over B", d.energyRatio);
+  std::fprintf(out, "%-26s%llu\n", "pixels not finite",
+               static_cast<unsigned long long>(d.nonFinite));
+  if (c.pathFlipsPerMpx) {
+    std::fprintf(out, "%-26s%.1f per million pixels\n", "other path", *c.pathFlipsPerMpx);
+  }
+  if (c.timeMsA && c.timeMsB) {
+    std::fprintf(out, "%-26s%.1f ms, %.1f ms\n", "time of A, B", *c.timeMsA, *c.timeMsB);
+  }
+}
+
+void printStages(FILE* out, const std::vector<StageDifference>& rows) {
+  std::fprintf(out, "\n%-34s%-22s%12s%12s%12s  %s\n", "stage", "column", "slots", "worst ulp",
+               "limit ulp", "at");
+  for (const StageDifference& row : rows) {
+    std::fprintf(out, "%-34s%-22s%12llu%12.3g%12.3g  %d,%d depth %d%s\n",
+                 kStageNames[static_cast<std::size_t>(row.stage)].data(), row.column.c_str(),
+                 static_cast<unsigned long long>(row.slots), row.worstUlp, row.limitUlp, row.pixelX,
+                 row.pixelY, row.depth, row.worstUlp <= row.limitUlp ? "" : "  TOO FAR");
+  }
+}
+
+// Written so that a NaN fails.
+bool passes(const CompareJob& job, const Comparison& comparison) {
+  if (job.tolerance && !(comparison.difference.rmse <= *job.tolerance)) return false;
+  if (!comparison.stages) return true;
+  for (const StageDifference& row : *comparison.stages) {
+    if (!(row.worstUlp <= row.limitUlp)) return false;
+  }
+  return true;
+}
+
+void writeHeatMap(const CompareJob& job, const Compared& compared) {
+  const WriteScope scope;
+  ImageMetadata metadata{{"a", job.subjects[0]}, {"b", job.subjects.back()}};
+  if (job.subjects.size() == 1) metadata = {{"a", "packets"}, {"b", "reference"}};
+  writePng(job.heatmap, heatMap(compared.a, compared.b), metadata);
+}
+
+}  // namespace
+
+int compareCommand(const Words& words) {
+  CompareJob job;
+  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  settleOptions(job.common);
+  requireJsonWritable(job.json);
+  if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
+  Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
+  compared.numbers.difference = compareImages(compared.a, compared.b, job.common.render.exposure,
+                                              job.common.render.toneCurve);
+  FILE* const people = job.json == "-" ? stderr : stdout;
+  if (people == stdout || !job.common.quiet) {
+    printNumbers(people, compared.numbers);
+    if (compared.numbers.stages) printStages(people, *compared.numbers.stages);
+  }
+  if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
+  if (!job.heatmap.empty()) writeHeatMap(job, compared);
+  if (passes(job, compared.numbers)) return 0;
+  std::fprintf(stderr, "whit: the comparison failed\n");
+  return static_cast<int>(ExitStatus::checkFailed);
+}
+
+}  // namespace whit::cli

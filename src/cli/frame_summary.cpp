@@ -1,0 +1,61 @@
+#include "cli/frame_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit::cli {
+
+RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
+                     const Film& film, double loadMs) {
+  RunSummary run;
+  run.scene = scene.name;
+  run.width = film.image.width;
+  run.height = film.image.height;
+  run.options = options;
+  run.machine = renderer.machine();
+  run.effects = renderer.plan().effects;
+  run.triangles = scene.instancedTriangles;
+  run.loadMs = loadMs;
+  run.buildMs = renderer.buildMs();
+  return run;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto index = static_cast<std::size_t>(std::max(1.0, rank)) - 1;
+  return values[std::min(index, values.size() - 1)];
+}
+
+std::vector<double> frameTimes(const RunSummary& run) {
+  std::vector<double> times;
+  for (const FrameStats& frame : run.frames) times.push_back(frame.frameMs);
+  return times;
+}
+
+const FrameStats& medianFrame(const RunSummary& run) {
+  const double median = quantile(frameTimes(run), 0.5);
+  return *std::find_if(run.frames.begin(), run.frames.end(),
+                       [&](const FrameStats& frame) { return frame.frameMs == median; });
+}
+
+double lanesFilled(const RayTally& tally) {
+  return tally.lanes == 0 ? 0 : static_cast<double>(tally.rays) / static_cast<double>(tally.lanes);
+}
+
+double mraysPerSecond(std::uint64_t rays, double ms) {
+  return ms > 0 ? static_cast<double>(rays) / ms / 1e3 : 0;
+}
+
+std::vector<std::string> effectNames(EffectSet effects) {
+  std::vector<std::string> names;
+  for (int i = 0; i < kEffectCount; ++i) {
+    if (effects.has(static_cast<Effect>(i))) {
+      names.emplace_back(kEffectNames[static_cast<std::size_t>(i)].name);
+    }
+  }
+  return names;
+}
+
+}  // namespace whit::cli

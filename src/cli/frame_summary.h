@@ -1,0 +1,42 @@
+// One run: a scene, its settings, and what its frames cost. The common source of tables and JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/options.h"
+#include "render/renderer.h"
+
+namespace whit::cli {
+
+struct RunSummary {
+  std::string scene;
+  int width = 0, height = 0;
+  RenderOptions options;
+  Machine machine;
+  EffectSet effects;
+  std::uint64_t triangles = 0;  // as seen, instances multiplied out
+  double loadMs = 0, buildMs = 0;
+  std::vector<FrameStats> frames;  // counted ones, at least one
+  std::vector<double> floorMs;     // empty without --floor
+};
+
+RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
+                     const Film& film, double loadMs);
+
+// The value at rank ceil(share * n) of the sorted values (nearest rank); `share` in (0, 1].
+double quantile(std::vector<double> values, double share);
+
+// The frame of median duration (the lower of the two middle ones): its stages add up.
+const FrameStats& medianFrame(const RunSummary& run);
+std::vector<double> frameTimes(const RunSummary& run);
+
+// Live lanes over lanes sent to Embree; 0 where nothing was sent.
+double lanesFilled(const RayTally& tally);
+double mraysPerSecond(std::uint64_t rays, double ms);
+
+std::vector<std::string> effectNames(EffectSet effects);
+
+}  // namespace whit::cli

@@ -1,0 +1,129 @@
+#include "cli/image_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "cli/frame_summary.h"
+#include "cli/interrupt.h"
+#include "cli/parse_options.h"
+#include "cli/program.h"
+#include "core/display.h"
+#include "core/error.h"
+
+namespace whit::cli {
+
+namespace {
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+constexpr int kFrameLimit = 10'000'000;
+
+bool readFrameNumber(const std::string& text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && value >= 0 &&
+         value <= kFrameLimit;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ",") + word;
+  return all;
+}
+
+}  // namespace
+
+void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
+  const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
+  if (!extensions.empty() && found == extensions.end()) {
+    std::string known;
+    for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;
+    throwUsage("'" + path + "': expected a name that ends in " + known);
+  }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throwIo("cannot write '" + path + "': it is a folder");
+  }
+  if (std::filesystem::is_other(path, error)) return;  // a device or a pipe
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const std::string place = folder.empty() ? "." : folder.string();
+  if (!std::filesystem::is_directory(place, error)) {
+    throwIo("cannot write '" + path + "': there is no folder '" + place + "'");
+  }
+  if (access(place.c_str(), W_OK) != 0) {
+    throwIo("cannot write '" + path + "': the folder '" + place + "' is write-protected");
+  }
+}
+
+void requireJsonWritable(const std::string& path) {
+  if (!path.empty() && path != "-") requireWritable(path, {});
+}
+
+void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
+                const ImageMetadata& metadata) {
+  const WriteScope scope;
+  if (extensionOf(path) == ".exr") {
+    writeExr(path, film.image, metadata);
+  } else if (options.mode == Mode::packets && film.wantDisplay) {
+    writePng(path, film.display, metadata);
+  } else {
+    writePng(path, toDisplay(film.image, options.exposure, options.toneCurve), metadata);
+  }
+}
+
+ImageMetadata describeImage(const Scene& scene, const Camera& camera, const Renderer& renderer,
+                            const Film& film, const RenderOptions& options) {
+  RenderOptions resolved = options;
+  resolved.size = ImageSize{film.image.width, film.image.height};
+  resolved.eye = camera.eye;  // also of a camera on a path, which has no name
+  resolved.at = camera.at;
+  resolved.up = camera.up;
+  resolved.fov = camera.fov;
+  if (options.mode == Mode::packets) {
+    resolved.packet = renderer.machine().packet;
+    resolved.simd = renderer.machine().simd;
+  }
+  ImageMetadata metadata{{"software", std::string("whit ") + versionText()},
+                         {"scene", scene.name},
+                         {"effectsUsed", joined(effectNames(renderer.plan().effects))}};
+  for (auto& entry : pictureOptions(resolved)) metadata.push_back(std::move(entry));
+  return metadata;
+}
+
+FrameRange parseFrameRange(const std::string& text) {
+  FrameRange range;
+  const std::size_t dots = text.find("..");
+  const bool good = dots == std::string::npos
+                        ? readFrameNumber(text, range.first)
+                        : readFrameNumber(text.substr(0, dots), range.first) &&
+                              readFrameNumber(text.substr(dots + 2), range.last);
+  if (dots == std::string::npos) range.last = range.first;
+  if (!good || range.last < range.first) {
+    throwUsage("--frames: expected a frame number, or first..last as 0..47, got '" + text + "'");
+  }
+  return range;
+}
+
+std::string frameName(const std::string& pattern, int frame) {
+  const std::filesystem::path path(pattern);
+  std::string name = path.filename().string();
+  const std::size_t begin = name.find('#');
+  if (begin == std::string::npos) {
+    throwUsage("'" + pattern +
+               "': --frames needs a place for the frame's number, as in out-####.exr");
+  }
+  const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+  std::string digits = std::to_string(frame);
+  if (digits.size() < end - begin) digits.insert(0, end - begin - digits.size(), '0');
+  name.replace(begin, end - begin, digits);
+  return (path.parent_path() / name).string();
+}
+
+}  // namespace whit::cli

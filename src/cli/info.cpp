@@ -1,0 +1,103 @@
+// whit info: what a scene holds, which effects it calls for and why, which kernels run.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/image_output.h"
+#include "cli/info_rows.h"
+#include "cli/json_report.h"
+#include "cli/open_scene.h"
+#include "cli/progress_bar.h"
+
+namespace whit::cli {
+
+std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options) {
+  std::vector<EffectRow> rows;
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const EffectReason& reason = scene.reasons[index];
+    const bool disabled = options.disable.has(static_cast<Effect>(i));
+    rows.push_back({std::string(kEffectNames[index].name), reason.on && !disabled,
+                    reason.on && disabled ? "disabled by --disable" : reason.because});
+  }
+  return rows;
+}
+
+double memoryMb(const Scene& scene, const Renderer& renderer) {
+  return static_cast<double>(scene.memoryBytes() + renderer.memoryBytes()) / 1e6;
+}
+
+namespace {
+
+void printCounts(const OpenScene& open, const Renderer& renderer) {
+  const Scene& s = open.scene;
+  std::printf("%s\n", s.name.c_str());
+  std::printf("  %-12s%llu\n", "triangles", static_cast<unsigned long long>(s.instancedTriangles));
+  std::printf("  %-12s%zu\n", "instances", s.instances.size());
+  std::printf("  %-12s(%g, %g, %g) to (%g, %g, %g)\n", "bounds", s.lower.x, s.lower.y, s.lower.z,
+              s.upper.x, s.upper.y, s.upper.z);
+  std::printf("  %-12s%zu\n", "materials", s.materials.size());
+  std::printf("  %-12s%zu\n", "lights", s.lights.size());
+  std::printf("  %-12s%zu\n", "textures", s.textures.size());
+  std::printf("  %-12s", "cameras");
+  for (const Camera& camera : s.cameras) std::printf("%s ", camera.name.c_str());
+  std::printf("\n  %-12s%.1f MB\n", "memory", memoryMb(s, renderer));
+  std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
+              renderer.buildMs());
+}
+
+void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOptions& options) {
+  std::printf("\neffects\n");
+  for (const EffectRow& row : effectRows(open.scene, options)) {
+    std::printf("  %-16s%-5s%s\n", row.name.c_str(), row.on ? "on" : "-", row.because.c_str());
+  }
+  std::printf("\nstages\n");
+  for (const Stage stage : renderer.plan().stages) {
+    std::printf("  %s\n", kStageNames[static_cast<std::size_t>(stage)].data());
+  }
+  std::printf("\nkernels\n");
+  for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
+    std::printf("  %-34s%-8s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
+                kernel.target.c_str(), kernel.variant.c_str());
+  }
+  if (open.warnings.entries().empty()) return;
+  std::printf("\nwarnings\n");
+  for (const auto& [kind, entry] : open.warnings.entries()) {
+    std::printf("  %8llu  %s (first: %s)\n", static_cast<unsigned long long>(entry.count),
+                kind.c_str(), entry.first.c_str());
+  }
+}
+
+}  // namespace
+
+int infoCommand(const Words& words) {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string json;
+  OptionList list;
+  list.value({"json", "FILE"}, "the same for machines; - is standard output", json);
+  listCommonOptions(list, common);
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+  if (parseOptions("whit info SCENE [options]",
+                   "What the scene holds, which effects it calls for and why, which kernels run.",
+                   list, words) == Parsed::helpShown) {
+    return 0;
+  }
+  settleOptions(common);
+  requireJsonWritable(json);
+  auto progress = makeProgressBar(!common.quiet && common.progress == "auto");
+  CommonOptions loading = common;
+  loading.quiet = true;  // the warnings are part of the report
+  const auto open = openScene(scenes[0], loading, progress.get());
+  const Renderer renderer(open->scene, common.render, progress.get());
+  progress.reset();
+  if (!json.empty()) {
+    writeJson(json, infoJson(open->scene, renderer, common.render, open->warnings));
+  }
+  if (json == "-") return 0;
+  printCounts(*open, renderer);
+  printPlan(*open, renderer, common.render);
+  return 0;
+}
+
+}  // namespace whit::cli

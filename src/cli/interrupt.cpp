@@ -1,0 +1,41 @@
+#include "cli/interrupt.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+namespace whit::cli {
+
+namespace {
+
+std::atomic<int> writers{0};
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "they are used by a signal handler");
+
+// The main thread opens WriteScopes and is also the one that the kernel prefers for signals to the
+// process, so that nothing can slip in between the test and the exit. Outside a scope no temporary
+// file exists, and a long render is not waited for.
+extern "C" void onInterrupt(int) {
+  if (writers == 0) _exit(kInterruptedStatus);
+  interrupted = true;
+}
+
+}  // namespace
+
+void installInterruptHandlers() {
+  struct sigaction action {};
+  action.sa_handler = onInterrupt;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+WriteScope::WriteScope() { ++writers; }
+
+WriteScope::~WriteScope() {
+  if (--writers == 0 && interrupted) _exit(kInterruptedStatus);
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,164 @@
+#include "cli/json_report.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/info_rows.h"
+#include "cli/interrupt.h"
+#include "cli/machine_facts.h"
+#include "cli/option_values.h"
+#include "io/atomic_file.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr int kSchema = 1;
+
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// The words of the options, as they are given on the command line.
+Json settingsJson(const RenderOptions& options) {
+  Json json;
+  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
+                             const auto& field) {
+    if (name == "mode" || name == "batch") {
+      json[name] = formatValue(renderOptionSpec(name, placeholder), field);
+    }
+  });
+  json["robust"] = options.robust;
+  return json;
+}
+
+Json stagesJson(const FrameStats& frame) {
+  Json json;
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    json[std::string(kStageNames[i])] = frame.stageMs(static_cast<Stage>(i));
+  }
+  return json;
+}
+
+Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+}  // namespace
+
+Json machineJson(const Machine& machine) {
+  const MachineFacts facts = machineFacts();
+  return {{"cpu", facts.cpu},         {"cores", facts.cores},       {"simd", machine.simd},
+          {"embree", machine.embree}, {"compiler", facts.compiler}, {"commit", facts.commit}};
+}
+
+Json runJson(const RunSummary& run) {
+  const std::vector<double> times = frameTimes(run);
+  const FrameStats& frame = medianFrame(run);
+  Json json{{"scene", run.scene},
+            {"size", Json::array({run.width, run.height})},
+            {"threads", run.machine.threads},
+            {"packet", run.machine.packet},
+            {"simd", run.machine.simd}};
+  json.update(settingsJson(run.options));
+  json["effects"] = effectNames(run.effects);
+  json["triangles"] = run.triangles;
+  json["frames"] = run.frames.size();
+  json["frame_ms"] = {
+      {"median", frame.frameMs}, {"min", quantile(times, 1e-9)}, {"p95", quantile(times, 0.95)}};
+  json["fps"] = frame.frameMs > 0 ? 1e3 / frame.frameMs : 0;
+  json["build_ms"] = run.buildMs;
+  json["load_ms"] = run.loadMs;
+  json["stages_ms"] = stagesJson(frame);
+  json["embree_ms"] = frame.embreeMs();
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    json["rays"][std::string(kRayKindNames[i])] = frame.tally[i].rays;
+  }
+  json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.tally[i]);
+  }
+  json["nonfinite"] = frame.nonFinitePixels;
+  json["peak_rss_mb"] = peakRssMb();
+  if (!run.floorMs.empty()) {
+    const double floor = quantile(run.floorMs, 0.5);
+    json["floor_ms"] = floor;
+    json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
+  }
+  return json;
+}
+
+Json benchJson(const std::vector<RunSummary>& runs) {
+  Json json{{"schema", kSchema}, {"machine", machineJson(runs.at(0).machine)}};
+  json["runs"] = Json::array();
+  for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
+  return json;
+}
+
+Json compareJson(const Comparison& comparison) {
+  const ImageDifference& d = comparison.difference;
+  Json json{{"rmse", d.rmse},
+            {"relmse", d.relmse},
+            {"psnr_db", d.psnrDb},
+            {"flip_mean", d.flipMean},
+            {"max_code", d.maxCode},
+            {"pixels_ge_1_code_pct", d.pixelsGe1CodePct},
+            {"pixels_ge_2_codes_pct", d.pixelsGe2CodesPct},
+            {"energy_ratio", d.energyRatio},
+            {"path_flips_per_mpx", orNull(comparison.pathFlipsPerMpx)},
+            {"nonfinite", d.nonFinite},
+            {"time_ms", {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}}}};
+  if (!comparison.stages) return json;
+  json["stages"] = Json::array();
+  for (const StageDifference& row : *comparison.stages) {
+    json["stages"].push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
+                              {"column", row.column},
+                              {"slots", row.slots},
+                              {"worst_ulp", row.worstUlp},
+                              {"limit_ulp", row.limitUlp},
+                              {"pixel", Json::array({row.pixelX, row.pixelY})},
+                              {"depth", row.depth}});
+  }
+  return json;
+}
+
+Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,
+              const Warnings& warnings) {
+  Json json{{"scene", scene.name},
+            {"triangles", scene.instancedTriangles},
+            {"instances", scene.instances.size()},
+            {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
+            {"materials", scene.materials.size()},
+            {"lights", scene.lights.size()},
+            {"textures", scene.textures.size()},
+            {"memory_mb", memoryMb(scene, renderer)}};
+  json["cameras"] = Json::array();
+  for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
+  json["warnings"] = Json::object();
+  for (const auto& [kind, entry] : warnings.entries()) {
+    json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
+  }
+  for (const EffectRow& row : effectRows(scene, options)) {
+    json["effects"][row.name] = {{"on", row.on}, {"because", row.because}};
+  }
+  json["stages"] = Json::array();
+  for (const Stage stage : renderer.plan().stages) {
+    json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
+  }
+  json["kernels"] = Json::array();
+  for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
+    json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+                               {"variant", kernel.variant},
+                               {"target", kernel.target}});
+  }
+  return json;
+}
+
+void writeJson(const std::string& path, const Json& json) {
+  // Names in a scene may hold any bytes; what is no UTF-8 is replaced.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (path == "-") {
+    std::fputs(text.c_str(), stdout);
+    return;
+  }
+  const WriteScope scope;
+  writeTextFile(path, text);
+}
+
+}  // namespace whit::cli

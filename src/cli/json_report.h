@@ -1,0 +1,39 @@
+// Results for machines. The keys are a contract: adding is fine, renaming is not. Units are in the
+// names; megabytes are 10^6 bytes.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/frame_summary.h"
+#include "core/warnings.h"
+#include "metrics/metrics.h"
+
+namespace whit::cli {
+
+using Json = nlohmann::ordered_json;
+
+Json machineJson(const Machine& machine);
+// `stages_ms`, `embree_ms`, `rays` and what follows are those of the median frame.
+Json runJson(const RunSummary& run);
+Json benchJson(const std::vector<RunSummary>& runs);
+
+struct Comparison {
+  ImageDifference difference;
+  std::optional<double> pathFlipsPerMpx;               // unknown of two files
+  std::optional<double> timeMsA, timeMsB;              // unknown of two files
+  std::optional<std::vector<StageDifference>> stages;  // with --stages
+};
+// Infinite and unknown numbers are null.
+Json compareJson(const Comparison& comparison);
+
+Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,
+              const Warnings& warnings);
+
+// "-" is standard output. Throws Error(io).
+void writeJson(const std::string& path, const Json& json);
+
+}  // namespace whit::cli

@@ -1,0 +1,18 @@
+// What measurements are worth nothing without: on what they were made.
+#pragma once
+
+#include <string>
+
+namespace whit::cli {
+
+struct MachineFacts {
+  std::string cpu;       // model name
+  int cores = 1;         // that this process may use
+  std::string compiler;  // "g++ 12.2.0"
+  std::string commit;    // of the sources, as git describes them; "unknown" outside a checkout
+};
+MachineFacts machineFacts();
+
+double peakRssMb();  // 10^6 bytes
+
+}  // namespace whit::cli

@@ -1,0 +1,37 @@
+// whit merge: crops of one image, put together.
+#include "io/merge_images.h"
+
+#include <limits>
+
+#include "cli/commands.h"
+#include "cli/image_output.h"
+#include "cli/interrupt.h"
+#include "cli/open_scene.h"
+
+namespace whit::cli {
+
+int mergeCommand(const Words& words) {
+  CommonOptions common;
+  std::vector<std::string> files;
+  OptionList list;
+  list.group("Merging");
+  list.flag("strict", "crops that disagree where they overlap are an error", common.render.strict);
+  listReportOptions(list, common);
+  list.operands("OUT.exr PART.exr...", "the image to write, and the crops it is made of", 2,
+                std::numeric_limits<std::size_t>::max(), files);
+  if (parseOptions("whit merge OUT.exr PART.exr... [options]",
+                   "Puts crops of one image together. They must cover it; of crops that overlap\n"
+                   "the later one counts.",
+                   list, words) == Parsed::helpShown) {
+    return 0;
+  }
+  requireWritable(files[0], {".exr"});
+  Warnings warnings(common.render.strict);
+  const MergedImage merged = mergeImages({files.begin() + 1, files.end()}, ImageLimits(), warnings);
+  if (!common.quiet) tellWarnings(warnings);
+  const WriteScope scope;
+  writeExr(files[0], merged.image, merged.metadata);
+  return 0;
+}
+
+}  // namespace whit::cli

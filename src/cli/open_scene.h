@@ -1,0 +1,35 @@
+// A scene as the commands need it, and the frames made of it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/parse_options.h"
+#include "core/warnings.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace whit::cli {
+
+struct OpenScene {
+  explicit OpenScene(bool strict) : warnings(strict) {}
+  Scene scene;
+  Warnings warnings;
+  double loadMs = 0;  // reading and baking
+};
+
+// Loads and bakes; tells people on standard error what was mended, unless --quiet.
+std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
+                                     Progress* progress);
+
+// What was mended, one line each on standard error.
+void tellWarnings(const Warnings& warnings);
+
+// A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.
+Film openFilm(const Scene& scene, const CommonOptions& common);
+
+// One frame by the pipeline or by the reference.
+FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
+                       Progress* progress = nullptr);
+
+}  // namespace whit::cli

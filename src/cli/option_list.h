@@ -1,0 +1,66 @@
+// What a command can be told: names, help, and where the values go. Knows nothing of the parser.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/option_values.h"
+
+namespace whit::cli {
+
+class OptionList {
+ public:
+  struct Entry {
+    std::string group, name, shortName, placeholder, help;  // no placeholder: a flag
+    bool repeats = false;
+    std::function<void(const std::string&)> set;
+  };
+  struct Operand {
+    std::string placeholder, help;
+    std::size_t least = 1, most = 1;
+    std::vector<std::string>* values = nullptr;
+  };
+
+  // Entries that follow are listed under this heading of --help.
+  void group(const std::string& heading) { group_ = heading; }
+
+  template <typename T>
+  Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
+    const std::string known = formatValue(spec, field);
+    const bool tell =
+        !spec.placeholder.empty() && !known.empty() && help.find("(") == std::string::npos;
+    return push(spec, tell ? help + " (default: " + known + ")" : help,
+                [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+  }
+  Entry& flag(const std::string& name, const std::string& help, bool& field) {
+    const OptionSpec spec{name, ""};
+    return push(spec, help,
+                [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+  }
+  // May be given more than once; all values are kept.
+  Entry& many(const OptionSpec& spec, const std::string& help, std::vector<std::string>& field) {
+    Entry& entry = push(spec, help, [&field](const std::string& text) { field.push_back(text); });
+    entry.repeats = true;
+    return entry;
+  }
+  // What stands on the command line without a name.
+  void operands(const std::string& placeholder, const std::string& help, std::size_t least,
+                std::size_t most, std::vector<std::string>& values) {
+    operand = {placeholder, help, least, most, &values};
+  }
+
+  std::vector<Entry> entries;
+  Operand operand;
+
+ private:
+  Entry& push(const OptionSpec& spec, const std::string& help,
+              std::function<void(const std::string&)> set) {
+    entries.push_back({group_, spec.name, "", spec.placeholder, help, false, std::move(set)});
+    return entries.back();
+  }
+
+  std::string group_ = "Options";
+};
+
+}  // namespace whit::cli

@@ -1,0 +1,200 @@
+#include "cli/option_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <vector>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+
+namespace whit::cli {
+
+namespace {
+
+[[noreturn]] void throwBadValue(const OptionSpec& spec, const std::string& text,
+                                const std::string& expected) {
+  throwUsage("--" + spec.name + ": expected " + expected + ", got '" + text + "'");
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
+    parts.push_back(text.substr(begin, end - begin));
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+std::vector<std::string> choicesOf(const OptionSpec& spec) {
+  if (spec.placeholder.find('|') == std::string::npos) return {};
+  return split(spec.placeholder, '|');
+}
+
+// The whole text as a finite number.
+template <typename T>
+bool readNumber(const std::string& text, T& value) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && std::isfinite(static_cast<double>(value));
+}
+
+template <typename T>
+std::string shortest(T value) {
+  char buffer[64];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return error == std::errc() ? std::string(buffer, end) : std::string();
+}
+
+std::string rangeText(const std::string& noun, const OptionSpec& spec) {
+  const bool hasLow = spec.low > std::numeric_limits<double>::lowest();
+  const bool hasHigh = spec.high < std::numeric_limits<double>::max();
+  if (hasLow && hasHigh) return noun + " from " + shortest(spec.low) + " to " + shortest(spec.high);
+  if (hasLow) return noun + " of at least " + shortest(spec.low);
+  return noun;
+}
+
+template <typename T>
+void parseNumber(const OptionSpec& spec, const std::string& text, const std::string& noun,
+                 T& value) {
+  T parsed{};
+  if (!readNumber(text, parsed) || parsed < spec.low || parsed > spec.high) {
+    throwBadValue(spec, text, rangeText(noun, spec));
+  }
+  value = parsed;
+}
+
+std::string joined(const Vec3f& v) {
+  return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z);
+}
+
+}  // namespace
+
+OptionSpec renderOptionSpec(const std::string& name, const std::string& placeholder) {
+  OptionSpec spec{name, placeholder};
+  const auto limit = [&](const char* option, double low, double high) {
+    if (name == option) spec.low = low, spec.high = high;
+  };
+  limit("spp", 1, kSppLimit);
+  limit("depth", 0, kDepthLimit);
+  limit("cutoff", 0, 1);
+  limit("threads", 0, kThreadLimit);
+  limit("fov", 0.001, 179);
+  limit("exposure", -64, 64);
+  limit("tile", 1, 4096);
+  limit("queue", 0, 1 << 24);
+  return spec;
+}
+
+int parseChoice(const OptionSpec& spec, const std::string& text) {
+  const std::vector<std::string> choices = choicesOf(spec);
+  const auto found = std::find(choices.begin(), choices.end(), text);
+  if (found == choices.end()) {
+    throwBadValue(spec, text,
+                  "one of " + spec.placeholder + " (nearest: " + nearestName(text, choices) + ")");
+  }
+  return static_cast<int>(found - choices.begin());
+}
+
+std::string choiceName(const OptionSpec& spec, int index) {
+  return choicesOf(spec).at(static_cast<std::size_t>(index));
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, std::string& value) {
+  if (!choicesOf(spec).empty()) parseChoice(spec, text);
+  value = text;
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, bool& value) {
+  if (text != "on" && text != "off" && text != "true" && text != "false") {
+    throwBadValue(spec, text, "on or off");
+  }
+  value = text == "on" || text == "true";
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, int& value) {
+  if (!choicesOf(spec).empty()) {
+    parseChoice(spec, text);
+    if (text == "auto") {
+      value = 0;
+      return;
+    }
+  }
+  parseNumber(spec, text, "a whole number", value);
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, float& value) {
+  parseNumber(spec, text, "a number", value);
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, double& value) {
+  parseNumber(spec, text, "a number", value);
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, ImageSize& value) {
+  const std::vector<std::string> parts = split(text, 'x');
+  ImageSize size;
+  const auto inRange = [](int side) { return side >= 1 && side <= kImageSideLimit; };
+  if (parts.size() != 2 || !readNumber(parts[0], size.width) ||
+      !readNumber(parts[1], size.height) || !inRange(size.width) || !inRange(size.height)) {
+    throwBadValue(spec, text,
+                  "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(kImageSideLimit) +
+                      ", as 1280x720");
+  }
+  value = size;
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, Crop& value) {
+  const std::vector<std::string> parts = split(text, ',');
+  Crop crop;
+  if (parts.size() != 4 || !readNumber(parts[0], crop.x0) || !readNumber(parts[1], crop.y0) ||
+      !readNumber(parts[2], crop.x1) || !readNumber(parts[3], crop.y1) || crop.x0 < 0 ||
+      crop.y0 < 0 || crop.x1 <= crop.x0 || crop.y1 <= crop.y0 || crop.x1 > kImageSideLimit ||
+      crop.y1 > kImageSideLimit) {
+    throwBadValue(spec, text, "x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1");
+  }
+  value = crop;
+}
+
+void parseValue(const OptionSpec& spec, const std::string& text, Vec3f& value) {
+  const std::vector<std::string> parts = split(text, ',');
+  Vec3f v;
+  if (parts.size() != 3 || !readNumber(parts[0], v.x) || !readNumber(parts[1], v.y) ||
+      !readNumber(parts[2], v.z)) {
+    throwBadValue(spec, text, "three numbers x,y,z without blanks, as 0,1.5,-2");
+  }
+  value = v;
+}
+
+void parseValue(const OptionSpec&, const std::string& text, EffectSet& value) {
+  value = parseEffects(text);
+}
+
+std::string formatValue(const OptionSpec&, const std::string& value) { return value; }
+std::string formatValue(const OptionSpec&, bool value) { return value ? "on" : "off"; }
+std::string formatValue(const OptionSpec& spec, int value) {
+  return value == 0 && !choicesOf(spec).empty() ? "auto" : std::to_string(value);
+}
+std::string formatValue(const OptionSpec&, float value) { return shortest(value); }
+std::string formatValue(const OptionSpec&, double value) { return shortest(value); }
+std::string formatValue(const OptionSpec&, const ImageSize& value) {
+  return std::to_string(value.width) + "x" + std::to_string(value.height);
+}
+std::string formatValue(const OptionSpec&, const Crop& c) {
+  return std::to_string(c.x0) + "," + std::to_string(c.y0) + "," + std::to_string(c.x1) + "," +
+         std::to_string(c.y1);
+}
+std::string formatValue(const OptionSpec&, const Vec3f& value) { return joined(value); }
+
+std::string formatValue(const OptionSpec&, const EffectSet& value) {
+  std::string names;
+  for (int i = 0; i < kEffectCount; ++i) {
+    if (!value.has(static_cast<Effect>(i))) continue;
+    if (!names.empty()) names += ',';
+    names += kEffectNames[static_cast<std::size_t>(i)].name;
+  }
+  return names;
+}
+
+}  // namespace whit::cli

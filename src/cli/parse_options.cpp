@@ -1,0 +1,152 @@
+#include "cli/parse_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "core/quality.h"
+
+namespace whit::cli {
+
+namespace {
+
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(34); }
+  std::string make_usage(const CLI::App*, std::string) const override {
+    return "Usage: " + usage_ + "\n";
+  }
+  // The type alone: how often an option may be given is said in its help.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+  }
+
+ private:
+  std::string usage_;
+};
+
+bool looksLikeOption(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
+
+[[noreturn]] void throwUnknownOption(const std::string& word, const OptionList& list) {
+  std::vector<std::string> names{"--help"};
+  for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
+  const std::string name = word.substr(0, word.find('='));
+  throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
+}
+
+std::string optionNames(const OptionList::Entry& entry) {
+  return (entry.shortName.empty() ? "" : "-" + entry.shortName + ",") + "--" + entry.name;
+}
+
+// The parser for `list`, with its options in the order of list.entries.
+std::vector<CLI::Option*> declare(CLI::App& app, const OptionList& list) {
+  app.allow_extras();
+  app.set_help_flag("-h,--help", "show this text");
+  std::vector<CLI::Option*> options;
+  for (const OptionList::Entry& entry : list.entries) {
+    CLI::Option* option = nullptr;
+    if (entry.placeholder.empty()) {
+      option = app.add_flag(optionNames(entry), entry.help);
+    } else {
+      option = app.add_option(optionNames(entry), CLI::callback_t(), entry.help);
+      option->type_name(entry.placeholder);
+    }
+    option->group(entry.group);
+    option->multi_option_policy(entry.repeats ? CLI::MultiOptionPolicy::TakeAll
+                                              : CLI::MultiOptionPolicy::TakeLast);
+    options.push_back(option);
+  }
+  return options;
+}
+
+// What stands alone; an unknown option among it is an error. Words after "--" are never options.
+void takeOperands(const std::vector<std::string>& rest, const OptionList& list) {
+  bool onlyOperands = false;
+  std::vector<std::string> operands;
+  for (const std::string& word : rest) {
+    if (!onlyOperands && word == "--") {
+      onlyOperands = true;
+    } else if (!onlyOperands && looksLikeOption(word)) {
+      throwUnknownOption(word, list);
+    } else {
+      operands.push_back(word);
+    }
+  }
+  const OptionList::Operand& wanted = list.operand;
+  if (operands.size() < wanted.least) {
+    throwUsage("expected " + wanted.placeholder + ": " + wanted.help);
+  }
+  if (operands.size() > wanted.most) {
+    throwUsage("one word too many: '" + operands[wanted.most] + "'");
+  }
+  if (wanted.values) *wanted.values = operands;
+}
+
+}  // namespace
+
+void listReportOptions(OptionList& list, CommonOptions& common) {
+  list.group("Reporting");
+  list.flag("quiet", "nothing on standard error but errors", common.quiet);
+  list.value({"progress", "auto|never"}, "progress bar (auto: on a terminal)", common.progress);
+}
+
+void listCommonOptions(OptionList& list, CommonOptions& common) {
+  list.group("Rendering");
+  forEachOption(
+      common.render, [&](const char* name, const char* placeholder, const char* help, auto& field) {
+        OptionList::Entry& entry = list.value(renderOptionSpec(name, placeholder), help, field);
+        entry.set = [set = std::move(entry.set), &common, name](const std::string& text) {
+          set(text);
+          common.given.insert(name);
+        };
+      });
+  list.group("Loading");
+  list.flag("allow-outside", "the scene may name files outside its own folder",
+            common.load.allowOutside);
+  list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
+             common.maxMemoryGb);
+  listReportOptions(list, common);
+}
+
+void settleOptions(CommonOptions& common) {
+  applyQuality(common.render, common.given);
+  common.load.threads = common.render.threads;
+  common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
+}
+
+Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
+                    const std::vector<std::string>& words) {
+  CLI::App app(summary + "\n");
+  app.formatter(std::make_shared<HelpFormatter>(usage));
+  const std::vector<CLI::Option*> options = declare(app, list);
+  try {
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    app.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return Parsed::helpShown;
+  } catch (const CLI::ParseError& error) {
+    throwUsage(error.what());
+  }
+  takeOperands(app.remaining(), list);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (options[i]->count() == 0) continue;
+    for (const std::string& text : options[i]->reduced_results()) list.entries[i].set(text);
+  }
+  return Parsed::run;
+}
+
+std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options) {
+  std::vector<std::pair<std::string, std::string>> said;
+  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
+                             const auto& field) {
+    if (name == "threads" || name == "tile" || name == "queue" || name == "batch") return;
+    const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
+    if (!value.empty()) said.emplace_back(name, value);
+  });
+  return said;
+}
+
+}  // namespace whit::cli

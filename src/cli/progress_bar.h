@@ -1,0 +1,17 @@
+// A line on standard error that says how far long work has come.
+#pragma once
+
+#include <memory>
+
+#include "core/progress.h"
+
+namespace whit::cli {
+
+// Null when nobody would see it: not `wanted`, or standard error is no terminal. The bar removes
+// itself when destroyed.
+std::unique_ptr<Progress> makeProgressBar(bool wanted);
+
+// The text of the bar, at most 60 columns: "[#####---------------]  25 % decoding textures".
+std::string progressText(const std::string& phase, double fraction);
+
+}  // namespace whit::cli

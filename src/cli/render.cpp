@@ -1,0 +1,165 @@
+// whit render: one image, or the frames of a scene's camera path.
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/image_output.h"
+#include "cli/json_report.h"
+#include "cli/open_scene.h"
+#include "cli/progress_bar.h"
+#include "cli/stage_table.h"
+#include "core/error.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
+constexpr const char* kSummary =
+    "Renders one image, or with --frames the frames of the scene's camera path.";
+
+struct RenderJob {
+  CommonOptions common;
+  std::vector<std::string> scenes, outputs;
+  std::string frames, json;
+  double fps = 24;
+  bool skipExisting = false;
+};
+
+OptionList listOptions(RenderJob& job) {
+  OptionList list;
+  list.group("Output");
+  list.many({"output", "FILE"}, "image to write, .exr (linear) or .png; may be repeated",
+            job.outputs)
+      .shortName = "o";
+  list.value({"frames", "A..B"}, "frames of the camera path; FILE has #### for the number",
+             job.frames);
+  list.value({"fps", "N", 0.001, 1e6}, "frames a second of the camera path", job.fps);
+  list.flag("skip-existing", "leave out frames whose files are there", job.skipExisting);
+  list.value({"json", "FILE"}, "what was done and what it cost; - is standard output", job.json);
+  listCommonOptions(list, job.common);
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
+  return list;
+}
+
+void checkJob(const RenderJob& job) {
+  if (job.outputs.empty()) throwUsage("expected an image to write: -o OUT.exr or -o OUT.png");
+  for (const std::string& output : job.outputs) requireWritable(output, {".exr", ".png"});
+  requireJsonWritable(job.json);
+  if (job.frames.empty()) return;
+  parseFrameRange(job.frames);
+  for (const std::string& output : job.outputs) frameName(output, 0);
+  if (job.common.given.contains("camera")) {
+    throwUsage("--camera names a still viewpoint, --frames follows the scene's path: give one");
+  }
+}
+
+// Where the path is at the frame, with --eye, --at, --up and --fov on top.
+Camera cameraOfFrame(const Scene& scene, const RenderJob& job, int frame) {
+  Camera camera = cameraAt(scene.cameraPath, frame / job.fps);
+  const RenderOptions& o = job.common.render;
+  camera.eye = o.eye.value_or(camera.eye);
+  camera.at = o.at.value_or(camera.at);
+  camera.up = o.up.value_or(camera.up);
+  camera.fov = o.fov.value_or(camera.fov);
+  return camera;
+}
+
+bool allExist(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (!std::filesystem::exists(file)) return false;
+  }
+  return true;
+}
+
+class ImageWriter {
+ public:
+  ImageWriter(const RenderJob& job, const OpenScene& open, Progress* progress)
+      : job_(job),
+        open_(open),
+        progress_(progress),
+        renderer_(open.scene, job.common.render, progress),
+        film_(openFilm(open.scene, job.common)),
+        run_(summarise(open.scene, job.common.render, renderer_, film_, open.loadMs)) {
+    film_.wantDisplay = false;
+    for (const std::string& output : job.outputs) {
+      if (std::filesystem::path(output).extension() != ".exr") film_.wantDisplay = true;
+    }
+  }
+
+  void write(const Camera& camera, const std::vector<std::string>& files,
+             const ImageMetadata& more = {}) {
+    const RenderOptions& options = job_.common.render;
+    run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
+    if (options.strict && run_.frames.back().nonFinitePixels > 0) {
+      throw Error(ExitStatus::badScene, open_.scene.name + ": the image has " +
+                                            std::to_string(run_.frames.back().nonFinitePixels) +
+                                            " pixels that are not finite (refused by --strict)");
+    }
+    ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
+    metadata.insert(metadata.end(), more.begin(), more.end());
+    for (const std::string& file : files) {
+      writeImage(file, film_, options, metadata);
+      written_.push_back(file);
+    }
+  }
+
+  const RunSummary& run() const { return run_; }
+  const std::vector<std::string>& written() const { return written_; }
+
+ private:
+  const RenderJob& job_;
+  const OpenScene& open_;
+  Progress* progress_;
+  Renderer renderer_;
+  Film film_;
+  RunSummary run_;
+  std::vector<std::string> written_;
+};
+
+void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Progress* progress) {
+  if (scene.cameraPath.empty())
+    throwUsage("--frames: scene '" + scene.name + "' has no camera path");
+  const FrameRange range = parseFrameRange(job.frames);
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    std::vector<std::string> files;
+    for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
+    reportProgress(progress, "frame " + std::to_string(frame),
+                   static_cast<double>(frame - range.first) / (range.last - range.first + 1));
+    if (job.skipExisting && allExist(files)) continue;
+    writer.write(cameraOfFrame(scene, job, frame), files, {{"frame", std::to_string(frame)}});
+  }
+}
+
+}  // namespace
+
+int renderCommand(const Words& words) {
+  RenderJob job;
+  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  settleOptions(job.common);
+  checkJob(job);
+  if (job.frames.empty() && job.skipExisting && allExist(job.outputs)) return 0;
+
+  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  const auto open = openScene(job.scenes[0], job.common, progress.get());
+  ImageWriter writer(job, *open, progress.get());
+  if (job.frames.empty()) {
+    writer.write(chooseCamera(open->scene, job.common.render), job.outputs);
+  } else {
+    writePath(job, open->scene, writer, progress.get());
+  }
+  progress.reset();
+  if (writer.run().frames.empty()) return 0;  // all were there already
+  if (!job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
+  if (!job.json.empty()) {
+    Json json = runJson(writer.run());
+    json["files"] = writer.written();
+    json["machine"] = machineJson(writer.run().machine);
+    writeJson(job.json, json);
+  }
+  return 0;
+}
+
+}  // namespace whit::cli

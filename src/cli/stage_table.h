@@ -1,0 +1,14 @@
+// The tables that people read: where a frame's time went, and how its rays filled the packets.
+#pragma once
+
+#include <string>
+
+#include "cli/frame_summary.h"
+
+namespace whit::cli {
+
+// One line about the run's settings, one about its frame times, the eight stages and the rays of
+// the median frame, and the floor if it was measured.
+std::string stageTable(const RunSummary& run);
+
+}  // namespace whit::cli
