@@ -61,7 +61,8 @@ HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2) {
 
 HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
                            const V3& ng) {
-  const Records records = RecordsAt(tables.normals, 9, triangle);
+  const Records records =
+      RecordsAt(tables.normals, static_cast<size_t>(tables.normalStride), triangle);
   // The last fetch starts at 5, not 8: a record ends after nine floats.
   const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
   const V4 c = LoadColumns4(records, 5);

@@ -45,7 +45,7 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
   const IntTag di;
   const VF width = hn::Set(d, static_cast<float>(sky.width));
   const VF height = hn::Set(d, static_cast<float>(sky.height));
-  VF turn = hn::Sub(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
+  VF turn = hn::Add(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
   turn = hn::Sub(turn, hn::Floor(turn));
   const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
   const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));

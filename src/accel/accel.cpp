@@ -254,7 +254,6 @@ void Accel::findHits(const RayColumns& rays, std::size_t n, bool coherent, const
       meter.tally->lanes += n;
     }
   }
-  for (std::size_t i = n; i < roundUpToBlock(n); ++i) hits.triangle[i] = kMiss;
 }
 
 void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coherent, float* visible,

@@ -53,7 +53,7 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // The nearest hit of rays [0, n). Slots up to the next multiple of 16 become misses.
+  // The nearest hit of rays [0, n). Up to 15 slots behind them may be overwritten.
   void findHits(const RayColumns& rays, std::size_t n, bool coherent, const HitColumns& hits,
                 TraceMeter& meter) const noexcept;
   // visible[slot] = 1 for each of the n shadow rays that meets nothing before tFar.

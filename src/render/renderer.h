@@ -32,6 +32,7 @@ struct Machine {
 
 struct FloorResult {
   double floorMs = 0;  // Embree alone, the same rays in full packets
+  double frameMs = 0;  // whole frames, rendered in turn with the replays
   std::uint64_t rays = 0;
 };
 
@@ -51,8 +52,8 @@ class Renderer {
   // The same image by the scalar reference, its candidates from this renderer's Embree scene.
   FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
 
-  // Captures the rays of one frame and replays them `frames` times through Embree alone (cli: the
-  // floor), returning the median.
+  // Captures the rays of one frame, then in turn renders a frame and replays its rays through
+  // Embree alone, `frames` times each, and returns the medians.
   FloorResult measureFloor(const Camera& camera, Film& film, int frames);
 
   const Plan& plan() const;

@@ -68,7 +68,9 @@ struct SkyTable {
 
 struct ShadingTables {
   const TriangleRecord* triangles = nullptr;  // at least one
-  const NormalRecord* normals = nullptr;      // null without smooth normals
+  // One record a triangle, or with a stride of 0 a single one of zeros, which stands for flat faces.
+  const NormalRecord* normals = nullptr;
+  int normalStride = 0;                       // floats
   std::vector<MaterialRecord> materials;      // at least one
   std::vector<TextureRecord> textures;        // at least one
   std::vector<std::uint32_t> texels;          // all textures of the frame's effects

@@ -1,0 +1,71 @@
+#include "core/worker_pool.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace whit {
+
+WorkerPool::WorkerPool(int workers) : workers_(workers), start_(workers), finish_(workers) {
+  for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
+}
+
+WorkerPool::~WorkerPool() {
+  job_ = nullptr;
+  start_.arrive_and_wait();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void WorkerPool::run(const std::function<void(int)>& job) {
+  job_ = &job;
+  error_ = nullptr;
+  start_.arrive_and_wait();
+  call(0);
+  finish_.arrive_and_wait();
+  if (error_) std::rethrow_exception(error_);
+}
+
+void WorkerPool::work(int worker) {
+  for (;;) {
+    start_.arrive_and_wait();
+    if (!job_) return;
+    call(worker);
+    finish_.arrive_and_wait();
+  }
+}
+
+void WorkerPool::call(int worker) noexcept {
+  try {
+    const FlushDenormals flush;
+    (*job_)(worker);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = std::current_exception();
+  }
+}
+
+#if defined(__x86_64__)
+
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+  _mm_setcsr(static_cast<unsigned>(saved_) | kFlushToZero | kDenormalsAreZero);
+}
+FlushDenormals::~FlushDenormals() { _mm_setcsr(static_cast<unsigned>(saved_)); }
+
+#elif defined(__aarch64__)
+
+FlushDenormals::FlushDenormals() {
+  asm volatile("mrs %0, fpcr" : "=r"(saved_));
+  constexpr unsigned long long kFlushToZero = 1ull << 24;
+  asm volatile("msr fpcr, %0" : : "r"(saved_ | kFlushToZero));
+}
+FlushDenormals::~FlushDenormals() { asm volatile("msr fpcr, %0" : : "r"(saved_)); }
+
+#else
+
+FlushDenormals::FlushDenormals() : saved_(0) {}
+FlushDenormals::~FlushDenormals() = default;
+
+#endif
+
+}  // namespace whit

@@ -1,0 +1,139 @@
+#include "render/build_tables.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace whit {
+
+namespace {
+
+void copy3(const Rgb& from, float* to) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+std::uint32_t flagsOf(const Material& m, EffectSet effects) {
+  const bool transmits = m.hasTransmission() && effects.has(Effect::transmission);
+  std::uint32_t flags = 0;
+  if (effects.has(Effect::mirror) && (m.hasMirror() || transmits)) flags |= kMaterialReflects;
+  if (transmits) flags |= kMaterialTransmits;
+  if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
+  if (m.hasGlossy()) flags |= kMaterialGlossy;
+  return flags;
+}
+
+MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effects) {
+  MaterialRecord r{};
+  const bool textured = effects.has(Effect::textures);
+  copy3(m.diffuse, r.diffuse);
+  r.diffuseMap = textured ? m.diffuseMap : kNoTexture;
+  copy3(m.specular, r.specular);
+  r.specularMap = textured && m.hasGlossy() ? m.specularMap : kNoTexture;
+  copy3(m.emission, r.emission);
+  r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
+  const float roughness = std::max(m.roughness, kMinRoughness);
+  r.alpha = roughness * roughness;
+  r.flags = flagsOf(m, effects);
+  r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
+  copy3(m.mirror, r.mirror);
+  copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
+  copy3(m.transmission, r.transmission);
+  return r;
+}
+
+void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
+  const bool needed = effects.has(Effect::textures) || effects.has(Effect::normalMaps);
+  std::vector<bool> used(scene.textures.size(), false);
+  const auto use = [&](std::int32_t texture) {
+    if (texture != kNoTexture) used[static_cast<std::size_t>(texture)] = true;
+  };
+  for (const MaterialRecord& m : tables.materials) {
+    use(m.diffuseMap);
+    use(m.specularMap);
+    use(m.normalMap);
+  }
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& t = scene.textures[i];
+    TextureRecord record{static_cast<std::uint32_t>(tables.texels.size()), t.width, t.height,
+                         static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV)
+                                                                   << 8};
+    if (needed && used[i]) {
+      tables.texels.insert(tables.texels.end(), t.texels.begin(), t.texels.end());
+    } else {
+      record = {0, 1, 1, 0};
+    }
+    tables.textures.push_back(record);
+  }
+  if (tables.texels.size() > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
+  if (tables.texels.empty()) tables.texels.push_back(0);
+  if (tables.textures.empty()) tables.textures.push_back({0, 1, 1, 0});
+}
+
+void addInstances(const Scene& scene, ShadingTables& tables) {
+  for (const InstanceRecord& instance : scene.instances) {
+    InstanceTransform t{};
+    const Affine& m = instance.toWorld;
+    const Vec3d columns[4] = {m.x, m.y, m.z, m.p};
+    const Vec3d normals[3] = {m.normal({1, 0, 0}), m.normal({0, 1, 0}), m.normal({0, 0, 1})};
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        t.toWorld[row * 4 + column] = static_cast<float>(columns[column][row]);
+        if (column < 3) t.normal[row * 4 + column] = static_cast<float>(normals[column][row]);
+      }
+    }
+    tables.instances.push_back(t);
+  }
+  if (tables.instances.empty()) tables.instances.push_back({});
+}
+
+SkyTable skyTable(const Sky& sky, EffectSet effects) {
+  SkyTable table;
+  const bool image = sky.kind == Sky::Kind::image;
+  if (!effects.has(Effect::sky) || (image && !effects.has(Effect::skyImage))) return table;
+  table.kind = sky.kind;
+  table.zenith = sky.zenith * sky.scale;
+  table.horizon = sky.horizon * sky.scale;
+  table.ground = sky.ground * sky.scale;
+  table.r = sky.image.r.data();
+  table.g = sky.image.g.data();
+  table.b = sky.image.b.data();
+  table.width = sky.image.width;
+  table.height = sky.image.height;
+  table.scale = sky.scale;
+  table.turn = sky.rotation / 360.0f;
+  return table;
+}
+
+}  // namespace
+
+ShadingTables buildTables(const Scene& scene, EffectSet effects) {
+  // What rays that miss read, masked; a scene may be empty.
+  static const TriangleRecord nowhere{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}, 0};
+  static const NormalRecord flat{};
+  ShadingTables tables;
+  tables.triangles = scene.triangles.empty() ? &nowhere : scene.triangles.data();
+  tables.normals = scene.normals.empty() ? &flat : scene.normals.data();
+  tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    tables.materials.push_back(recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects));
+  }
+  if (tables.materials.empty()) tables.materials.push_back({});
+  addTextures(scene, effects, tables);
+  addInstances(scene, tables);
+  for (const Medium& m : scene.media) {
+    MediumRecord record{};
+    record.ior = m.ior;
+    copy3(m.absorption, record.absorption);
+    record.priority = static_cast<float>(m.priority);
+    tables.media.push_back(record);
+    tables.samePriority = tables.samePriority && m.priority == scene.media[0].priority;
+  }
+  if (effects.has(Effect::lights)) tables.lights = scene.lights;
+  tables.sky = skyTable(scene.sky, effects);
+  tables.ambient = scene.ambient;
+  return tables;
+}
+
+}  // namespace whit

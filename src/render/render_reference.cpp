@@ -1,0 +1,51 @@
+// The reference's pictures, its candidates from Embree.
+#include <chrono>
+
+#include "core/display.h"
+#include "reference/reference.h"
+#include "render/embree_intersector.h"
+#include "render/renderer_parts.h"
+
+namespace whit {
+
+bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
+  float u = 0, v = 0;
+  if (!accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), c.triangle, c.instance, u, v)) {
+    return false;
+  }
+  c.u = static_cast<double>(u);
+  c.v = static_cast<double>(v);
+  return true;
+}
+
+bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
+  return accel_.occluded(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(tFar));
+}
+
+FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
+  Parts& p = *parts_;
+  const auto start = std::chrono::steady_clock::now();
+  reference::Settings settings;
+  settings.spp = p.options.spp;
+  settings.depth = p.options.depth;
+  settings.cutoff = static_cast<double>(p.options.cutoff);
+  settings.effects = p.plan.effects;
+  settings.threads = p.machine.threads;
+  const EmbreeIntersector intersector(*p.accel);
+  const reference::RayCounts counts =
+      reference::render(p.scene, intersector, camera, settings, film.image, progress);
+  if (film.wantDisplay) {
+    film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve);
+  }
+  FrameStats stats;
+  stats.frameMs =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  stats.workers = p.machine.threads;
+  const std::uint64_t rays[] = {counts.primary, counts.shadow, counts.reflection,
+                                counts.refraction};
+  for (std::size_t k = 0; k < kRayKindCount; ++k) stats.tally[k] = {rays[k], rays[k]};
+  for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
+  return stats;
+}
+
+}  // namespace whit

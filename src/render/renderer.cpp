@@ -1,0 +1,201 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "render/build_tables.h"
+#include "render/renderer_parts.h"
+#include "render/tiles.h"
+
+namespace whit {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Embree's name for the ISA that goes with a kernel target.
+std::string embreeIsa(const std::string& target) {
+  if (target == "avx3" || target == "avx3_dl") return "avx512";
+  if (target == "avx2") return "avx2";
+  if (target == "sse4") return "sse4.2";
+  if (target == "scalar") return "sse2";
+  return "";
+}
+
+void chooseSimd(const std::string& name) {
+  if (simd::chooseTarget(name)) return;
+  std::string have;
+  for (const std::string& target : simd::availableTargets()) have += " " + target;
+  throwUsage("--simd " + name + " is not available here; there are: auto" + have);
+}
+
+}  // namespace
+
+Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* progress)
+    : parts_(std::make_unique<Parts>(scene, options)) {
+  const Clock::time_point start = Clock::now();
+  Parts& p = *parts_;
+  chooseSimd(options.simd);
+  p.plan = makePlan(scene, options);
+  p.machine.threads = options.threads > 0 ? options.threads : usableThreads();
+  AccelOptions accel;
+  accel.robust = options.robust;
+  accel.alphaMasks = p.plan.effects.has(Effect::alphaMasks);
+  accel.threads = p.machine.threads;
+  accel.packet = options.packet;
+  accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
+  p.accel.emplace(scene, accel, progress);
+  p.tables = buildTables(scene, p.plan.effects);
+  p.pool.emplace(p.machine.threads);
+  p.machine.simd = simd::chosenTarget();
+  p.machine.embree = p.accel->description();
+  p.machine.packet = p.accel->packet();
+  p.buildMs = since(start);
+}
+
+Renderer::~Renderer() = default;
+
+const Plan& Renderer::plan() const { return parts_->plan; }
+const Machine& Renderer::machine() const { return parts_->machine; }
+double Renderer::buildMs() const { return parts_->buildMs; }
+
+std::uint64_t Renderer::memoryBytes() const {
+  const Parts& p = *parts_;
+  std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
+  for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
+  return sum;
+}
+
+void Renderer::Parts::layOut(const Film& film) {
+  if (!tracers.empty() && laidOut == film.image.window) return;
+  laidOut = film.image.window;
+  tiles = makeTiles(laidOut, options.tile);
+  tracers.clear();
+  batches.clear();
+  const auto workers = static_cast<std::size_t>(machine.threads);
+  std::size_t capacity = static_cast<std::size_t>(options.tile * options.tile);
+  if (options.batch == Batch::frame) {
+    // Tiles dealt out in turn, so that every worker gets its share of each part of the image.
+    batches.resize(workers);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      std::vector<std::uint32_t>& batch = batches[i % workers];
+      batch.insert(batch.end(), tiles[i].begin(), tiles[i].end());
+    }
+    capacity = kBlock;
+    for (const auto& batch : batches) capacity = std::max(capacity, batch.size());
+  }
+  if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
+  tracers.reserve(workers);
+  for (std::size_t i = 0; i < workers; ++i) tracers.emplace_back(plan, capacity);
+  // Kernels read whole vectors of pixels.
+  for (auto& tile : tiles) tile.reserve(tile.size() + 2 * kBlock);
+  for (auto& batch : batches) batch.reserve(batch.size() + 2 * kBlock);
+}
+
+FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film) {
+  layOut(film);
+  if (film.wantDisplay) {
+    film.display.width = film.image.windowWidth();
+    film.display.height = film.image.windowHeight();
+    film.display.rgba.resize(film.image.pixels.size() * 4);
+  }
+  FrameJob job;
+  job.plan = &plan;
+  job.tables = &tables;
+  job.accel = &*accel;
+  job.camera = makeCameraFrame(camera, film.image.width, film.image.height);
+  job.samples = samplePattern(options.spp);
+  job.cutoff = options.cutoff;
+  job.exposureScale = std::exp2(options.exposure);
+  job.toneCurve = options.toneCurve;
+  job.film = &film;
+  return job;
+}
+
+FrameStats Renderer::Parts::renderTiles(FrameJob& job, std::vector<RayLog>* logs) {
+  std::atomic<std::size_t> next{0};
+  std::vector<FrameStats> stats(tracers.size());
+  pool->run([&](int worker) {
+    const auto w = static_cast<std::size_t>(worker);
+    FrameStats mine;  // on this worker's stack: no cache line is shared while the frame runs
+    for (std::size_t i = next++; i < tiles.size(); i = next++) {
+      tracers[w].trace(job, tiles[i], mine, logs ? &(*logs)[i] : nullptr);
+    }
+    stats[w] = mine;
+  });
+  FrameStats sum;
+  for (const FrameStats& s : stats) sum.add(s);
+  return sum;
+}
+
+FrameStats Renderer::Parts::renderBatches(FrameJob& job) {
+  std::barrier<> stageBarrier(static_cast<std::ptrdiff_t>(tracers.size()));
+  job.stageBarrier = &stageBarrier;
+  std::vector<FrameStats> stats(tracers.size());
+  pool->run([&](int worker) {
+    const auto w = static_cast<std::size_t>(worker);
+    FrameStats mine;
+    tracers[w].trace(job, batches[w], mine, nullptr);
+    stats[w] = mine;
+    stageBarrier.arrive_and_drop();  // the others may have deeper queues
+  });
+  FrameStats sum;
+  for (const FrameStats& s : stats) sum.add(s);
+  return sum;
+}
+
+FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs) {
+  const Clock::time_point start = Clock::now();
+  FrameStats stats =
+      options.batch == Batch::frame && !logs ? renderBatches(job) : renderTiles(job, logs);
+  stats.frameMs = since(start);
+  stats.workers = machine.threads;
+  return stats;
+}
+
+FrameStats Renderer::render(const Camera& camera, Film& film) {
+  FrameJob job = parts_->makeJob(camera, film);
+  return parts_->renderFrame(job, nullptr);
+}
+
+FloorResult Renderer::measureFloor(const Camera& camera, Film& film, int frames) {
+  Parts& p = *parts_;
+  FrameJob job = p.makeJob(camera, film);
+  std::vector<RayLog> logs(p.tiles.size());
+  p.renderTiles(job, &logs);
+  FloorResult result;
+  for (const RayLog& log : logs) {
+    for (const RayLog::Stream& stream : log.streams()) result.rays += stream.rays.size() / 7;
+  }
+  std::vector<double> floors, whole;
+  for (int frame = 0; frame < std::max(frames, 1); ++frame) {
+    whole.push_back(p.renderFrame(job, nullptr).frameMs);
+    std::atomic<std::size_t> next{0};
+    std::vector<double> ms(p.tracers.size());
+    p.pool->run([&](int worker) {
+      double mine = 0;
+      for (std::size_t i = next++; i < logs.size(); i = next++) mine += p.accel->replay(logs[i]);
+      ms[static_cast<std::size_t>(worker)] = mine;
+    });
+    double sum = 0;
+    for (const double m : ms) sum += m;
+    floors.push_back(sum / p.machine.threads);
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(),
+                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  result.floorMs = median(floors);
+  result.frameMs = median(whole);
+  return result;
+}
+
+}  // namespace whit

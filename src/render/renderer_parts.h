@@ -1,0 +1,38 @@
+// What a Renderer holds.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/worker_pool.h"
+#include "render/renderer.h"
+#include "render/tile_tracer.h"
+#include "scene/sample_pattern.h"
+
+namespace whit {
+
+struct Renderer::Parts {
+  Parts(const Scene& s, const RenderOptions& o) : scene(s), options(o) {}
+
+  FrameJob makeJob(const Camera& camera, Film& film);
+  void layOut(const Film& film);  // tiles and tracers, when the window has changed
+  FrameStats renderTiles(FrameJob& job, std::vector<RayLog>* logs);
+  FrameStats renderBatches(FrameJob& job);
+  FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
+
+  const Scene& scene;
+  RenderOptions options;
+  Plan plan;
+  ShadingTables tables;
+  std::optional<Accel> accel;
+  std::optional<WorkerPool> pool;
+  Machine machine;
+  double buildMs = 0;
+
+  Crop laidOut;  // window that the tiles below cover
+  std::vector<std::vector<std::uint32_t>> tiles;
+  std::vector<std::vector<std::uint32_t>> batches;  // --batch frame: one a worker
+  std::vector<TileTracer> tracers;                  // one a worker
+};
+
+}  // namespace whit

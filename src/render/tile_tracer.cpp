@@ -1,0 +1,262 @@
+#include "render/tile_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+// One sample of one batch of pixels.
+struct TileTracer::Pass {
+  const FrameJob& job;
+  std::span<const std::uint32_t> pixels;
+  Vec2f sample;
+  FrameStats& stats;
+  StageClock& clock;
+  RayLog* log;
+  std::size_t children = 0;  // of the chunk that was shaded last
+};
+
+namespace {
+
+RayTally& tallyOf(FrameStats& stats, RayKind kind) {
+  return stats.tally[static_cast<std::size_t>(kind)];
+}
+
+// Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
+// frustums. Paths that have met more than two surfaces no longer are.
+bool isCoherent(std::size_t depth) { return depth <= 2; }
+
+simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample) {
+  return {Vec3f(camera.eye),
+          Vec3f(camera.forward),
+          Vec3f(camera.right),
+          Vec3f(camera.up),
+          static_cast<float>(camera.width) / 2,
+          static_cast<float>(camera.height) / 2,
+          sample.x,
+          sample.y};
+}
+
+}  // namespace
+
+TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
+    : plan_(plan),
+      capacity_(roundUpToBlock(capacity)),
+      levels_(static_cast<std::size_t>(plan.depth) + 1),
+      hits_(capacity_, plan.groups),
+      surfels_(capacity_, plan.groups),
+      unshadowed_(plan.effects.has(Effect::lights) ? capacity_ : kBlock, plan.groups),
+      shadows_(plan.traceShadows ? capacity_ : kBlock, plan.groups) {
+  reserveLevel(0, capacity_);
+}
+
+void TileTracer::reserveLevel(std::size_t depth, std::size_t rays) {
+  Level& level = levels_[depth];
+  if (level.rays.capacity() >= rays) return;
+  level.rays.allocate(rays, plan_.groups);
+  if (level.radiance.capacity() == 0) level.radiance.allocate(capacity_, plan_.groups);
+}
+
+std::size_t TileTracer::bytes() const {
+  std::size_t sum = hits_.bytes() + surfels_.bytes() + unshadowed_.bytes() + shadows_.bytes();
+  for (const Level& level : levels_) sum += level.rays.bytes() + level.radiance.bytes();
+  return sum + sums_.capacity() * sizeof(double) + codes_.capacity() * sizeof(std::uint32_t);
+}
+
+void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixels,
+                       FrameStats& stats, RayLog* log) {
+  const bool several = job.samples.size() > 1;
+  StageClock clock(stats);
+  for (std::size_t begin = 0; begin < pixels.size(); begin += capacity_) {
+    const auto batch = pixels.subspan(begin, std::min(capacity_, pixels.size() - begin));
+    if (several) sums_.assign(3 * batch.size(), 0.0);
+    for (const Vec2f sample : job.samples) {
+      Pass pass{job, batch, sample, stats, clock, log};
+      traceSample(pass);
+      if (!several) continue;
+      const RadianceColumns& radiance = *levels_[0].radiance;
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        sums_[3 * i] += static_cast<double>(radiance.r[i]);
+        sums_[3 * i + 1] += static_cast<double>(radiance.g[i]);
+        sums_[3 * i + 2] += static_cast<double>(radiance.b[i]);
+      }
+    }
+    updateImage(job, batch, stats);
+    clock.lap(Stage::updateImage, 0);
+  }
+}
+
+void TileTracer::traceSample(Pass& pass) {
+  Level& first = levels_[0];
+  first.count = first.reflections = pass.pixels.size();
+  first.cursor = 0;
+  simd::generateRays(cameraRays(pass.job.camera, pass.sample), pass.pixels.data(), first.count,
+                     *first.rays);
+  first.chunk = first.count;
+  endStage(pass, Stage::generateRays, 0);
+  std::size_t depth = 0;
+  for (;;) {
+    Level& level = levels_[depth];
+    if (level.cursor < level.count) {
+      level.chunk = std::min(capacity_, level.count - level.cursor);
+      shadeChunk(pass, depth);
+      if (pass.children > 0) {
+        ++depth;
+        levels_[depth].cursor = 0;
+      } else {
+        finishChunk(pass, depth);
+      }
+      continue;
+    }
+    if (depth == 0) return;
+    // The queue is drained: the chunk that it came from is complete.
+    --depth;
+    finishChunk(pass, depth);
+  }
+}
+
+void TileTracer::shadeChunk(Pass& pass, std::size_t depth) {
+  Level& level = levels_[depth];
+  const RayColumns rays = advanced(*level.rays, level.cursor);
+  findIntersections(pass, depth, rays);
+  simd::writeEmittedAndReflectiveAmbient(*pass.job.tables, plan_.effects, rays, *surfels_,
+                                         level.chunk, *level.radiance);
+  endStage(pass, Stage::writeEmittedAndReflectiveAmbient, depth);
+  if (plan_.effects.has(Effect::lights)) shadeLights(pass, depth, rays);
+  pass.children = 0;
+  if (depth < static_cast<std::size_t>(plan_.depth)) addImpulses(pass, depth, rays);
+}
+
+void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays) {
+  const Level& level = levels_[depth];
+  const bool coherent = isCoherent(depth);
+  TraceMeter meter{nullptr, 0, pass.log};
+  // Reflections come first in a queue, refractions follow; a chunk may hold some of both.
+  const std::size_t reflected =
+      std::clamp(level.reflections, level.cursor, level.cursor + level.chunk) - level.cursor;
+  if (reflected > 0) {
+    meter.tally = &tallyOf(pass.stats, depth == 0 ? RayKind::primary : RayKind::reflection);
+    pass.job.accel->findHits(rays, reflected, coherent, *hits_, meter);
+  }
+  if (reflected < level.chunk) {
+    meter.tally = &tallyOf(pass.stats, RayKind::refraction);
+    pass.job.accel->findHits(advanced(rays, reflected), level.chunk - reflected, coherent,
+                             advanced(*hits_, reflected), meter);
+  }
+  pass.stats.embreeWorkerMs += meter.embreeMs;
+  std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
+  simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_, level.chunk, *surfels_);
+  endStage(pass, Stage::findIntersections, depth);
+}
+
+void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays) {
+  const Level& level = levels_[depth];
+  for (const PointLight& light : pass.job.tables->lights) {
+    shadowCount_ = simd::findRadianceAndShadowRays(*pass.job.tables, plan_.effects, light, rays,
+                                                   *surfels_, level.chunk, *unshadowed_, *shadows_);
+    endStage(pass, Stage::findRadianceAndShadowRays, depth, &light);
+    if (plan_.traceShadows) {
+      TraceMeter meter{&tallyOf(pass.stats, RayKind::shadow), 0, pass.log};
+      pass.job.accel->checkShadows(*shadows_, shadowCount_, isCoherent(depth), unshadowed_->visible,
+                                   meter);
+      pass.stats.embreeWorkerMs += meter.embreeMs;
+      endStage(pass, Stage::checkShadows, depth, &light);
+    }
+    simd::addShading(*unshadowed_, level.chunk, *level.radiance);
+    endStage(pass, Stage::addShading, depth, &light);
+  }
+}
+
+void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays) {
+  const Level& level = levels_[depth];
+  const std::size_t kinds = static_cast<std::size_t>(plan_.traceReflections) +
+                            static_cast<std::size_t>(plan_.traceRefractions);
+  reserveLevel(depth + 1, kinds * roundUpToBlock(level.chunk));
+  Level& next = levels_[depth + 1];
+  next.count = 0;
+  if (plan_.traceReflections) {
+    next.count = simd::addReflections(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
+                                      *surfels_, level.chunk, *next.rays, 0);
+  }
+  next.reflections = next.count;
+  if (plan_.traceRefractions) {
+    next.count += simd::addRefractions(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
+                                       *surfels_, level.chunk, *next.rays, next.count);
+  }
+  pass.children = next.count;
+  endStage(pass, Stage::addImpulses, depth);
+}
+
+void TileTracer::finishChunk(Pass& pass, std::size_t depth) {
+  Level& level = levels_[depth];
+  if (depth > 0) {
+    simd::returnImpulses(advanced(*level.rays, level.cursor), *level.radiance, level.chunk,
+                         *levels_[depth - 1].radiance);
+    pass.clock.lap(Stage::addImpulses, static_cast<int>(depth));
+  }
+  level.cursor += level.chunk;
+}
+
+void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const PointLight* light) {
+  pass.clock.lap(stage, static_cast<int>(depth));
+  if (pass.job.stageBarrier) {
+    pass.job.stageBarrier->arrive_and_wait();
+    pass.clock.skip();
+  }
+  if (!pass.job.observer) return;
+  const Level& level = levels_[depth];
+  ChunkView view;
+  view.depth = static_cast<int>(depth);
+  view.n = level.chunk;
+  view.rays = advanced(*level.rays, level.cursor);
+  view.hits = *hits_;
+  view.surfels = *surfels_;
+  view.radiance = *level.radiance;
+  view.unshadowed = *unshadowed_;
+  view.shadows = *shadows_;
+  view.shadowCount = shadowCount_;
+  view.light = light;
+  view.pixels = pass.pixels;
+  view.sample = pass.sample;
+  if (stage == Stage::addImpulses) {
+    const Level& next = levels_[depth + 1];
+    view.children = *next.rays;
+    view.reflections = next.reflections;
+    view.refractions = next.count - next.reflections;
+  }
+  pass.job.observer->after(stage, view);
+  pass.clock.skip();
+}
+
+void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t> pixels,
+                             FrameStats& stats) {
+  const RadianceColumns& radiance = *levels_[0].radiance;
+  const std::size_t n = pixels.size();
+  if (job.samples.size() > 1) {
+    const double count = static_cast<double>(job.samples.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      radiance.r[i] = static_cast<float>(sums_[3 * i] / count);
+      radiance.g[i] = static_cast<float>(sums_[3 * i + 1] / count);
+      radiance.b[i] = static_cast<float>(sums_[3 * i + 2] / count);
+    }
+  }
+  Film& film = *job.film;
+  if (film.wantDisplay) {
+    codes_.resize(roundUpToBlock(n) + kBlock);
+    simd::encodeDisplay(job.exposureScale, job.toneCurve, radiance, n, codes_.data());
+  }
+  const Crop& window = film.image.window;
+  const auto width = static_cast<std::size_t>(film.image.windowWidth());
+  auto* display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t x = (pixels[i] & 0xFFFFu) - static_cast<std::size_t>(window.x0);
+    const std::size_t y = (pixels[i] >> 16) - static_cast<std::size_t>(window.y0);
+    const Rgb value{radiance.r[i], radiance.g[i], radiance.b[i]};
+    film.image.pixels[y * width + x] = value;
+    if (film.wantDisplay) display[y * width + x] = codes_[i];
+    // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
+    stats.nonFinitePixels += !std::isfinite(value.x + value.y + value.z);
+  }
+}
+
+}  // namespace whit
