@@ -1,0 +1,323 @@
+// Refracted impulses through slabs, stacks of slabs and boxes (numerics H10, H38, H42-H50).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/fresnel.h"
+#include "reference/impulses.h"
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::glassMaterial;
+using test::radianceAlong;
+using test::SceneBuilder;
+
+// Two faces with the medium in between. Large ones are as good as infinite, but the magnitudes of
+// their corners make for large offsets.
+void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_t material,
+             float half = 1000) {
+  builder.add(test::floorAt(top, half, material));
+  builder.add(test::ceilingAt(bottom, half, material));
+}
+
+// The refracted ray, followed until it leaves the scene.
+struct StraightThrough {
+  Ray last;
+  MediaStack media = 0;
+  int hits = 0, hidden = 0;
+  std::vector<double> reflectances;  // of what is not hidden
+};
+StraightThrough followRefracted(const Scene& scene, const Vec3d& origin, const Vec3d& direction) {
+  StraightThrough path;
+  path.last = {origin, normalized(direction)};
+  const BruteForce bruteForce(scene);
+  Candidate candidate;
+  while (path.hits < 20 && bruteForce.closest(path.last, candidate)) {
+    ++path.hits;
+    const TriangleHit hit = refineHit(scene, path.last, candidate);
+    const Surfel s = makeSurfel(scene, EffectSet::all(), candidate, hit, path.last.direction);
+    const Crossing crossing =
+        crossMedia(scene, EffectSet::all(), s.material, s.entering, path.media);
+    const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, path.media);
+    path.hidden += crossing.hidden;
+    if (!crossing.hidden) path.reflectances.push_back(found.reflected.weight.x);
+    path.last = found.refracted.ray;
+    path.media = found.refracted.media;
+  }
+  return path;
+}
+
+Vec3d steep(double degrees) {
+  const double angle = degrees * 3.14159265358979323846 / 180;
+  return {std::sin(angle), -std::cos(angle), 0};
+}
+// Where the path's last ray crosses the plane y = 0, relative to where the straight line does.
+double lateralShift(const StraightThrough& path, const Vec3d& origin, const Vec3d& direction) {
+  const auto across = [](const Vec3d& o, const Vec3d& d) { return o - d * (o.y / d.y); };
+  const Vec3d there = across(path.last.origin, path.last.direction) - across(origin, direction);
+  return length(there - direction * dot(there, direction));
+}
+
+// At each of up to four faces the origin is moved by offset = 32 u (|x| + |y| + |z|) of the
+// interpolated magnitudes, at most 5 + 2 + 5 here.
+constexpr double kOffsets = 4 * 32 * 12 / 16777216.0;
+
+TEST(Slab, ShiftsAndKeepsTheDirection) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 4);
+  const Vec3d d = steep(60), origin = Vec3d{0, 0, 0} - d * 3.0;
+  const StraightThrough path = followRefracted(builder.build(), origin, d);
+  EXPECT_EQ(path.hits, 2);
+  EXPECT_EQ(path.media, 0u);
+  EXPECT_LT(length(path.last.direction - d), 1e-14);
+  EXPECT_NEAR(lateralShift(path, origin, d), 0.512472013, kOffsets);
+  ASSERT_EQ(path.reflectances.size(), 2u);
+  EXPECT_NEAR(path.reflectances[0], path.reflectances[1], 1e-14) << "reciprocity";
+}
+
+// Paths through plane layers obey n sin = const; the shift is the sum over the layers.
+double shiftThrough(double degrees, const std::vector<std::pair<double, double>>& layers) {
+  const double angle = degrees * 3.14159265358979323846 / 180;
+  double shift = 0;
+  for (const auto& [ior, thickness] : layers) {
+    const double inside = std::asin(std::sin(angle) / ior);
+    shift += thickness * std::sin(angle - inside) / std::cos(inside);
+  }
+  return shift;
+}
+
+class NestedTest : public ::testing::Test {
+ protected:
+  // Glass from 0 to -1 and water from `waterTop` to -2.
+  StraightThrough path(float waterTop, int glassPriority, int waterPriority) {
+    SceneBuilder builder;
+    const auto glass = builder.add(glassMaterial(1.5f, glassPriority));
+    const auto water = builder.add(glassMaterial(1.33f, waterPriority));
+    addSlab(builder, 0, -1, glass, 5);
+    addSlab(builder, waterTop, -2, water, 5);
+    return followRefracted(builder.build(), origin_, direction_);
+  }
+  static constexpr double kAngle = 40;
+  const Vec3d direction_ = steep(kAngle), origin_ = -direction_;
+};
+
+TEST_F(NestedTest, OverlapActsAsOneInterface) {
+  const StraightThrough seen = path(-0.999f, 1, 0);
+  EXPECT_EQ(seen.hits, 4);
+  EXPECT_EQ(seen.hidden, 1);
+  EXPECT_EQ(seen.media, 0u);
+  EXPECT_LT(length(seen.last.direction - direction_), 1e-14);
+  EXPECT_NEAR(lateralShift(seen, origin_, direction_),
+              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 1}}), kOffsets);
+  // From glass into water: ratio 0.8867.
+  const double inGlass =
+      std::sqrt(1 - std::pow(std::sin(kAngle * 3.14159265358979 / 180) / 1.5, 2));
+  ASSERT_EQ(seen.reflectances.size(), 3u);
+  EXPECT_NEAR(seen.reflectances[1], makeInterface(1.5f, 1.33f, inGlass).reflectance, 1e-12);
+}
+
+TEST_F(NestedTest, WaterMayOutrankGlass) {
+  const StraightThrough seen = path(-0.75f, 0, 1);
+  EXPECT_EQ(seen.hidden, 1);
+  EXPECT_EQ(seen.media, 0u);
+  EXPECT_NEAR(lateralShift(seen, origin_, direction_),
+              shiftThrough(kAngle, {{1.5f, 0.75}, {1.33f, 1.25}}), kOffsets);
+}
+
+TEST_F(NestedTest, GapHoldsVacuum) {
+  const StraightThrough seen = path(-1.25f, 0, 0);
+  EXPECT_EQ(seen.hidden, 0);
+  EXPECT_EQ(seen.reflectances.size(), 4u);
+  EXPECT_LT(length(seen.last.direction - direction_), 1e-14);
+  EXPECT_NEAR(lateralShift(seen, origin_, direction_),
+              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 0.75}}), kOffsets);
+}
+
+// Light that comes in at normal incidence: all of it comes back, save what is still inside at the
+// deepest impulse (numerics H43).
+TEST(Furnace, SlabLosesOnlyTheTail) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  for (int inside = 1; inside <= 8; ++inside) {
+    const double seen = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1)).x;
+    const double tail = std::pow(0.04, inside) * 0.96;
+    EXPECT_NEAR(seen, 1 - tail, 1e-14) << inside;
+  }
+}
+
+TEST(Furnace, SplitsAsTheSeriesSays) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  Sky& sky = builder.description.sky;
+  sky.kind = Sky::Kind::gradient;  // white above, black below
+  sky.zenith = sky.horizon = Rgb(1.0f);
+  const Scene scene = builder.build();
+  const double reflected = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(40)).x;
+  // The gradient starts at the horizon: straight down it is `ground`, black.
+  EXPECT_NEAR(reflected, 2 * 0.04 / 1.04, 1e-12);
+}
+
+// Any convex piece of glass in a white room is as bright as the room, from everywhere.
+TEST(Furnace, BoxVanishes) {
+  SceneBuilder builder;
+  const auto glass = builder.add(glassMaterial(1.5f));
+  builder.place({"box", {test::box({-1, -0.5f, -1}, {1, 0.5f, 1}, glass)}},
+                {Affine::rotation({1, 2, 3}, 33)});
+  builder.sky(1);
+  const Scene scene = builder.build();
+  test::Numbers numbers(13);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d eye = numbers.direction() * 5.0;
+    const Vec3d target{numbers.in(-0.9, 0.9), numbers.in(-0.4, 0.4), numbers.in(-0.9, 0.9)};
+    const double seen = radianceAlong(scene, eye, target - eye, test::uncut(64)).x;
+    EXPECT_LE(seen, 1 + 1e-12) << i;
+    EXPECT_GE(seen, 1 - 1e-4) << i;
+  }
+}
+
+// numerics H44, up to the rounding of one sum.
+TEST(Energy, ReflectedAndRefractedAddUpToOne) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, builder.add(glassMaterial(1.5f))));
+  const Scene scene = builder.build();
+  test::Numbers numbers(14);
+  for (int i = 0; i < 10000; ++i) {
+    Surfel s;
+    s.geometricNormal = s.shadingNormal = numbers.direction();
+    s.view = numbers.direction();
+    if (dot(s.view, s.geometricNormal) < 0) s.view = -s.view;
+    s.entering = i % 2;
+    const MediaStack stack = s.entering ? 0 : 1;
+    const Crossing crossing = crossMedia(scene, EffectSet::all(), 0, s.entering, stack);
+    const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, stack);
+    const double reflected = found.reflected.weight.x, refracted = found.refracted.weight.x;
+    EXPECT_TRUE(reflected >= 0 && refracted >= 0);
+    EXPECT_NEAR(reflected + refracted, 1, 2.3e-16);
+  }
+}
+
+// Refracted rays go to the far side, whatever the shading normal says.
+TEST(Energy, RefractedRaysGoThrough) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, builder.add(glassMaterial(1.5f))));
+  const Scene scene = builder.build();
+  test::Numbers numbers(15);
+  for (int i = 0; i < 10000; ++i) {
+    Surfel s;
+    s.geometricNormal = {0, 1, 0};
+    s.view = numbers.direction();
+    s.view.y = std::abs(s.view.y);
+    s.shadingNormal = normalized(numbers.direction() + Vec3d{0, 1, 0}, {0, 1, 0});
+    s.entering = true;
+    const Crossing crossing = crossMedia(scene, EffectSet::all(), 0, true, 0);
+    const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, 0);
+    if (maxComponent(found.refracted.weight) > 0) {
+      EXPECT_LT(found.refracted.ray.direction.y, 0);
+      EXPECT_NEAR(length(found.refracted.ray.direction), 1, 1e-14);
+    }
+  }
+}
+
+// numerics H38: glass of the vacuum's index is not there at all, bit for bit.
+TEST(IndexOne, IsInvisible) {
+  SceneBuilder builder;
+  builder.add(test::box({-1, -1, -1}, {1, 1, 1}, builder.add(glassMaterial(1))));
+  Sky& sky = builder.description.sky;
+  sky.kind = Sky::Kind::gradient;
+  sky.zenith = {1, 2, 3};
+  sky.horizon = {4, 5, 6};
+  sky.ground = {7, 8, 9};
+  const Scene scene = builder.build();
+  test::Numbers numbers(16);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d eye = numbers.direction() * 4.0;
+    const Vec3d towards = numbers.direction() - eye;
+    RayCounts counts;
+    EXPECT_EQ(radianceAlong(scene, eye, towards, test::uncut(), &counts),
+              skyRadiance(scene.sky, normalized(towards)));
+    EXPECT_EQ(counts.reflection, 0u);
+  }
+}
+
+// A hidden surface shows neither its emission nor its coat.
+TEST(Hidden, SurfacesAreNotThere) {
+  SceneBuilder builder;
+  Material inner = glassMaterial(1.33f);
+  inner.emission = inner.mirror = inner.mirrorGrazing = Rgb(1.0f);
+  const auto outside = builder.add(glassMaterial(1, 1));
+  const auto inside = builder.add(inner);
+  addSlab(builder, 1, -1, outside);
+  addSlab(builder, 0.5f, -0.5f, inside);
+  builder.sky(0.25f);
+  RayCounts counts;
+  const RgbD seen = radianceAlong(builder.build(), {0, 2, 0}, steep(30), test::uncut(), &counts);
+  EXPECT_EQ(seen, RgbD(0.25));
+  EXPECT_EQ(counts.refraction, 4u);
+  EXPECT_EQ(counts.reflection, 0u);
+}
+
+// numerics H50: exp(-sigma * length of the path inside).
+TEST(Absorption, DependsOnThePathInside) {
+  SceneBuilder builder;
+  Material tinted = glassMaterial(1);
+  tinted.absorption = {1, 0.5f, 0};
+  addSlab(builder, 0, -1, builder.add(tinted), 4);
+  builder.sky(1);
+  const Scene scene = builder.build();
+  for (const double degrees : {0.0, 30.0, 60.0}) {
+    const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
+    const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
+    EXPECT_NEAR(seen.x, std::exp(-path), kOffsets) << degrees;
+    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsets) << degrees;
+    EXPECT_EQ(seen.z, 1);
+    Settings clear = test::uncut();
+    clear.effects = EffectSet::all().without(Effect::absorption);
+    EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), clear), RgbD(1.0));
+  }
+}
+
+// An interface without a far side: absorbed is what is absorbed at all (numerics H49).
+TEST(Absorption, OpenSurfaceLeadsToInfinity) {
+  SceneBuilder builder;
+  Material tinted = glassMaterial(1);
+  tinted.absorption = {1e-3f, 0, 0};
+  builder.add(test::floorAt(0, 4, builder.add(tinted)));
+  builder.sky(1);
+  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}), RgbD(0, 1, 1));
+}
+
+// What is absorbed counts for the cutoff too.
+TEST(Absorption, ShortensPathsThroughTheCutoff) {
+  SceneBuilder builder;
+  Material dark = glassMaterial(1);
+  dark.absorption = Rgb(10.0f);
+  addSlab(builder, 0, -1, builder.add(dark));
+  builder.sky(1);
+  Settings settings = test::uncut();
+  settings.cutoff = 1e-3;
+  RayCounts counts;
+  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
+  EXPECT_EQ(counts.refraction, 1u) << "exp(-10) is below the cutoff: the way out is not traced";
+}
+
+TEST(Transmission, DisabledMeansOpaque) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  Settings settings = test::uncut();
+  settings.effects = EffectSet::all().without(Effect::transmission);
+  RayCounts counts;
+  EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
+  EXPECT_EQ(counts.refraction + counts.reflection, 0u);
+  settings.effects = EffectSet::all().without(Effect::mirror);
+  const double transmitted = radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings).x;
+  EXPECT_NEAR(transmitted, 0.96 * 0.96, 1e-14) << "without reflections only the straight way";
+}
+
+}  // namespace
+}  // namespace whit::reference

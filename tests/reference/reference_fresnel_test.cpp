@@ -1,0 +1,145 @@
+// Fresnel's and Snell's laws (numerics H37-H41).
+#include "reference/fresnel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+// The textbook form, in long double.
+long double fresnelOracle(long double n1, long double n2, long double c) {
+  const long double sinT = n1 / n2 * std::sqrt(1 - c * c);
+  if (sinT >= 1) return 1;
+  const long double ct = std::sqrt(1 - sinT * sinT);
+  const long double s = (n1 * c - n2 * ct) / (n1 * c + n2 * ct);
+  const long double p = (n2 * c - n1 * ct) / (n2 * c + n1 * ct);
+  return (s * s + p * p) / 2;
+}
+
+double reflectance(double n1, double n2, double c) { return makeInterface(n1, n2, c).reflectance; }
+
+TEST(Fresnel, Anchors) {
+  EXPECT_NEAR(reflectance(1, 1.5, 1), 0.04, 1e-16);
+  // Brewster's angle, tan = 1.5: no parallel part.
+  EXPECT_NEAR(reflectance(1, 1.5, 1 / std::sqrt(1 + 1.5 * 1.5)),
+              std::pow((1.5 * 1.5 - 1) / (1.5 * 1.5 + 1), 2) / 2, 1e-15);
+  // Grazing: 1 - F goes to 2 c (1 + n^2) / sqrt(n^2 - 1).
+  EXPECT_NEAR(1 - reflectance(1, 1.5, 1e-4), 5.8118e-4, 1e-8);
+}
+
+TEST(Fresnel, AgreesWithTheTextbookForm) {
+  test::Numbers numbers(3);
+  for (const double n2 : {1.33, 1.5, 2.42}) {
+    for (int i = 0; i < 20000; ++i) {
+      const double c = numbers.in(1e-3, 1);
+      const double truth = static_cast<double>(fresnelOracle(1, n2, c));
+      EXPECT_NEAR(reflectance(1, n2, c), truth, 1e-13 * truth) << n2 << " at " << c;
+    }
+  }
+}
+
+// The same reflectance from either side along the same path.
+TEST(Fresnel, IsReciprocal) {
+  test::Numbers numbers(4);
+  for (int i = 0; i < 10000; ++i) {
+    const double eta = numbers.in(1.01, 3), c = numbers.in(1e-3, 1);
+    const Interface there = makeInterface(1, eta, c);
+    const double cosineBehind = there.g / eta;
+    EXPECT_NEAR(makeInterface(eta, 1, cosineBehind).reflectance, there.reflectance, 1e-9);
+  }
+}
+
+// numerics H38
+TEST(Fresnel, EqualIndicesDoNothing) {
+  const Vec3d n{0, 1, 0};
+  for (const double c : {0.0, 1e-300, 1e-9, 1e-4, 0.5, 1.0}) {
+    const Interface none = makeInterface(1.33, 1.33, c);
+    EXPECT_EQ(none.reflectance, 0) << c;
+    const Vec3d d{std::sqrt(1 - c * c), -c, 0};
+    EXPECT_EQ(refract(none, d, n, c), d);
+  }
+}
+
+// numerics H39: nearly equal indices keep all digits, 1e-12 relative.
+TEST(Fresnel, NearlyEqualIndices) {
+  for (const double delta : {1e-4, 1e-5, 1e-7}) {
+    for (const double c : {0.01, 0.3, 1.0}) {
+      const double truth = static_cast<double>(fresnelOracle(1, 1.0L + delta, c));
+      // The oracle itself loses about delta's share of long double's 64 bits, squared.
+      EXPECT_NEAR(reflectance(1, 1 + delta, c), truth, 1e-8 * truth) << delta << " at " << c;
+    }
+  }
+}
+
+// numerics H37
+TEST(Fresnel, CriticalAngle) {
+  const double critical = std::sqrt(1 - 1 / (1.5 * 1.5));
+  EXPECT_NEAR(critical, 0.745355992500, 1e-12);
+  for (int ulps = -2000; ulps <= 2000; ++ulps) {
+    const double c = critical + ulps * 1.1102230246251565e-16;
+    const Interface i = makeInterface(1.5, 1, c);
+    const double g2 = (1 - 1.5) * (1 + 1.5) / (1.5 * 1.5) + c * c;
+    EXPECT_EQ(i.reflectance == 1, g2 <= 0) << ulps;
+    EXPECT_TRUE(i.reflectance >= 0 && i.reflectance <= 1) << ulps;
+    if (g2 > 0) {
+      const double s = std::sqrt(1 - c * c);
+      const Vec3d bent = refract(i, {s, -c, 0}, {0, 1, 0}, c);
+      EXPECT_NEAR(length(bent), 1, 1e-15);
+      // Along the surface within sqrt(g2): a few 1e-6 of a radian this close.
+      EXPECT_NEAR(bent.y, 0, 3e-6);
+    }
+  }
+}
+
+TEST(Fresnel, ExactlyCriticalIsTotal) {
+  // 3/5-4/5 triangle: n1 = 5, n2 = 3 gives k = -16/25 and, at c = 4/5, g2 = 0 but for rounding.
+  const Interface i = makeInterface(5, 3, std::sqrt(16.0 / 25));
+  EXPECT_NEAR(i.reflectance, 1, 1e-7);
+  EXPECT_EQ(makeInterface(1, 1.5, 0).reflectance, 1);
+  EXPECT_EQ(makeInterface(1.5, 1, 0).reflectance, 1);
+}
+
+TEST(Refraction, ObeysSnell) {
+  test::Numbers numbers(5);
+  for (int i = 0; i < 10000; ++i) {
+    const double n1 = numbers.in(1, 2.5), n2 = numbers.in(1, 2.5);
+    const Vec3d n = numbers.direction();
+    Vec3d d = numbers.direction();
+    if (dot(d, n) > 0) d = -d;
+    const double c = -dot(d, n);
+    const Interface interface = makeInterface(n1, n2, c);
+    if (interface.reflectance == 1) {
+      EXPECT_GE(n1 / n2 * std::sqrt(1 - c * c), 1 - 1e-12);
+      continue;
+    }
+    const Vec3d t = refract(interface, d, n, c);
+    EXPECT_NEAR(length(t), 1, 1e-14);
+    EXPECT_LT(dot(t, n), 0);
+    // n sin is kept, as a vector along the surface.
+    EXPECT_LT(length(cross(n, t) * n2 - cross(n, d) * n1), 1e-13);
+  }
+}
+
+TEST(Reflection, TurnsOverTheNormalPart) {
+  test::Numbers numbers(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d n = numbers.direction(), d = numbers.direction(), r = reflect(d, n);
+    EXPECT_NEAR(dot(r, n), -dot(d, n), 1e-14);
+    EXPECT_LT(length(cross(n, r) - cross(n, d)), 1e-14);
+  }
+}
+
+// numerics H52
+TEST(Reflection, KeepsUnitLength) {
+  test::Numbers numbers(7);
+  Vec3d d = numbers.direction();
+  for (int i = 0; i < 64; ++i) d = reflect(d, numbers.direction());
+  EXPECT_NEAR(length(d), 1, 4e-16);
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,194 @@
+// Whole pixels and images: sampling, crops, threads, determinism.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "reference/generate_ray.h"
+#include "reference/small_scenes.h"
+#include "scene/sample_pattern.h"
+
+namespace whit::reference {
+namespace {
+
+using test::SceneBuilder;
+
+// A bit of everything.
+Scene stillLife() {
+  SceneBuilder builder;
+  const auto floor = builder.add(test::diffuseMaterial(0.6f));
+  Material coated = test::diffuseMaterial(0.2f);
+  coated.mirror = Rgb(0.3f);
+  coated.mirrorGrazing = Rgb(1.0f);
+  builder.add(test::floorAt(0, 6, floor));
+  builder.add(test::box({-2, 0, -1}, {-1, 1, 0}, builder.add(coated)));
+  builder.add(test::box({0.2f, 0.1f, 0}, {1.2f, 1.1f, 1}, builder.add(test::glassMaterial(1.5f))));
+  builder.sky(0.7f);
+  builder.description.ambient = {Rgb(0.2f), Rgb(0.1f)};
+  PointLight light;
+  light.position = {2, 4, 3};
+  light.intensity = Rgb(20.0f);
+  builder.description.lights = {light};
+  Camera camera;
+  camera.eye = {0, 2, 5};
+  builder.description.cameras = {camera};
+  return builder.build();
+}
+
+class CountingProgress : public Progress {
+ public:
+  void report(const std::string&, double fraction) override {
+    const std::lock_guard lock(mutex_);
+    ++reports;
+    last = std::max(last, fraction);
+  }
+  int reports = 0;
+  double last = 0;
+
+ private:
+  std::mutex mutex_;
+};
+
+TEST(GenerateRay, PassesThroughTheImagePlane) {
+  Camera camera;
+  camera.eye = {1, 2, 3};
+  camera.at = {1, 2, -7};
+  camera.fov = 90;
+  const CameraFrame frame = makeCameraFrame(camera, 400, 200);
+  const auto towards = [&](double x, double y) { return generateRay(frame, x, y).direction; };
+  EXPECT_EQ(generateRay(frame, 7, 8).origin, Vec3d(1, 2, 3));
+  // 45 degrees up at the top of the middle column; x counts rightwards, y downwards.
+  EXPECT_LT(length(towards(200, 0) - normalized(Vec3d{0, 1, -1})), 1e-15);
+  EXPECT_LT(length(towards(0, 0) - normalized(Vec3d{-2, 1, -1})), 1e-15);
+  EXPECT_LT(length(towards(400, 200) - normalized(Vec3d{2, -1, -1})), 1e-15);
+  EXPECT_LT(length(towards(200, 100) - Vec3d{0, 0, -1}), 1e-15);
+}
+
+// numerics H76
+TEST(Pixel, MeanOfEqualSamplesIsExact) {
+  SceneBuilder builder;
+  builder.sky(0.1f);
+  builder.add(test::floorAt(-1, 1, 0));
+  const Scene scene = builder.build();
+  const BruteForce bruteForce(scene);
+  Camera up;
+  up.at = {0, 9, 4};
+  const CameraFrame frame = makeCameraFrame(up, 8, 8);
+  for (const int spp : {1, 2, 3, 5, 16, 1000}) {
+    Settings settings;
+    settings.spp = spp;
+    RayCounts counts;
+    EXPECT_EQ(Tracer(scene, bruteForce, settings).pixel(frame, 3, 4, counts), RgbD(Rgb(0.1f)));
+    EXPECT_EQ(counts.primary, static_cast<std::uint64_t>(spp));
+  }
+}
+
+// A pixel that an edge cuts: the share of samples on the bright side.
+TEST(Pixel, IsTheMeanOverTheSamplePattern) {
+  SceneBuilder builder;
+  Material glowing = test::blackMaterial();
+  glowing.emission = Rgb(1.0f);
+  // Everything left of x = 0, at distance 5.
+  builder.add(test::quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, builder.add(glowing)));
+  const Scene scene = builder.build();
+  const BruteForce bruteForce(scene);
+  // An odd number of columns: the edge runs down the middle of column 4.
+  const CameraFrame frame = makeCameraFrame(Camera{}, 9, 9);
+  for (const int spp : {4, 7, 64}) {
+    Settings settings;
+    settings.spp = spp;
+    int left = 0;
+    for (const Vec2f& sample : samplePattern(spp)) left += sample.x <= 0.5f;
+    RayCounts counts;
+    const Tracer tracer(scene, bruteForce, settings);
+    EXPECT_NEAR(tracer.pixel(frame, 4, 4, counts).x, static_cast<double>(left) / spp, 1e-14);
+    EXPECT_EQ(tracer.pixel(frame, 3, 4, counts).x, 1);
+    EXPECT_EQ(tracer.pixel(frame, 5, 4, counts).x, 0);
+  }
+}
+
+TEST(Render, DoesNotDependOnThreads) {
+  const Scene scene = stillLife();
+  const BruteForce bruteForce(scene);
+  Settings settings;
+  settings.spp = 2;
+  Image one(40, 25);
+  const RayCounts counts = render(scene, bruteForce, scene.cameras[0], settings, one);
+  EXPECT_EQ(counts.primary, 2000u);
+  EXPECT_GT(counts.shadow, 0u);
+  EXPECT_GT(counts.reflection, 0u);
+  EXPECT_GT(counts.refraction, 0u);
+  for (const int threads : {2, 3, 40}) {
+    settings.threads = threads;
+    Image image(40, 25);
+    const RayCounts again = render(scene, bruteForce, scene.cameras[0], settings, image);
+    EXPECT_EQ(image.pixels, one.pixels) << threads;
+    EXPECT_EQ(again.shadow, counts.shadow);
+    EXPECT_EQ(again.reflection, counts.reflection);
+    EXPECT_EQ(again.refraction, counts.refraction);
+  }
+}
+
+TEST(Render, CropIsPartOfTheImage) {
+  const Scene scene = stillLife();
+  const BruteForce bruteForce(scene);
+  const Settings settings;
+  Image whole(40, 25), part(40, 25, {13, 7, 30, 20});
+  render(scene, bruteForce, scene.cameras[0], settings, whole);
+  CountingProgress progress;
+  render(scene, bruteForce, scene.cameras[0], settings, part, &progress);
+  for (int y = 7; y < 20; ++y) {
+    for (int x = 13; x < 30; ++x) EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << ", " << y;
+  }
+  EXPECT_EQ(progress.reports, 13);
+  EXPECT_EQ(progress.last, 1);
+}
+
+// Scaling everything by a power of two changes not one bit (numerics H61a).
+TEST(Render, PowerOfTwoScaleChangesNothing) {
+  const Scene scene = stillLife();
+  Image original(20, 12);
+  render(scene, BruteForce(scene), scene.cameras[0], Settings{}, original);
+  for (const int power : {-10, 10}) {
+    const float scale = std::ldexp(1.0f, power);
+    Scene scaled = scene;
+    for (TriangleRecord& t : scaled.triangles) {
+      for (float& p : t.position) p *= scale;
+    }
+    for (PointLight& light : scaled.lights) {
+      light.position *= scale;
+      light.intensity *= scale * scale;
+      light.radius *= scale;
+    }
+    Camera camera = scene.cameras[0];
+    camera.eye *= scale;
+    camera.at *= scale;
+    Image image(20, 12);
+    render(scaled, BruteForce(scaled), camera, Settings{}, image);
+    EXPECT_EQ(image.pixels, original.pixels) << power;
+  }
+}
+
+// All effects or only those the scene calls for: the same image (one of the laws of the kernels).
+TEST(Render, EffectsOfTheSceneAreEnough) {
+  const Scene scene = stillLife();
+  Settings settings;
+  Image all(20, 12), few(20, 12);
+  render(scene, BruteForce(scene), scene.cameras[0], settings, all);
+  settings.effects = scene.effects;
+  ASSERT_NE(settings.effects, EffectSet::all());
+  render(scene, BruteForce(scene, scene.effects), scene.cameras[0], settings, few);
+  EXPECT_EQ(few.pixels, all.pixels);
+}
+
+TEST(Render, EmptySceneIsSky) {
+  SceneBuilder builder;
+  builder.sky(0.5f);
+  const Scene scene = builder.build();
+  Image image(3, 2);
+  render(scene, BruteForce(scene), Camera{}, Settings{}, image);
+  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(0.5f));
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,300 @@
+// Emission, ambient light, point lights and their shadows against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/shading.h"
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::radianceAlong;
+using test::SceneBuilder;
+
+constexpr double kPi = 3.14159265358979323846;
+
+PointLight lightAt(const Vec3f& position, float intensity) {
+  PointLight light;
+  light.position = position;
+  light.intensity = Rgb(intensity);
+  return light;
+}
+
+// What the camera should see at pixel (x, y) of a w x h image, from 5 above a floor that spans
+// y = 0, looking down with -z up: the point on the floor.
+Vec3d pointOnFloor(double x, double y, int w, int h, double fovDegrees) {
+  const double half = 5 * std::tan(fovDegrees * kPi / 360);
+  return {(x + 0.5 - w / 2.0) / (h / 2.0) * half, 0, (y + 0.5 - h / 2.0) / (h / 2.0) * half};
+}
+
+// L = kd / pi * I cos / d^2 at every pixel centre.
+TEST(Lights, FallOffOverAFloor) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 100, builder.add(test::diffuseMaterial(0.5f))));
+  builder.description.lights = {lightAt({0.5f, 2, -0.25f}, 30)};
+  const Scene scene = builder.build();
+  Camera camera;
+  camera.eye = {0, 5, 0};
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 60;
+  Image image(9, 7);
+  const RayCounts counts = render(scene, BruteForce(scene), camera, test::uncut(), image);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const Vec3d toLight = Vec3d{0.5, 2, -0.25} - pointOnFloor(x, y, 9, 7, 60);
+      const double d2 = dot(toLight, toLight), cosine = toLight.y / std::sqrt(d2);
+      const double expected = 0.5 / kPi * 30 * cosine / d2;
+      // One rounding to float at the end.
+      EXPECT_NEAR(image.at(x, y).x, expected, 1e-7 * expected) << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(counts.primary, 63u);
+  EXPECT_EQ(counts.shadow, 63u);
+  EXPECT_EQ(counts.reflection + counts.refraction, 0u);
+}
+
+TEST(Lights, AddUpAndKeepTheirColours) {
+  SceneBuilder builder;
+  Material m = test::diffuseMaterial(1);
+  m.diffuse = {1, 0.5f, 0.25f};
+  builder.add(test::floorAt(0, 10, builder.add(m)));
+  builder.description.lights = {lightAt({0, 2, 0}, 4), lightAt({0, 3, 0}, 9)};
+  builder.description.lights[1].intensity = {0, 9, 18};
+  const RgbD seen = radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0});
+  EXPECT_NEAR(seen.x, 1 / kPi, 1e-12);
+  EXPECT_NEAR(seen.y, 0.5 / kPi * 2, 1e-12);
+  EXPECT_NEAR(seen.z, 0.25 / kPi * 3, 1e-12);
+}
+
+// numerics H65: near the light its radius bounds the radiance; at the light there is none.
+TEST(Lights, NearTheSurfaceStayFinite) {
+  for (const float height : {1e-2f, 1e-6f, 1e-30f, 0.0f}) {
+    SceneBuilder builder;
+    builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
+    PointLight light = lightAt({0.25f, height, 0.25f}, 1);
+    light.radius = 0.1f;
+    builder.description.lights = {light};
+    Settings settings = test::uncut();
+    settings.effects = EffectSet::all().without(Effect::shadows);
+    const RgbD seen = radianceAlong(builder.build(), {0.25, 1, 0.25}, {0, -1, 0}, settings);
+    const double expected = height > 0 ? 1 / kPi / (0.1 * 0.1) : 0;
+    EXPECT_NEAR(seen.x, expected, 1e-6 * expected) << height;
+  }
+}
+
+TEST(Lights, BehindTheSurfaceGiveNothing) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
+  builder.description.lights = {lightAt({0, -2, 0}, 1)};
+  const Scene scene = builder.build();
+  RayCounts counts;
+  EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, test::uncut(), &counts), RgbD());
+  EXPECT_EQ(counts.shadow, 0u) << "nothing to look for";
+  EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
+}
+
+// numerics H36: both normals must see the light.
+TEST(Lights, BehindEitherNormalGiveNothing) {
+  Surfel s;
+  s.diffuse = RgbD(1.0);
+  s.view = s.geometricNormal = {0, 1, 0};
+  s.shadingNormal = normalized(Vec3d{1, 1, 0});
+  EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({2, -1, 0}, 1)).radiance, RgbD());
+  EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({-2, 1, 0}, 1)).radiance, RgbD());
+  EXPECT_GT(radianceFromLight(EffectSet::all(), s, lightAt({2, 1, 0}, 1)).radiance.x, 0);
+}
+
+// A screen at height 1 ends at x = 0; the light at (1, 2, 0) draws its border at x = -1.
+class ShadowTest : public ::testing::Test {
+ protected:
+  Scene screenWith(Material material) {
+    SceneBuilder builder;
+    builder.add(test::floorAt(0, 10, builder.add(test::diffuseMaterial(1))));
+    builder.add(test::quad({-9, 1, 5}, {0, 1, 5}, {0, 1, -5}, {-9, 1, -5}, builder.add(material)));
+    builder.description.lights = {lightAt({1, 2, 0}, 1)};
+    return builder.build();
+  }
+  // Looking at the floor from below the screen.
+  double seenAt(const Scene& scene, double x, EffectSet effects = EffectSet::all()) {
+    Settings settings = test::uncut();
+    settings.effects = effects;
+    return radianceAlong(scene, {x, 0.5, 0}, {0, -1, 0}, settings).x;
+  }
+  static double lit(double x) {
+    const double d2 = (1 - x) * (1 - x) + 4;
+    return 1 / kPi * 2 / std::sqrt(d2) / d2;
+  }
+  // The shadow ray starts up to offset = 32 u (10 + 10) above the floor, and the border moves as
+  // far.
+  static constexpr double kOffset = 32 * 20 / 16777216.0;
+};
+
+TEST_F(ShadowTest, BorderIsWhereGeometryPutsIt) {
+  const Scene scene = screenWith(test::diffuseMaterial(1));
+  for (const double step : {2 * kOffset, 1e-3, 0.5}) {
+    EXPECT_NEAR(seenAt(scene, -1 + step), lit(-1 + step), 1e-12) << step;
+    EXPECT_EQ(seenAt(scene, -1 - step), 0) << step;
+  }
+  EXPECT_NEAR(seenAt(scene, -3, EffectSet::all().without(Effect::shadows)), lit(-3), 1e-12);
+  EXPECT_EQ(seenAt(scene, 0.5, EffectSet::all().without(Effect::lights)), 0);
+}
+
+TEST_F(ShadowTest, SomeMaterialsCastNone) {
+  Material ghost = test::diffuseMaterial(1);
+  ghost.castsShadow = false;
+  EXPECT_NEAR(seenAt(screenWith(ghost), -3), lit(-3), 1e-12);
+}
+
+TEST_F(ShadowTest, GlassCastsOne) {
+  EXPECT_EQ(seenAt(screenWith(test::glassMaterial(1.5f)), -3), 0);
+}
+
+// numerics H8: a light on a ceiling lights the floor; one just behind it does not.
+TEST(Shadows, LightOnASurface) {
+  for (const float height : {2.0f, std::nextafter(2.0f, 1.0f), 2.001f}) {
+    SceneBuilder builder;
+    const auto grey = builder.add(test::diffuseMaterial(1));
+    builder.add(test::floorAt(0, 3, grey));
+    builder.add(test::ceilingAt(2, 3, grey));
+    builder.description.lights = {lightAt({0.3f, height, 0.1f}, 1)};
+    const double seen = radianceAlong(builder.build(), {0.5, 1, 0.5}, {0, -1, 0}).x;
+    EXPECT_EQ(seen > 0, height <= 2) << height;
+  }
+}
+
+// numerics H6, H7, H66: no light leaves a closed box, none comes in, and inside all is lit.
+TEST(Shadows, ClosedBoxesAreTight) {
+  test::Numbers numbers(9);
+  SceneBuilder inside, outside;
+  for (SceneBuilder* builder : {&inside, &outside}) {
+    const auto grey = builder->add(test::diffuseMaterial(1));
+    builder->add(test::box({-1, -1, -1}, {1, 1, 1}, grey));
+    builder->add(test::box({-4, -4, -4}, {4, 4, 4}, grey));
+  }
+  inside.description.lights = {lightAt({0.3f, -0.2f, 0.1f}, 1)};
+  outside.description.lights = {lightAt({2.3f, -2.2f, 2.1f}, 1)};
+  const Scene a = inside.build(), b = outside.build();
+  for (int i = 0; i < 5000; ++i) {
+    // From the middle to anywhere on the inner walls, most of all to the edges.
+    Vec3d target = numbers.direction();
+    target = target / maxComponent(abs(target));
+    if (i % 3) target[i % 2] = target[i % 2] < 0 ? -1 + 1e-8 * i : 1 - 1e-8 * i;
+    EXPECT_GT(radianceAlong(a, {0, 0, 0}, target).x, 0) << i;
+    EXPECT_EQ(radianceAlong(b, {0, 0, 0}, target).x, 0) << i;
+    // From between the boxes onto the inner one.
+    EXPECT_EQ(radianceAlong(a, target * 3.0, -target).x, 0) << i;
+  }
+}
+
+TEST(Ambient, FollowsTheNormal) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.ambient = {Rgb(3.0f), Rgb(1.0f)};
+  Surfel s;
+  s.diffuse = {1, 0.5, 0};
+  s.shadingNormal = {0, 1, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(3, 1.5, 0));
+  s.shadingNormal = {0, -1, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(1, 0.5, 0));
+  s.shadingNormal = {1, 0, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(2, 1, 0));
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::ambient), s), RgbD());
+}
+
+TEST(Emission, AddsToTheRest) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].emission = {1, 2, 3};
+  Surfel s;
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(1, 2, 3));
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::emission), s), RgbD());
+}
+
+TEST(Sky, NeedsItsEffects) {
+  SceneBuilder builder;
+  builder.sky(2);
+  const Scene plain = builder.build();
+  EXPECT_EQ(skyAlong(plain, EffectSet::all(), {0, 1, 0}), RgbD(2.0));
+  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD(2.0));
+  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::sky), {0, 1, 0}), RgbD());
+  SceneBuilder withImage;
+  withImage.description.sky.kind = Sky::Kind::image;
+  withImage.description.sky.image = {1, 1, {1}, {2}, {3}};
+  const Scene image = withImage.build();
+  EXPECT_EQ(skyAlong(image, EffectSet::all(), {0, 1, 0}), RgbD(1, 2, 3));
+  EXPECT_EQ(skyAlong(image, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD());
+}
+
+class GlossyTest : public ::testing::Test {
+ protected:
+  static Surfel surfel(double alpha, double f0, const Vec3d& view) {
+    Surfel s;
+    s.geometricNormal = s.shadingNormal = {0, 0, 1};
+    s.view = view;
+    s.alpha = alpha;
+    s.specular = RgbD(f0);
+    return s;
+  }
+  static Vec3d at(double elevationCosine, double turn) {
+    const double sine = std::sqrt(1 - elevationCosine * elevationCosine);
+    return {sine * std::cos(turn), sine * std::sin(turn), elevationCosine};
+  }
+};
+
+// Everything along the normal: D = 1 / (pi a^2), V = 1/4, F = F0.
+TEST_F(GlossyTest, PeakAlongTheNormal) {
+  for (const double alpha : {0.1, 0.5, 1.0}) {
+    const RgbD lobe = glossyLobe(surfel(alpha, 0.04, {0, 0, 1}), {0, 0, 1});
+    EXPECT_NEAR(lobe.x, 0.04 / (4 * kPi * alpha * alpha), 1e-12) << alpha;
+  }
+}
+
+TEST_F(GlossyTest, IsReciprocal) {
+  test::Numbers numbers(10);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d a = at(numbers.in(0.01, 1), numbers.in(0, 6)), b = at(numbers.in(0.01, 1), 0);
+    const double there = glossyLobe(surfel(0.3, 0.5, a), b).x;
+    EXPECT_NEAR(glossyLobe(surfel(0.3, 0.5, b), a).x, there, 1e-12 * there);
+  }
+}
+
+// The share of white light from all sides that the lobe sends to the viewer, by the midpoint rule.
+double albedo(const Surfel& s, Vec3d (*at)(double, double)) {
+  constexpr int kRows = 400, kColumns = 400;
+  double sum = 0;
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kColumns; ++j) {
+      const double c = (i + 0.5) / kRows;
+      sum += glossyLobe(s, at(c, 2 * kPi * (j + 0.5) / kColumns)).x * c;
+    }
+  }
+  return sum * 2 * kPi / (kRows * kColumns);
+}
+
+// With F = 1 a single bounce between facets loses some energy and never gains any.
+TEST_F(GlossyTest, ReflectsAtMostAllLight) {
+  for (const double alpha : {0.2, 0.5, 1.0}) {
+    for (const double viewCosine : {0.05, 0.5, 1.0}) {
+      // 0.002: the midpoint rule on the sharpest of these lobes.
+      EXPECT_LT(albedo(surfel(alpha, 1, at(viewCosine, 0)), at), 1.002)
+          << alpha << ' ' << viewCosine;
+    }
+  }
+  // The roughest, seen along the normal: integral of c / (1 + c) over [0, 1].
+  EXPECT_NEAR(albedo(surfel(1, 1, {0, 0, 1}), at), 1 - std::log(2.0), 1e-6);
+}
+
+TEST_F(GlossyTest, AddsToTheDiffusePart) {
+  Surfel s = surfel(0.25, 0.04, {0, 0, 1});
+  s.diffuse = RgbD(0.5);
+  const PointLight light = lightAt({0, 0, 2}, 4);
+  const double lobe = 0.04 / (4 * kPi * 0.0625);
+  EXPECT_NEAR(radianceFromLight(EffectSet::all(), s, light).radiance.x, 0.5 / kPi + lobe, 1e-12);
+  const EffectSet matte = EffectSet::all().without(Effect::glossy);
+  EXPECT_NEAR(radianceFromLight(matte, s, light).radiance.x, 0.5 / kPi, 1e-12);
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,252 @@
+// Surfels: position, normals, offset, textures.
+#include "reference/surfel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::makeTexture;
+using test::SceneBuilder;
+
+// The surfel that a ray meets, by brute force.
+Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards,
+                   EffectSet effects = EffectSet::all()) {
+  const Ray ray{origin, normalized(towards)};
+  Candidate candidate;
+  if (!BruteForce(scene, effects).closest(ray, candidate)) {
+    ADD_FAILURE() << "the ray was meant to hit";
+    return {};
+  }
+  return makeSurfel(scene, effects, candidate, refineHit(scene, ray, candidate), ray.direction);
+}
+
+void expectNear(const Vec3d& a, const Vec3d& b, double tolerance) {
+  EXPECT_LE(length(a - b), tolerance)
+      << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+TEST(Surfel, NormalsFaceTheViewer) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(1, 2, 0));
+  const Scene scene = builder.build();
+  const Surfel above = surfelAlong(scene, {0.5, 3, 0.25}, {0, -1, 0});
+  EXPECT_TRUE(above.entering);
+  expectNear(above.position, {0.5, 1, 0.25}, 1e-15);
+  expectNear(above.geometricNormal, {0, 1, 0}, 0);
+  expectNear(above.shadingNormal, {0, 1, 0}, 0);
+  expectNear(above.view, {0, 1, 0}, 0);
+  const Surfel below = surfelAlong(scene, {0.5, -3, 0.25}, {0, 1, 0});
+  EXPECT_FALSE(below.entering);
+  expectNear(below.geometricNormal, {0, -1, 0}, 0);
+  expectNear(below.shadingNormal, {0, -1, 0}, 0);
+}
+
+TEST(Surfel, OffsetBoundsTheRounding) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(3, 2, 0));
+  const Scene scene = builder.build();
+  // In the corner (-2, 3, 2): 32 u (2 + 3 + 2).
+  const Surfel s = surfelAlong(scene, {-2, 9, 2}, {0, -1, 0});
+  EXPECT_DOUBLE_EQ(s.offset, 32 * 7 / 16777216.0);
+  // In the middle of the diagonal the two corners' magnitudes are averaged, not their values.
+  const Surfel middle = surfelAlong(scene, {0, 9, 0}, {0, -1, 0});
+  EXPECT_DOUBLE_EQ(middle.offset, 32 * 7 / 16777216.0);
+}
+
+Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {
+  mesh.normals = normals;
+  return mesh;
+}
+
+TEST(Surfel, InterpolatesNormals) {
+  SceneBuilder builder;
+  const float s = std::sqrt(0.5f);
+  // The first edge leans left, the opposite one right.
+  builder.add(withNormals(test::floorAt(0, 1, 0), {{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
+  const Scene scene = builder.build();
+  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
+  // Three quarters of the way: tan = 0.5 of the border's.
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
+             normalized(Vec3d{0.5, 1, 0}), 1e-7);
+  const EffectSet flat = EffectSet::all().without(Effect::smoothNormals);
+  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0}, 0);
+}
+
+// numerics H34: where normals cancel, the face's serves.
+TEST(Surfel, CancellingNormals) {
+  SceneBuilder builder;
+  builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
+  const Scene scene = builder.build();
+  const Surfel s = surfelAlong(scene, {0, 1, 1}, {0, -1, 0});
+  expectNear(s.shadingNormal, {0, 1, 0}, 0);
+}
+
+// Facing is decided by the geometric normal alone (numerics H33).
+TEST(Surfel, ShadingNormalMayLookAway) {
+  SceneBuilder builder;
+  const Vec3f tilted{0.8f, 0.6f, 0};
+  builder.add(withNormals(test::floorAt(0, 1, 0), {tilted, tilted, tilted, tilted}));
+  const Scene scene = builder.build();
+  const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
+  EXPECT_TRUE(s.entering);
+  EXPECT_LT(dot(s.view, s.shadingNormal), 0);
+  expectNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
+}
+
+class NormalMapTest : public ::testing::Test {
+ protected:
+  // A floor whose normal map leans towards growing u by 3/5 and growing v by 0; or along v.
+  SceneBuilder floorWith(const Rgb& tangentSpace, bool mirroredU = false) {
+    SceneBuilder builder;
+    Material m = test::diffuseMaterial(1);
+    m.normalMap = builder.add(
+        makeTexture(TexelFormat::data, 1, 1,
+                    {encodeDataTexel(0.5f + 0.5f * tangentSpace.x, 0.5f + 0.5f * tangentSpace.y,
+                                     0.5f + 0.5f * tangentSpace.z, 1)}));
+    const auto material = builder.add(m);
+    mesh_ = test::floorAt(0, 1, material);
+    if (mirroredU) {
+      for (Vec2f& uv : mesh_.uvs) uv.x = -uv.x;
+    }
+    return builder;
+  }
+  Mesh mesh_;
+  // 8 bits a channel: half a step of 2/255 each, before normalisation.
+  static constexpr double kCoding = 0.006;
+};
+
+// On the floor u grows along +x and v along -z.
+TEST_F(NormalMapTest, LeansAlongTextureAxes) {
+  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
+  alongU.add(mesh_);
+  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0.6, 0.8, 0},
+             kCoding);
+  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
+  alongV.add(mesh_);
+  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
+             kCoding);
+}
+
+TEST_F(NormalMapTest, MirroredTextureLeansTheOtherWay) {
+  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f}, true);
+  alongU.add(mesh_);
+  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {-0.6, 0.8, 0},
+             kCoding);
+  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f}, true);
+  alongV.add(mesh_);
+  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
+             kCoding);
+}
+
+TEST_F(NormalMapTest, TurnsOverWithTheSurface) {
+  SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
+  builder.add(mesh_);
+  expectNear(surfelAlong(builder.build(), {0.1, -1, 0.2}, {0, 1, 0}).shadingNormal, {-0.6, -0.8, 0},
+             kCoding);
+}
+
+TEST_F(NormalMapTest, CollapsedTextureSpaceChangesNothing) {
+  SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
+  for (Vec2f& uv : mesh_.uvs) uv = {0.5f, uv.y};
+  builder.add(mesh_);
+  expectNear(surfelAlong(builder.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 0);
+}
+
+// A mirrored instance looks like the mirrored surface: the lean along v stays what it was.
+TEST_F(NormalMapTest, MirroredInstance) {
+  const Affine far = Affine::translation({0, 0, 50});
+  SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
+  alongU.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
+  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {-0.6, 0.8, 0},
+             kCoding);
+  SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
+  alongV.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
+  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
+             kCoding);
+}
+
+// numerics H11: an instance is its mesh, moved beforehand.
+TEST(Surfel, InstancesMatchBakedGeometry) {
+  const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
+                     Affine::scaling({-1000, 0.5, 2});
+  // The same at all corners: baking normalises them before they are interpolated.
+  const Vec3f n{0, 0.8f, 0.6f};
+  const Mesh mesh = withNormals(test::floorAt(0, 1, 0), {n, n, n, n});
+  SceneBuilder instanced, baked;
+  instanced.place({"floor", {mesh}}, {map, Affine::translation({0, 1e6, 0})});
+  baked.place({"floor", {mesh}}, {map});
+  const Scene a = instanced.build(), b = baked.build();
+  ASSERT_EQ(a.instances.size(), 2u);
+  ASSERT_TRUE(b.instances.empty());
+  const Vec3d target = map.point({0.3, 0, 0.4});
+  for (const double side : {1.0, -1.0}) {
+    const Vec3d eye = target + map.normal({0, 1, 0}) * (side * 1e-3) + Vec3d{0.1, 0.2, 0.3};
+    const Surfel s = surfelAlong(a, eye, target - eye), t = surfelAlong(b, eye, target - eye);
+    // The baked corners, 1000 from the origin, are rounded to float: to 3e-5, on edges 1 long.
+    expectNear(s.position, t.position, 1e-4);
+    expectNear(s.geometricNormal, t.geometricNormal, 1e-4);
+    expectNear(s.shadingNormal, t.shadingNormal, 1e-6);
+    EXPECT_EQ(s.entering, t.entering);
+    EXPECT_EQ(s.entering, side > 0);
+    // |M| times the magnitudes is at least what the moved corners show.
+    EXPECT_GE(s.offset, t.offset * (1 - 1e-6));
+  }
+}
+
+TEST(Surfel, TexturesMultiplyColours) {
+  SceneBuilder builder;
+  Material m = test::diffuseMaterial(0.5f);
+  m.specular = Rgb(0.25f);
+  const Texture dark = makeTexture(TexelFormat::colour, 2, 1,
+                                   {encodeColourTexel(Rgb(0.0f)), encodeColourTexel({1, 1, 0})});
+  m.diffuseMap = m.specularMap = builder.add(dark);
+  builder.add(test::floorAt(0, 1, builder.add(m)));
+  const Scene scene = builder.build();
+  // u = 0.5: half way between black and yellow.
+  const Surfel s = surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0});
+  expectNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
+  expectNear(s.specular, {0.125, 0.125, 0}, 1e-12);
+  const EffectSet plain = EffectSet::all().without(Effect::textures);
+  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
+}
+
+TEST(Surfel, RoughnessIsSquaredAndBounded) {
+  SceneBuilder builder;
+  Material rough = test::diffuseMaterial(1), smooth = rough;
+  rough.roughness = 0.5f;
+  smooth.roughness = 0;
+  builder.add(test::floorAt(0, 1, builder.add(rough)));
+  builder.add(test::floorAt(-1, 9, builder.add(smooth)));
+  const Scene scene = builder.build();
+  EXPECT_EQ(surfelAlong(scene, {0, 1, 0}, {0, -1, 0}).alpha, 0.25);
+  EXPECT_DOUBLE_EQ(surfelAlong(scene, {5, 1, 0}, {0, -1, 0}).alpha,
+                   double{kMinRoughness} * kMinRoughness);
+}
+
+// The mask runs linearly from 0 at u = 1/4 to 1 at u = 3/4 and is cut at 1/2.
+TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
+  SceneBuilder builder;
+  Material m = test::diffuseMaterial(1);
+  m.alphaMap = builder.add(makeTexture(TexelFormat::data, 2, 1, {0x00u, 0xffu}));
+  m.alphaCutoff = 0.5f;
+  builder.add(test::floorAt(0, 1, builder.add(m)));
+  builder.add(test::floorAt(-1, 1, builder.add(test::diffuseMaterial(1))));
+  const Scene scene = builder.build();
+  const auto heightSeen = [&](double x, EffectSet effects) {
+    return surfelAlong(scene, {x, 1, 0.3}, {0, -1, 0}, effects).position.y;
+  };
+  EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all()), -1, 1e-12);
+  EXPECT_NEAR(heightSeen(1e-9, EffectSet::all()), 0, 1e-12);
+  EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all().without(Effect::alphaMasks)), 0, 1e-12);
+  const BruteForce bruteForce(scene);
+  EXPECT_FALSE(bruteForce.occluded({{-1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
+  EXPECT_TRUE(bruteForce.occluded({{1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
+}
+
+}  // namespace
+}  // namespace whit::reference

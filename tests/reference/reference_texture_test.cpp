@@ -1,0 +1,121 @@
+// Bilinear lookups (numerics H68, H69).
+#include "reference/texture_sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::makeTexture;
+
+// Channel r of a data texture, coded exactly: values are code / 255.
+Texture ramp(int width, int height, const std::vector<int>& codes) {
+  std::vector<std::uint32_t> texels;
+  for (const int code : codes) texels.push_back(static_cast<std::uint32_t>(code));
+  return makeTexture(TexelFormat::data, width, height, texels);
+}
+
+double codeAt(const Texture& t, double u, double v) { return 255 * sampleData(t, u, v).r; }
+
+constexpr double kRounding = 1e-12;  // of codes up to 255 in double
+
+TEST(TextureSampling, TexelCentresGiveTexels) {
+  const Texture t = ramp(2, 2, {10, 20, 30, 40});  // the top row first
+  EXPECT_NEAR(codeAt(t, 0.25, 0.75), 10, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.75, 0.75), 20, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.25, 0.25), 30, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.75, 0.25), 40, kRounding);
+}
+
+TEST(TextureSampling, BetweenCentresIsLinear) {
+  const Texture t = ramp(2, 2, {10, 20, 30, 40});
+  EXPECT_NEAR(codeAt(t, 0.5, 0.5), 25, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.375, 0.75), 12.5, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.25, 0.625), 15, kRounding);
+}
+
+TEST(TextureSampling, RepeatJoinsTheBorders) {
+  const Texture t = ramp(4, 1, {0, 40, 80, 120});
+  EXPECT_NEAR(codeAt(t, 0, 0.5), 60, kRounding);
+  EXPECT_NEAR(codeAt(t, 1, 0.5), 60, kRounding);
+  for (const double u : {0.0, 0.1328125, 0.5, 0.984375}) {  // exact in binary with the whole part
+    for (const double whole : {-7.0, 1.0, 1000.0}) {
+      EXPECT_EQ(codeAt(t, u + whole, 0.5), codeAt(t, u, 0.5)) << u << " + " << whole;
+      EXPECT_EQ(codeAt(t, u, 0.5 + whole), codeAt(t, u, 0.5));
+    }
+  }
+}
+
+// u - floor(u) rounds to exactly 1 here; the texel after the last is the first.
+TEST(TextureSampling, TinyNegativeCoordinates) {
+  const Texture t = ramp(4, 4, {0, 40, 80, 120, 1, 41, 81, 121, 2, 42, 82, 122, 3, 43, 83, 123});
+  for (const double tiny : {-1e-17, -1e-300, -std::numeric_limits<double>::denorm_min()}) {
+    EXPECT_NEAR(codeAt(t, tiny, tiny), codeAt(t, 0, 0), kRounding);
+  }
+  EXPECT_NEAR(codeAt(t, -1e-9, -1e-9), codeAt(t, 0, 0), 1e-6);
+}
+
+TEST(TextureSampling, HopelessCoordinatesCountAsZero) {
+  const Texture t = ramp(3, 5, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), infinity, -infinity, 1e30, -1e30, 1048577.0}) {
+    EXPECT_EQ(codeAt(t, bad, 0.3), codeAt(t, 0, 0.3)) << bad;
+    EXPECT_EQ(codeAt(t, 0.3, bad), codeAt(t, 0.3, 0)) << bad;
+  }
+  EXPECT_EQ(codeAt(t, 1048575.5, 0.5), codeAt(t, 0.5, 0.5));
+}
+
+TEST(TextureSampling, OneTexelWide) {
+  EXPECT_NEAR(codeAt(ramp(1, 1, {77}), 0.123, 9.87), 77, kRounding);
+  EXPECT_NEAR(codeAt(ramp(1, 2, {10, 30}), 0.9, 0.5), 20, kRounding);
+}
+
+TEST(TextureSampling, ClampHoldsTheBorder) {
+  Texture t = ramp(2, 2, {10, 20, 30, 40});
+  t.wrapU = t.wrapV = Wrap::clamp;
+  EXPECT_NEAR(codeAt(t, -3, 0.75), 10, kRounding);
+  EXPECT_NEAR(codeAt(t, 7, 0.75), 20, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.25, 9), 10, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.25, -9), 30, kRounding);
+  EXPECT_NEAR(codeAt(t, 0.5, 0.75), 15, kRounding);
+}
+
+TEST(TextureSampling, MirrorRunsBackAndForth) {
+  Texture t = ramp(4, 1, {0, 40, 80, 120});
+  t.wrapU = Wrap::mirror;
+  for (const double u : {0.0, 0.1, 0.5, 0.95}) {
+    EXPECT_NEAR(codeAt(t, 2 - u, 0.5), codeAt(t, u, 0.5), 1e-10);
+    EXPECT_NEAR(codeAt(t, -u, 0.5), codeAt(t, u, 0.5), 1e-10);
+    EXPECT_NEAR(codeAt(t, u + 6, 0.5), codeAt(t, u, 0.5), 1e-10);
+  }
+  EXPECT_NEAR(codeAt(t, 1, 0.5), 120, kRounding);
+  EXPECT_NEAR(codeAt(t, 0, 0.5), 0, kRounding);
+}
+
+// The mean of black and white is half the light, not half the code.
+TEST(TextureSampling, ColoursMixInLinearLight) {
+  const Texture t = makeTexture(TexelFormat::colour, 2, 1,
+                                {encodeColourTexel(Rgb(0.0f)), encodeColourTexel({1, 0.25f, 0})});
+  const RgbD half = sampleColour(t, 0.5, 0.5);
+  EXPECT_NEAR(half.x, 0.5, 1e-12);
+  // 0.25 is coded as 512 of 1023: half a code from the exact root, 2 * 0.5 * 0.5 / 1023 of value.
+  EXPECT_NEAR(half.y, 0.125, 0.00025);
+  EXPECT_EQ(half.z, 0);
+}
+
+TEST(TextureSampling, DataChannelsAreInOrder) {
+  const Texture t = makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(0.2f, 0.4f, 0.6f, 0.8f)});
+  const DataSample s = sampleData(t, 0, 0);
+  EXPECT_NEAR(s.r, 0.2, kRounding);
+  EXPECT_NEAR(s.g, 0.4, kRounding);
+  EXPECT_NEAR(s.b, 0.6, kRounding);
+  EXPECT_NEAR(s.a, 0.8, kRounding);
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,163 @@
+// Rays against triangles in double precision.
+#include "reference/triangle.h"
+
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::Numbers;
+using test::SceneBuilder;
+
+const Corners kUnit{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}};
+
+TEST(Triangle, HitHasDistanceAndWeights) {
+  const auto hit = intersectTriangle({{0.25, 0.5, 3}, {0, 0, -2}}, kUnit);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->t, 1.5);  // in lengths of the direction
+  EXPECT_EQ(hit->u, 0.25);
+  EXPECT_EQ(hit->v, 0.5);
+}
+
+TEST(Triangle, BothSidesAreHit) {
+  const auto hit = intersectTriangle({{0.25, 0.5, -1}, {0, 0, 1}}, kUnit);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->u, 0.25);
+}
+
+TEST(Triangle, MissesBesideAndBehind) {
+  EXPECT_FALSE(intersectTriangle({{0.75, 0.5, 1}, {0, 0, -1}}, kUnit));
+  EXPECT_FALSE(intersectTriangle({{-0.01, 0.5, 1}, {0, 0, -1}}, kUnit));
+  EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 1}, {0, 0, 1}}, kUnit));
+  EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {0, 0, 1}}, kUnit)) << "t = 0 is no hit";
+}
+
+// numerics H21
+TEST(Triangle, RayInThePlaneMisses) {
+  EXPECT_FALSE(intersectTriangle({{-1, 0.25, 0}, {1, 0, 0}}, kUnit));
+  EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {1, 0, 0}}, kUnit));
+}
+
+TEST(Triangle, WithoutAreaOrDirectionMisses) {
+  const Corners line{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{2, 0, 0}};
+  EXPECT_FALSE(piercePlane({{0.5, 0, 1}, {0, 0, -1}}, line));
+  EXPECT_FALSE(piercePlane({{0.25, 0.25, 1}, {0, 0, 0}}, kUnit));
+  EXPECT_FALSE(piercePlane({{0.25, 0.25, 1}, {0, std::nan(""), -1}}, kUnit));
+}
+
+// A sphere of facets, with room for its numbers to be uneven.
+Mesh facetedSphere(const Vec3d& centre, double radius, int rings, int sectors) {
+  Mesh mesh;
+  for (int i = 0; i <= rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const double polar = 3.14159265358979 * i / rings, turn = 6.28318530717958 * j / sectors;
+      const Vec3d d{std::sin(polar) * std::cos(turn), std::cos(polar),
+                    std::sin(polar) * std::sin(turn)};
+      mesh.positions.push_back(Vec3f(i == 0 || i == rings
+                                         ? centre + Vec3d{0, i == 0 ? radius : -radius, 0}
+                                         : centre + d * radius));
+    }
+  }
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const int k = (j + 1) % sectors;
+      const auto at = [&](int ring, int sector) {
+        return static_cast<std::uint32_t>(ring * sectors + sector);
+      };
+      if (i > 0) mesh.triangles.push_back({at(i, j), at(i, k), at(i + 1, j)});
+      if (i + 1 < rings) mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, j)});
+    }
+  }
+  mesh.materials = {0};
+  return mesh;
+}
+
+// numerics H12-H14: from inside a closed mesh every ray hits, also through edges and corners, also
+// far from the origin.
+TEST(Triangle, ClosedMeshHasNoGaps) {
+  for (const Vec3d& centre : {Vec3d{0, 0, 0}, Vec3d{148376, 1234, -223423}}) {
+    SceneBuilder builder;
+    builder.add(facetedSphere(centre, 2, 12, 16));
+    const Scene scene = builder.build();
+    const BruteForce bruteForce(scene);
+    Numbers numbers(1);
+    int rays = 0, misses = 0;
+    const auto shoot = [&](const Vec3d& from, const Vec3d& target) {
+      Candidate candidate;
+      ++rays;
+      misses += !bruteForce.closest({from, target - from}, candidate);
+    };
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      const Corners c = worldCorners(scene, i, kNoHit);
+      const Vec3d from = centre + numbers.direction();
+      for (const Vec3d& target : {c[0], c[1], c[2], (c[0] + c[1]) * 0.5, (c[1] + c[2]) * 0.5,
+                                  (c[2] + c[0]) * 0.5, (c[0] + c[1] + c[2]) * (1.0 / 3)}) {
+        shoot(from, target);
+      }
+    }
+    for (int i = 0; i < 2000; ++i) shoot(centre, centre + numbers.direction());
+    EXPECT_EQ(misses, 0) << "of " << rays << " rays";
+  }
+}
+
+// numerics H3: the point by weights lies on the triangle, whatever the distance of the eye.
+TEST(Triangle, RefinedHitStaysOnTheTriangle) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 0.5f, 0));
+  const Scene scene = builder.build();
+  Numbers numbers(2);
+  for (int i = 0; i < 1000; ++i) {
+    // Aimed a little past the border as well, as a candidate found in float may be.
+    const Vec3d target{numbers.in(-0.5001, 0.5001), 0, numbers.in(-0.5001, 0.5001)};
+    const Vec3d eye{1e5, numbers.in(1, 100), numbers.in(-1e5, 1e5)};
+    const Ray ray{eye, normalized(target - eye)};
+    const TriangleHit hit = refineHit(scene, ray, {static_cast<std::uint32_t>(i % 2)});
+    EXPECT_GE(hit.u, 0);
+    EXPECT_GE(hit.v, 0);
+    EXPECT_LE(hit.u + hit.v, 1 + 1e-15);
+    EXPECT_GT(hit.t, 0);
+  }
+}
+
+TEST(Triangle, UselessCandidateKeepsItsHint) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, 0));
+  const Scene scene = builder.build();
+  // Along the plane: nothing to compute with.
+  const Ray along{{-5, 0, 0}, {1, 0, 0}};
+  const TriangleHit hit = refineHit(scene, along, {0, kNoHit, 0.25, 0.5});
+  EXPECT_EQ(hit.u, 0.25);
+  EXPECT_EQ(hit.v, 0.5);
+  EXPECT_GT(hit.t, 0);
+  const double nan = std::nan("");
+  const TriangleHit lost = refineHit(scene, along, {0, kNoHit, nan, nan});
+  EXPECT_GE(lost.u, 0);
+  EXPECT_LE(lost.u + lost.v, 1);
+}
+
+TEST(BruteForce, FindsTheNearest) {
+  SceneBuilder builder;
+  for (const float y : {0.0f, 3.0f, 1.0f}) builder.add(test::floorAt(y, 1, 0));
+  const Scene scene = builder.build();
+  const BruteForce bruteForce(scene);
+  Candidate candidate;
+  ASSERT_TRUE(bruteForce.closest({{0.5, 9, 0.25}, {0, -1, 0}}, candidate));
+  EXPECT_EQ(scene.triangles[candidate.triangle].position[1], 3.0f);
+  EXPECT_FALSE(bruteForce.closest({{2, 9, 0}, {0, -1, 0}}, candidate));
+}
+
+TEST(BruteForce, OccludersLieBetween) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(1, 1, 0));
+  const Scene scene = builder.build();
+  const BruteForce bruteForce(scene);
+  const Ray down{{0.25, 2, 0.5}, {0, -4, 0}};
+  EXPECT_TRUE(bruteForce.occluded(down, 1));
+  EXPECT_TRUE(bruteForce.occluded(down, 0.2501));
+  EXPECT_FALSE(bruteForce.occluded(down, 0.2499));
+}
+
+}  // namespace
+}  // namespace whit::reference
