@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# From a fresh checkout to a picture: installs what is missing, builds, renders the atrium to
+# build/demo/, and opens the viewer where there is a display. Needs no network after the first run.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$root/build
+out=$build/demo
+
+"$root/scenes/install_packages.sh" build
+
+if [ -f "$build/CMakeCache.txt" ]; then
+  cmake -DCMAKE_BUILD_TYPE=Release "$build" >/dev/null  # whatever generator it was made with
+else
+  (cd "$root" && cmake --preset release >/dev/null)
+fi
+targets=(whit)
+if cmake --build "$build" --target help | grep -q 'whit-view\b'; then targets+=(whit-view); fi
+cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]}"
+
+mkdir -p "$out"
+"$build/whit" render atrium --size 1280x720 -o "$out/atrium.png" -o "$out/atrium.exr" "$@"
+echo "Written: $out/atrium.png and $out/atrium.exr"
+
+if [ -x "$build/whit-view" ] && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  exec "$build/whit-view" atrium
+fi

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test. Exits non-zero when anything fails.
+#   tests/run.sh           formatting, Release with warnings as errors, sanitizers
+#   tests/run.sh --quick   Release only
+#   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
+set -uo pipefail
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root" || exit 1
+quick=false
+tidy=false
+for word in "$@"; do
+  case $word in
+    --quick) quick=true ;;
+    --tidy) tidy=true ;;
+    *) echo "tests/run.sh: unknown option '$word' (--quick, --tidy)" >&2; exit 2 ;;
+  esac
+done
+failed=()
+
+# step NAME COMMAND...: runs it, remembers a failure, goes on.
+step() {
+  local name=$1
+  shift
+  echo "== $name"
+  "$@" || failed+=("$name")
+}
+
+# Formatting differs from one version to the next; the one of Debian 12 counts.
+checkFormat() {
+  if ! command -v clang-format >/dev/null; then
+    echo "!! clang-format is not installed: formatting is NOT checked" >&2
+    [ -z "${CI:-}" ]
+    return
+  fi
+  local version
+  version=$(clang-format --version | sed 's/.*version \([0-9]*\).*/\1/')
+  if [ "$version" != 14 ]; then
+    echo "!! clang-format $version instead of 14: formatting is NOT checked" >&2
+    return 0
+  fi
+  find src simd tests viewer \( -name '*.cpp' -o -name '*.h' \) -print0 2>/dev/null |
+    xargs -0 --no-run-if-empty clang-format --dry-run -Werror
+}
+
+checkTidy() {
+  if ! command -v run-clang-tidy >/dev/null; then
+    echo "!! clang-tidy is not installed: the sources are NOT checked by it" >&2
+    [ -z "${CI:-}" ]
+    return
+  fi
+  cmake --preset release >/dev/null && run-clang-tidy -quiet -p build '/(src|simd|viewer)/.*\.cpp$'
+}
+
+# buildAndTest PRESET CMAKE-ARGUMENTS...
+buildAndTest() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" "$@" >/dev/null && cmake --build --preset "$preset" --parallel "$(nproc)" &&
+    ctest --preset "$preset"
+}
+
+groups=(build)
+if ! $quick; then groups+=(check); fi
+step "packages" scenes/install_packages.sh "${groups[@]}"
+if ! $quick; then
+  step "format" checkFormat
+  step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
+fi
+if $tidy; then step "tidy" checkTidy; fi
+# Last, so that the last line is that of the tests as they are shipped.
+step "release" buildAndTest release -DWHIT_WERROR=ON
+
+if [ ${#failed[@]} -gt 0 ]; then
+  echo "FAILED: ${failed[*]}" >&2
+  exit 1
+fi
