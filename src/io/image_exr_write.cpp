@@ -23,13 +23,15 @@ static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie 
 
 const std::string kPrefix = "whit.";
 
-// Attributes that mean something to OpenEXR itself cannot carry our text.
-std::string attributeName(const Imf::Header& header, const std::string& name) {
+// Attributes that mean something to OpenEXR itself, and so cannot carry our text.
+bool isReserved(const std::string& name) {
   constexpr std::array<const char*, 5> kReserved = {"chunkCount", "name", "type", "version",
                                                     "view"};
-  const bool taken = std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end() ||
-                     header.find(name) != header.end();
-  return taken ? kPrefix + name : name;
+  return std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end();
+}
+
+std::string attributeName(const Imf::Header& header, const std::string& name) {
+  return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
 }
 
 Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata) {
@@ -81,8 +83,8 @@ ImageMetadata readExrMetadata(const std::string& path) {
     ImageMetadata metadata;
     for (auto it = header.begin(); it != header.end(); ++it) {
       const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
-      if (text == nullptr) continue;
       const std::string name = it.name();
+      if (text == nullptr || isReserved(name)) continue;
       metadata.emplace_back(name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name,
                             text->value());
     }

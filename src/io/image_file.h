@@ -41,7 +41,8 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings& wa
 // Linear float (32-bit) RGB with metadata as string attributes; data window = image.window. The
 // same arguments give the same bytes.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata);
-// The string attributes of an EXR's first part, in order of their names.
+// The string attributes of an EXR's first part that are not OpenEXR's own. Throws as readImage
+// does.
 ImageMetadata readExrMetadata(const std::string& path);
 // sRGB PNG with the metadata as text chunks; alpha is left out. Keywords are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);

@@ -139,8 +139,10 @@ auto withSource(const std::string& path, const std::vector<std::uint8_t>& file,
   } catch (const std::logic_error& e) {
     throwBadScene(path, std::string("not a valid image (") + e.what() + ")");
   }
-  const char* reason = stbi_failure_reason();
-  throwBadScene(path, std::string("not a valid image (") + (reason ? reason : "no reason") + ")");
+  const std::string reason = stbi_failure_reason() ? stbi_failure_reason() : "no reason";
+  if (reason == "too large" || reason == "outofmem")
+    throwLimit(path + ": takes more memory than is allowed (" + reason + ")");
+  throwBadScene(path, "not a valid image (" + reason + ")");
 }
 
 // Decodes as `Value`s with stb_image's function for them.

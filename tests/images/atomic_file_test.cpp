@@ -1,0 +1,136 @@
+// Files appear whole or not at all.
+#include "io/atomic_file.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "image_samples.h"
+
+namespace whit {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public ImageTest {
+ protected:
+  std::string text(const std::string& name) {
+    const Bytes bytes = load(path(name));
+    return {bytes.begin(), bytes.end()};
+  }
+};
+
+// Beyond `bytes` every write to a file fails, as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(AtomicFileTest, AppearsAtCommit) {
+  {
+    AtomicFile file(path("a.txt"));
+    EXPECT_NE(file.temporaryPath(), path("a.txt"));
+    EXPECT_EQ(fs::path(file.temporaryPath()).parent_path(), folder_);
+    std::ofstream(file.temporaryPath()) << "text";
+    EXPECT_FALSE(fs::exists(path("a.txt")));
+    file.commit();
+    EXPECT_EQ(text("a.txt"), "text");
+  }
+  EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(AtomicFileTest, WithoutCommitTheOldFileStays) {
+  writeTextFile(path("a.txt"), "old");
+  {
+    AtomicFile file(path("a.txt"));
+    std::ofstream(file.temporaryPath()) << "new";
+  }
+  EXPECT_EQ(text("a.txt"), "old");
+  EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(AtomicFileTest, TwoAtOnceDoNotMeet) {
+  AtomicFile one(path("a.txt")), two(path("a.txt"));
+  EXPECT_NE(one.temporaryPath(), two.temporaryPath());
+}
+
+TEST_F(AtomicFileTest, ReplacesAndHonoursTheUmask) {
+  const mode_t mask = umask(027);
+  writeTextFile(path("a.txt"), "one");
+  umask(mask);
+  writeTextFile(path("b.txt"), std::string("two\0three", 9));
+  EXPECT_EQ(fs::status(path("a.txt")).permissions(), fs::perms(0640));
+  EXPECT_EQ(text("b.txt"), std::string("two\0three", 9));
+}
+
+TEST_F(AtomicFileTest, NamesAsLongAsTheFileSystemAllows) {
+  const std::string name = std::string(251, 'n') + ".txt";
+  writeTextFile(path(name), "x");
+  EXPECT_EQ(text(name), "x");
+}
+
+TEST_F(AtomicFileTest, LinksAreFollowed) {
+  writeTextFile(path("target.txt"), "old");
+  fs::create_symlink(path("target.txt"), path("link.txt"));
+  writeTextFile(path("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(text("target.txt"), "new");
+}
+
+TEST_F(AtomicFileTest, DevicesAreWrittenStraight) {
+  writeTextFile("/dev/null", "text");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(statusOf([] { writeTextFile("/dev/full", "text"); }), ExitStatus::io);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(AtomicFileTest, FoldersThatCannotBeWrittenAreErrors) {
+  EXPECT_EQ(statusOf([&] { AtomicFile(path("absent/a.txt")); }), ExitStatus::io);
+  EXPECT_EQ(statusOf([&] { AtomicFile{folder_}; }), ExitStatus::io);
+  EXPECT_EQ(statusOf([&] { AtomicFile(""); }), ExitStatus::io);
+  // Nobody may create files there, not even root.
+  EXPECT_EQ(statusOf([&] { AtomicFile("/proc/a.txt"); }), ExitStatus::io);
+  EXPECT_EQ(statusOf([&] { writePng("/proc/a.png", {1, 1, {1, 2, 3, 255}}, {}); }), ExitStatus::io);
+  EXPECT_EQ(statusOf([&] { writeExr("/proc/a.exr", Image(1, 1), {}); }), ExitStatus::io);
+}
+
+// Limits from nothing to nearly everything, so that headers, pixels and the tables written on
+// closing are each the first thing that no longer fits.
+TEST_F(AtomicFileTest, AFullDiskLeavesNothingBehind) {
+  const Image image(40, 40);
+  const DisplayImage display{40, 40, Bytes(6400, 90)};
+  writeExr(path("a.exr"), image, {});
+  writePng(path("a.png"), display, {});
+  const std::uintmax_t exr = fs::file_size(path("a.exr")), png = fs::file_size(path("a.png"));
+  fs::remove(path("a.exr"));
+  fs::remove(path("a.png"));
+  const auto statusAt = [&](rlim_t bytes, auto&& write) {
+    const FullDisk full(bytes);
+    return statusOf(write);
+  };
+  for (rlim_t bytes = 0; bytes < exr; bytes += 16)
+    EXPECT_EQ(statusAt(bytes, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::io)
+        << bytes;
+  for (rlim_t bytes = 0; bytes < png; bytes += 16)
+    EXPECT_EQ(statusAt(bytes, [&] { writePng(path("a.png"), display, {}); }), ExitStatus::io)
+        << bytes;
+  EXPECT_EQ(statusAt(10, [&] { writeTextFile(path("a.txt"), "more than ten"); }), ExitStatus::io);
+  EXPECT_EQ(filesInFolder(), 0u);
+  EXPECT_EQ(statusAt(exr, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::done);
+}
+
+}  // namespace
+}  // namespace whit

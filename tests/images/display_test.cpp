@@ -1,0 +1,100 @@
+// Encoding for display against the sRGB formula in long double, and the tone curves by hand.
+#include "core/display.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/srgb.h"
+
+namespace whit {
+namespace {
+
+// IEC 61966-2-1, written out again.
+long double decode(long double v) {
+  return v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L);
+}
+
+TEST(Srgb, EveryCodeComesBack) {
+  for (int code = 0; code < 256; ++code) {
+    EXPECT_EQ(srgbCode(srgbToLinear(code / 255.0)), code);
+    // Also when the decoded value is rounded to float, as textures and images are.
+    EXPECT_EQ(srgbCode(static_cast<double>(static_cast<float>(srgbToLinear(code / 255.0)))), code);
+  }
+}
+
+// The code changes from k - 1 to k where 255 * srgb = k - 1/2. 1e-13 relative is far above the
+// rounding of pow in double and far below the distance of two floats.
+TEST(Srgb, CodesChangeAtTheTies) {
+  for (int k = 1; k < 256; ++k) {
+    const double tie = static_cast<double>(decode((k - 0.5L) / 255));
+    EXPECT_EQ(srgbCode(tie * (1 - 1e-13)), k - 1);
+    EXPECT_EQ(srgbCode(tie * (1 + 1e-13)), k);
+  }
+}
+
+TEST(Srgb, BranchesMeet) {
+  EXPECT_NEAR(linearToSrgb(0.0031308), linearToSrgb(std::nextafter(0.0031308, 1)), 1e-7);
+  EXPECT_NEAR(srgbToLinear(0.04045), srgbToLinear(std::nextafter(0.04045, 1)), 1e-8);
+}
+
+TEST(Srgb, IsMonotone) {
+  int last = 0;
+  for (int i = 0; i <= 100000; ++i) {
+    const int code = srgbCode(i / 100000.0);
+    EXPECT_GE(code, last);
+    last = code;
+  }
+  EXPECT_EQ(last, 255);
+}
+
+TEST(Srgb, OddValuesHaveCodes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(srgbCode(std::nan("")), 0);
+  EXPECT_EQ(srgbCode(-1), 0);
+  EXPECT_EQ(srgbCode(-kInfinity), 0);
+  EXPECT_EQ(srgbCode(-0.0), 0);
+  EXPECT_EQ(srgbCode(1e-310), 0);
+  EXPECT_EQ(srgbCode(1), 255);
+  EXPECT_EQ(srgbCode(7), 255);
+  EXPECT_EQ(srgbCode(kInfinity), 255);
+}
+
+TEST(ToneCurve, NoneIsTheIdentity) {
+  for (const double x : {0.0, 0.1, 1.0, 50.0}) EXPECT_EQ(applyToneCurve(ToneCurve::none, x), x);
+}
+
+TEST(ToneCurve, Reinhard) {
+  EXPECT_EQ(applyToneCurve(ToneCurve::reinhard, 0), 0);
+  EXPECT_EQ(applyToneCurve(ToneCurve::reinhard, 1), 0.5);
+  EXPECT_EQ(applyToneCurve(ToneCurve::reinhard, 3), 0.75);
+  EXPECT_EQ(applyToneCurve(ToneCurve::reinhard, std::numeric_limits<double>::infinity()), 1);
+}
+
+// At 1: (0.15 + 0.05 + 0.004) / (0.15 + 0.5 + 0.06) - 1/15 = 0.204 / 0.71 - 1/15; at 11.2:
+// (11.2 * (1.68 + 0.05) + 0.004) / (11.2 * (1.68 + 0.5) + 0.06) - 1/15 = 19.38 / 24.476 - 1/15.
+TEST(ToneCurve, Filmic) {
+  const double white = 19.38 / 24.476 - 1.0 / 15;
+  EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 0), 0, 1e-15);
+  EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 1), (0.204 / 0.71 - 1.0 / 15) / white, 1e-14);
+  EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 11.2), 1, 1e-14);
+  EXPECT_GT(applyToneCurve(ToneCurve::filmic, std::numeric_limits<double>::infinity()), 1);
+}
+
+TEST(ToDisplay, ExposureCurveAndWindow) {
+  Image image(10, 10, {4, 5, 6, 6});
+  image.at(4, 5) = Rgb(0.25f, 1, 0);
+  image.at(5, 5) = Rgb(std::nanf(""), -1, std::numeric_limits<float>::infinity());
+  const DisplayImage plain = toDisplay(image, 2, ToneCurve::none);
+  EXPECT_EQ(plain.width, 2);
+  EXPECT_EQ(plain.height, 1);
+  EXPECT_EQ(plain.rgba, (std::vector<std::uint8_t>{255, 255, 0, 255, 0, 0, 255, 255}));
+  // 0.25 and 1 at -1 EV are 1/8 and 1/2; Reinhard makes them 1/9 and 1/3, sRGB 0.3673 and 0.6126:
+  // codes 93.7 and 156.2.
+  const DisplayImage curved = toDisplay(image, -1, ToneCurve::reinhard);
+  EXPECT_EQ(curved.rgba, (std::vector<std::uint8_t>{94, 156, 0, 255, 0, 0, 255, 255}));
+}
+
+}  // namespace
+}  // namespace whit

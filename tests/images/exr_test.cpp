@@ -1,0 +1,270 @@
+// OpenEXR: what is written comes back bit for bit, and other programs' files are understood.
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfInputFile.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfTiledOutputFile.h>
+
+#include <bit>
+#include <limits>
+#include <map>
+
+#include "image_samples.h"
+
+namespace whit {
+namespace {
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+void expectSameBits(const Image& a, const Image& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.window, b.window);
+  ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(bits(a.pixels[i][c]), bits(b.pixels[i][c])) << i;
+}
+
+// Channels of constant value on a data window, written through OpenEXR itself.
+struct ForeignFile {
+  Imath::Box2i display{{0, 0}, {3, 2}}, data{{0, 0}, {3, 2}};
+  std::map<std::string, float> channels;
+  Imf::PixelType type = Imf::FLOAT;
+  Imf::Compression compression = Imf::ZIP_COMPRESSION;
+
+  Imf::Header header() const {
+    Imf::Header header(display, data);
+    header.compression() = compression;
+    for (const auto& [name, value] : channels) header.channels().insert(name, Imf::Channel(type));
+    return header;
+  }
+};
+
+class ExrTest : public ImageTest {
+ protected:
+  void roundTrip(const Image& image) {
+    writeExr(path("a.exr"), image, {});
+    expectSameBits(readImage(path("a.exr"), limits_, warnings_), image);
+  }
+
+  template <typename Output>
+  static void fill(const ForeignFile& file, Output& output) {
+    const auto width = static_cast<std::size_t>(file.data.max.x - file.data.min.x + 1);
+    const auto height = static_cast<std::size_t>(file.data.max.y - file.data.min.y + 1);
+    std::map<std::string, std::vector<float>> floats;
+    std::map<std::string, std::vector<half>> halves;
+    Imf::FrameBuffer frame;
+    for (const auto& [name, value] : file.channels) {
+      floats[name].assign(width * height, value);
+      halves[name].assign(width * height, half(value));
+      const bool isHalf = file.type == Imf::HALF;
+      const void* values = isHalf ? static_cast<const void*>(halves[name].data())
+                                  : static_cast<const void*>(floats[name].data());
+      const std::size_t size = isHalf ? sizeof(half) : sizeof(float);
+      frame.insert(name, Imf::Slice::Make(file.type, values, file.data, size, width * size));
+    }
+    output.setFrameBuffer(frame);
+    if constexpr (requires { output.writeTiles(0, 0, 0, 0); })
+      output.writeTiles(0, output.numXTiles() - 1, 0, output.numYTiles() - 1);
+    else
+      output.writePixels(file.data.max.y - file.data.min.y + 1);
+  }
+  std::string write(const ForeignFile& file) {
+    Imf::OutputFile output(path("foreign.exr").c_str(), file.header());
+    fill(file, output);
+    return path("foreign.exr");
+  }
+  RawImage raw(const ForeignFile& file) { return readRawImage(write(file), limits_, warnings_); }
+};
+
+TEST_F(ExrTest, FloatsKeepTheirBits) {
+  Image image(7, 5);
+  std::uint32_t pattern = 0x01234567;
+  for (Rgb& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) {
+      pattern = pattern * 1664525u + 1013904223u;
+      pixel[c] = std::bit_cast<float>(pattern);
+    }
+  image.pixels[0] = Rgb(std::bit_cast<float>(0x7fc12345u), std::numeric_limits<float>::infinity(),
+                        -std::numeric_limits<float>::infinity());
+  image.pixels[1] =
+      Rgb(std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max(), -0.0f);
+  roundTrip(image);
+}
+
+TEST_F(ExrTest, CropsKeepTheirPlace) {
+  for (const Crop& crop : {Crop{0, 0, 1, 1}, Crop{99, 49, 100, 50}, Crop{13, 7, 60, 8},
+                           Crop{0, 0, 100, 50}, Crop{5, 0, 6, 50}}) {
+    Image image(100, 50, crop);
+    float value = 0.1f;
+    for (Rgb& pixel : image.pixels) {
+      value += 1;
+      pixel = Rgb(value, value * 2, value * 3);
+    }
+    roundTrip(image);
+  }
+  roundTrip(Image(1, 1));
+}
+
+TEST_F(ExrTest, MetadataComesBackAndTheBytesAreReproducible) {
+  const Image image(4, 4);
+  const ImageMetadata metadata = {{"crop", "0,0,4,4"},
+                                  {"name", "atrium"},  // OpenEXR has this one itself
+                                  {"compression", "none"},
+                                  {"scene", "caf\xc3\xa9"},
+                                  {"type", "nonsense"}};
+  writeExr(path("a.exr"), image, metadata);
+  writeExr(path("b.exr"), image, metadata);
+  EXPECT_EQ(load(path("a.exr")), load(path("b.exr")));
+  ImageMetadata back = readExrMetadata(path("a.exr"));
+  std::sort(back.begin(), back.end());
+  EXPECT_EQ(back.size(), metadata.size());
+  for (const auto& entry : metadata)
+    EXPECT_NE(std::find(back.begin(), back.end(), entry), back.end()) << entry.first;
+  EXPECT_EQ(readImage(path("a.exr"), limits_, warnings_).pixels.size(), 16u);
+}
+
+TEST_F(ExrTest, EveryCompressionIsRead) {
+  for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c) {
+    ForeignFile file;
+    file.channels = {{"R", 1}, {"G", 2}, {"B", 4}};
+    file.compression = static_cast<Imf::Compression>(c);
+    const RawImage image = raw(file);
+    EXPECT_EQ(image.channels, 3);
+    ASSERT_EQ(image.values.size(), 36u);
+    // The lossy ones keep constant powers of two to a part in a hundred.
+    for (std::size_t i = 0; i < 36; ++i)
+      EXPECT_NEAR(image.values[i], static_cast<float>(1 << (i % 3)), 0.04) << c;
+  }
+}
+
+TEST_F(ExrTest, HalvesAndAlphaAreRead) {
+  ForeignFile file;
+  file.type = Imf::HALF;
+  file.channels = {{"R", 0.5f}, {"G", 65504}, {"B", 6.0e-8f}, {"A", 0.25f}};
+  const RawImage image = raw(file);
+  EXPECT_EQ(image.channels, 4);
+  EXPECT_EQ(image.values[0], 0.5f);
+  EXPECT_EQ(image.values[1], 65504.0f);
+  EXPECT_EQ(image.values[2], std::ldexp(1.0f, -24));
+  EXPECT_EQ(image.values[3], 0.25f);
+}
+
+TEST_F(ExrTest, LuminanceAloneIsGrey) {
+  ForeignFile file;
+  file.channels = {{"Y", 0.75f}, {"Z", 9}};
+  EXPECT_EQ(raw(file).channels, 1);
+  EXPECT_EQ(readImage(write(file), limits_, warnings_).at(2, 1), Rgb(0.75f));
+}
+
+TEST_F(ExrTest, MissingChannelsAreBlack) {
+  ForeignFile file;
+  file.channels = {{"G", 0.5f}};
+  EXPECT_EQ(readImage(write(file), limits_, warnings_).at(3, 2), Rgb(0, 0.5f, 0));
+}
+
+TEST_F(ExrTest, NoColourAtAllIsAnError) {
+  ForeignFile file;
+  file.channels = {{"Z", 1}, {"layer.R", 1}};
+  try {
+    raw(file);
+    FAIL() << "read";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status(), ExitStatus::badScene);
+    EXPECT_NE(std::string(e.what()).find("layer.R"), std::string::npos) << e.what();
+  }
+}
+
+// Windows need neither begin at 0 nor lie inside one another.
+TEST_F(ExrTest, DataWindowIsTakenRelativeToTheDisplayWindow) {
+  ForeignFile file;
+  file.channels = {{"R", 1}, {"G", 1}, {"B", 1}};
+  file.display = {{-10, 5}, {-1, 14}};
+  file.data = {{-12, 7}, {-8, 30}};  // beyond the left and the bottom
+  const Image image = readImage(write(file), limits_, warnings_);
+  EXPECT_EQ(image.width, 10);
+  EXPECT_EQ(image.height, 10);
+  EXPECT_EQ(image.window, (Crop{0, 2, 3, 10}));
+  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(1));
+
+  const RawImage filled = raw(file);
+  EXPECT_EQ(filled.width, 10);
+  EXPECT_EQ(filled.height, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 10; ++x)
+      EXPECT_EQ(filled.values[static_cast<std::size_t>(3 * (10 * y + x))],
+                x < 3 && y >= 2 ? 1.0f : 0.0f);
+}
+
+TEST_F(ExrTest, TilesAreRead) {
+  ForeignFile file;
+  file.display = file.data = {{0, 0}, {36, 20}};
+  file.channels = {{"R", 1}, {"G", 2}, {"B", 3}};
+  Imf::Header header = file.header();
+  header.setTileDescription(Imf::TileDescription(16, 8, Imf::MIPMAP_LEVELS));
+  {
+    Imf::TiledOutputFile output(path("tiled.exr").c_str(), header);
+    fill(file, output);
+  }
+  const Image image = readImage(path("tiled.exr"), limits_, warnings_);
+  EXPECT_EQ(image.window, (Crop{0, 0, 37, 21}));
+  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(1, 2, 3));
+}
+
+TEST_F(ExrTest, OfSeveralPartsTheFirstIsRead) {
+  ForeignFile first, second;
+  first.channels = {{"R", 1}, {"G", 1}, {"B", 1}};
+  second.channels = {{"R", 9}, {"G", 9}, {"B", 9}};
+  std::vector<Imf::Header> headers = {first.header(), second.header()};
+  for (std::size_t i = 0; i < 2; ++i) {
+    headers[i].setName(i == 0 ? "beauty" : "other");
+    headers[i].setType(Imf::SCANLINEIMAGE);
+  }
+  {
+    Imf::MultiPartOutputFile file(path("parts.exr").c_str(), headers.data(), 2);
+    Imf::OutputPart one(file, 0), two(file, 1);
+    fill(first, one);
+    fill(second, two);
+  }
+  EXPECT_EQ(readImage(path("parts.exr"), limits_, warnings_).at(0, 0), Rgb(1));
+}
+
+// Grey has no chroma, so that nothing but half precision stands between writing and reading.
+TEST_F(ExrTest, LuminanceAndChromaAreConverted) {
+  {
+    Imf::RgbaOutputFile file(path("yc.exr").c_str(), 8, 6, Imf::WRITE_YC);
+    const std::vector<Imf::Rgba> pixels(48, Imf::Rgba(0.5f, 0.5f, 0.5f));
+    file.setFrameBuffer(pixels.data(), 1, 8);
+    file.writePixels(6);
+  }
+  const Image image = readImage(path("yc.exr"), limits_, warnings_);
+  EXPECT_EQ(image.window, (Crop{0, 0, 8, 6}));
+  for (const Rgb& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], 0.5f, 0.5f / 1024);
+}
+
+TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
+  Image image(2, 1);
+  image.pixels = {Rgb(std::nanf(""), -1, std::numeric_limits<float>::infinity()),
+                  Rgb(-std::numeric_limits<float>::infinity(), 1e38f, 2)};
+  writeExr(path("a.exr"), image, {});
+  expectSameBits(readImage(path("a.exr"), limits_, warnings_), image);
+  EXPECT_TRUE(warnings_.entries().empty());
+
+  const RawImage mended = readRawImage(path("a.exr"), limits_, warnings_);
+  EXPECT_EQ(mended.values, (std::vector<float>{0, 0, 65504, 0, 1e38f, 2}));
+  const auto entries = warnings_.entries();
+  EXPECT_EQ(entries.at("image value that is not a number, taken as 0").count, 1u);
+  EXPECT_EQ(entries.at("negative image value, taken as 0").count, 2u);
+  EXPECT_EQ(entries.at("infinite image value, taken as 65504").count, 1u);
+
+  Warnings strict(true);
+  EXPECT_EQ(statusOf([&] { readRawImage(path("a.exr"), limits_, strict); }), ExitStatus::badScene);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/srgb.h"
+#include "metrics/metrics.h"
+
+namespace whit {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+Colour at(const DisplayImage& image, int x, int y) {
+  const std::uint8_t* p =
+      image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                               static_cast<std::size_t>(x));
+  EXPECT_EQ(p[3], 255);
+  return {p[0], p[1], p[2]};
+}
+
+double luminance(const Colour& c) {
+  return 0.2126 * srgbToLinear(c[0] / 255.0) + 0.7152 * srgbToLinear(c[1] / 255.0) +
+         0.0722 * srgbToLinear(c[2] / 255.0);
+}
+
+// Pixel x of the first row differs by x codes.
+std::array<Image, 2> ramp(int width) {
+  std::array<Image, 2> images = {Image(width, 2), Image(width, 2)};
+  for (int x = 0; x < width; ++x)
+    images[1].at(x, 0).y = static_cast<float>(srgbToLinear(std::min(x, 255) / 255.0));
+  return images;
+}
+
+TEST(HeatMap, GrowsLighterUpToSixteenCodes) {
+  const auto [a, b] = ramp(100);
+  const DisplayImage map = heatMap(a, b);
+  EXPECT_EQ(map.width, 100);
+  EXPECT_EQ(at(map, 0, 0), (Colour{0, 0, 0}));
+  for (int codes = 1; codes <= 16; ++codes)
+    EXPECT_GT(luminance(at(map, codes, 0)), luminance(at(map, codes - 1, 0))) << codes;
+  for (int codes = 17; codes < 100; ++codes) EXPECT_EQ(at(map, codes, 0), at(map, 16, 0));
+  for (int x = 0; x < 100; ++x) EXPECT_EQ(at(map, x, 1), (Colour{0, 0, 0}));
+}
+
+// Beneath the image: the bar runs through the same colours, with six ticks under it, and white
+// digits under those.
+TEST(HeatMap, HasItsScaleBeneath) {
+  const auto [a, b] = ramp(100);
+  const DisplayImage map = heatMap(a, b);
+  ASSERT_EQ(map.height, 2 + 18);
+  EXPECT_EQ(at(map, 5, 2 + 4), at(map, 0, 0));
+  EXPECT_EQ(at(map, 94, 2 + 4), at(map, 16, 0));
+  const auto whites = [&](int y) {
+    int count = 0;
+    for (int x = 0; x < map.width; ++x) count += at(map, x, y) == Colour{255, 255, 255};
+    return count;
+  };
+  EXPECT_EQ(whites(2 + 8), 6);
+  EXPECT_EQ(whites(2 + 9), 6);
+  // The top rows of 0, 1, 2, 4, 8 and 16: 3 + 1 + 3 + 2 + 3 + (1 + 3) pixels.
+  EXPECT_EQ(whites(2 + 11), 16);
+  // The tick of 1 is at log 2 / log 17 of the 89 pixels between the ends: 21.8.
+  EXPECT_EQ(at(map, 5 + 22, 2 + 8), (Colour{255, 255, 255}));
+  // The bar has the colour of one code there.
+  const Colour bar = at(map, 5 + 22, 2 + 4), one = at(map, 1, 0);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(bar[c], one[c], 3);
+}
+
+TEST(HeatMap, TinyAndLargeImagesGetALegibleScale) {
+  const DisplayImage tiny = heatMap(Image(1, 1), Image(1, 1));
+  EXPECT_EQ(tiny.width, 64);
+  EXPECT_EQ(tiny.height, 1 + 18);
+  EXPECT_EQ(tiny.rgba.size(), 4u * 64 * 19);
+  const DisplayImage large = heatMap(Image(1280, 10), Image(1280, 10));
+  EXPECT_EQ(large.height, 10 + 4 * 18);
+  EXPECT_EQ(heatMap(Image(1279, 1), Image(1279, 1)).height, 1 + 3 * 18);
+}
+
+TEST(HeatMap, TakesTheWindowOnly) {
+  const DisplayImage map =
+      heatMap(Image(500, 500, {10, 10, 90, 13}), Image(500, 500, {10, 10, 90, 13}));
+  EXPECT_EQ(map.width, 80);
+  EXPECT_EQ(map.height, 3 + 18);
+}
+
+}  // namespace
+}  // namespace whit

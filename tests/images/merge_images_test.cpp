@@ -1,0 +1,88 @@
+#include "io/merge_images.h"
+
+#include "image_samples.h"
+
+namespace whit {
+namespace {
+
+class MergeImages : public ImageTest {
+ protected:
+  // Pixel (x, y) of every part is (x, y, blue).
+  std::string part(const std::string& name, const Crop& crop, float blue = 0, int width = 8,
+                   const ImageMetadata& metadata = {}) {
+    Image image(width, 6, crop);
+    for (int y = crop.y0; y < crop.y1; ++y)
+      for (int x = crop.x0; x < crop.x1; ++x)
+        image.at(x, y) = Rgb(static_cast<float>(x), static_cast<float>(y), blue);
+    writeExr(path(name), image, metadata);
+    return path(name);
+  }
+  MergedImage merge(const std::vector<std::string>& paths) {
+    return mergeImages(paths, limits_, warnings_);
+  }
+};
+
+TEST_F(MergeImages, PutsCropsInTheirPlaces) {
+  const Image image =
+      merge({part("c.exr", {3, 2, 8, 6}), part("a.exr", {0, 0, 8, 2}), part("b.exr", {0, 2, 3, 6})})
+          .image;
+  EXPECT_EQ(image.window, (Crop{0, 0, 8, 6}));
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_EQ(image.at(x, y), Rgb(static_cast<float>(x), static_cast<float>(y), 0));
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+TEST_F(MergeImages, OneWholePartIsItself) {
+  EXPECT_EQ(merge({part("a.exr", {0, 0, 8, 6}, 5)}).image.at(7, 5), Rgb(7, 5, 5));
+}
+
+TEST_F(MergeImages, OverlapsThatAgreeAreFine) {
+  merge({part("a.exr", {0, 0, 8, 4}), part("b.exr", {0, 2, 8, 6})});
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+TEST_F(MergeImages, WhereOverlapsDifferTheLaterWinsAndIsCounted) {
+  const Image image = merge({part("a.exr", {0, 0, 8, 4}, 1), part("b.exr", {0, 3, 8, 6}, 2)}).image;
+  EXPECT_EQ(image.at(0, 2).z, 1);
+  EXPECT_EQ(image.at(0, 3).z, 2);
+  const auto entry = warnings_.entries().at("overlapping parts differ, the later one taken");
+  EXPECT_EQ(entry.count, 8u);
+  EXPECT_EQ(entry.first, path("b.exr") + " at (0, 3)");
+  Warnings strict(true);
+  EXPECT_EQ(statusOf([&] {
+              mergeImages({path("a.exr"), path("b.exr")}, limits_, strict);
+            }),
+            ExitStatus::badScene);
+}
+
+TEST_F(MergeImages, GapsAreNamed) {
+  const std::vector<std::string> parts = {part("a.exr", {0, 0, 8, 2}), part("b.exr", {0, 2, 7, 6})};
+  try {
+    merge(parts);
+    FAIL() << "merged";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status(), ExitStatus::usage);
+    EXPECT_EQ(std::string(e.what()),
+              "the parts leave 4 pixels of the 8x6 image open, the first at (7, 2)");
+  }
+}
+
+TEST_F(MergeImages, SizesMustMatch) {
+  EXPECT_EQ(statusOf([&] {
+              merge({part("a.exr", {0, 0, 8, 6}), part("b.exr", {0, 0, 9, 6}, 0, 9)});
+            }),
+            ExitStatus::usage);
+  EXPECT_EQ(statusOf([&] { merge({}); }), ExitStatus::usage);
+  EXPECT_EQ(statusOf([&] { merge({path("absent.exr")}); }), ExitStatus::io);
+}
+
+TEST_F(MergeImages, KeepsTheTextThatAllPartsAgreeOn) {
+  const MergedImage merged = merge(
+      {part("a.exr", {0, 0, 8, 3}, 0, 8, {{"crop", "0,0,8,3"}, {"spp", "4"}, {"simd", "a"}}),
+       part("b.exr", {0, 3, 8, 6}, 0, 8, {{"crop", "0,3,8,6"}, {"spp", "4"}, {"simd", "b"}})});
+  EXPECT_EQ(merged.metadata, (ImageMetadata{{"spp", "4"}}));
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,82 @@
+#include "core/srgb.h"
+#include "image_samples.h"
+
+namespace whit {
+namespace {
+
+RawImage codes(int channels, const Bytes& values) {
+  RawImage raw;
+  raw.channels = channels;
+  raw.width = static_cast<int>(values.size()) / channels;
+  raw.height = 1;
+  raw.codes = values;
+  return raw;
+}
+
+RawImage floats(int channels, const std::vector<float>& values) {
+  RawImage raw;
+  raw.channels = channels;
+  raw.width = static_cast<int>(values.size()) / channels;
+  raw.height = 1;
+  raw.linear = true;
+  raw.values = values;
+  return raw;
+}
+
+// The table gives just what encoding each colour by itself would.
+TEST(TextureFromImage, ColourCodesAreEncodedAsTheirLinearLight) {
+  for (int code = 0; code < 256; ++code) {
+    const auto c = static_cast<std::uint8_t>(code);
+    const auto other = static_cast<std::uint8_t>(255 - code);
+    const Texture texture = makeTexture("t", codes(3, {c, other, 7}), TexelFormat::colour);
+    const auto linear = [](int v) { return static_cast<float>(srgbToLinear(v / 255.0)); };
+    ASSERT_EQ(texture.texels.size(), 1u);
+    EXPECT_EQ(texture.texels[0], encodeColourTexel({linear(code), linear(other), linear(7)}));
+  }
+}
+
+TEST(TextureFromImage, DataCodesAreKept) {
+  const auto texel = [](int channels, const Bytes& values) {
+    return makeTexture("t", codes(channels, values), TexelFormat::data).texels.at(0);
+  };
+  EXPECT_EQ(texel(4, {1, 2, 3, 4}), 0x04030201u);
+  EXPECT_EQ(texel(3, {1, 2, 3}), 0xff030201u);
+  EXPECT_EQ(texel(2, {1, 2}), 0x02010101u);
+  EXPECT_EQ(texel(1, {9}), 0xff090909u);
+}
+
+TEST(TextureFromImage, LinearValuesAreEncoded) {
+  EXPECT_EQ(makeTexture("t", floats(3, {0.25f, 1, 7}), TexelFormat::colour).texels[0],
+            encodeColourTexel({0.25f, 1, 1}));
+  EXPECT_EQ(makeTexture("t", floats(1, {1}), TexelFormat::data).texels[0], 0xffffffffu);
+}
+
+TEST(TextureFromImage, KeepsNameSizeAndOrder) {
+  RawImage raw = codes(1, {1, 2, 3, 4, 5, 6});
+  raw.width = 2;
+  raw.height = 3;
+  const Texture texture = makeTexture("wood", raw, TexelFormat::data);
+  EXPECT_EQ(texture.name, "wood");
+  EXPECT_EQ(texture.format, TexelFormat::data);
+  EXPECT_EQ(texture.width, 2);
+  EXPECT_EQ(texture.height, 3);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(texture.texels[i] & 255, i + 1);
+}
+
+TEST(EnvironmentFromImage, HasLinearPlanes) {
+  const EnvironmentImage linear = makeEnvironment(floats(3, {1, 20, 300, 4, 5, 6}));
+  EXPECT_EQ(linear.width, 2);
+  EXPECT_EQ(linear.height, 1);
+  EXPECT_EQ(linear.r, (std::vector<float>{1, 4}));
+  EXPECT_EQ(linear.g, (std::vector<float>{20, 5}));
+  EXPECT_EQ(linear.b, (std::vector<float>{300, 6}));
+  const EnvironmentImage grey = makeEnvironment(floats(1, {0.5f}));
+  EXPECT_EQ(grey.b, (std::vector<float>{0.5f}));
+  const EnvironmentImage encoded = makeEnvironment(codes(4, {255, 10, 0, 77}));
+  EXPECT_EQ(encoded.r[0], 1);
+  EXPECT_FLOAT_EQ(encoded.g[0], static_cast<float>(10 / 255.0 / 12.92));
+  EXPECT_EQ(encoded.b[0], 0);
+}
+
+}  // namespace
+}  // namespace whit
