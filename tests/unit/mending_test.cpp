@@ -118,6 +118,19 @@ TEST(Mending, FarTextureCoordinatesAreRecentredWhereTheyRepeat) {
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
 }
 
+TEST(Mending, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
+  Mesh mesh = square();
+  mesh.uvs.assign(4, {100.5f, 100.5f});
+  SceneDescription d = sceneOf(mesh);
+  d.textures = {whiteTexture(TexelFormat::colour), whiteTexture(TexelFormat::data)};
+  d.textures[0].wrapU = Wrap::clamp;
+  d.materials[0].diffuseMap = 0;
+  d.materials[0].alphaMap = 1;
+  const Scene scene = finalized(std::move(d));
+  EXPECT_EQ(scene.triangles[0].uv[0], 100.5f);
+  EXPECT_EQ(scene.triangles[0].uv[1], 0.5f);
+}
+
 // H34
 TEST(Mending, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();

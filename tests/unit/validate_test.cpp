@@ -126,7 +126,7 @@ const std::vector<Refusal>& refusals() {
       {"nearly singular transform",
        [](auto& d) {
          d.instances[0].toWorld.x = {1, 1, 0};
-         d.instances[0].toWorld.y = {1, 1, 1e-15};
+         d.instances[0].toWorld.y = {1, 1 + 1e-15, 0};
          d.instances[0].toWorld.z = {0, 0, 1};
        },
        {"flattens"}},
