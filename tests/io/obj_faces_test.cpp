@@ -1,0 +1,135 @@
+// OBJ files as they should be, and as other programs write them.
+#include <map>
+
+#include "scene/scene.h"
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+using ObjFaces = SceneFileTest;
+
+constexpr char kSquare[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+const Mesh& onlyMesh(const SceneDescription& scene) {
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.objects.at(0).meshes.size(), 1u);
+  return scene.objects.at(0).meshes.at(0);
+}
+
+using Corners = std::vector<Vec3f>;
+
+Corners cornersOf(const Mesh& mesh) {
+  Corners corners;
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) corners.push_back(mesh.positions[v]);
+  }
+  return corners;
+}
+
+TEST_F(ObjFaces, EveryFormOfCorner) {
+  for (const char* face :
+       {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/3/1", "f -4 -3 -2",
+        "f -4/-3/-1 -3/-2/-1 -2/-1/-1", "f\t1\t2 \t3 ", "  f 1 2 3  # a comment 4 5"}) {
+    const SceneDescription scene =
+        loadObj(std::string(kSquare) + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n" + face + "\n");
+    EXPECT_EQ(cornersOf(onlyMesh(scene)), (Corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})) << face;
+    EXPECT_TRUE(warnings_.entries().empty()) << face;
+  }
+}
+
+TEST_F(ObjFaces, CornersThatAgreeShareAVertex) {
+  const SceneDescription scene = loadObj(
+      std::string(kSquare) + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n");
+  const Mesh& mesh = onlyMesh(scene);
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.positions.size(), 5u);  // four, and the first again with another vt
+  EXPECT_EQ(mesh.uvs.size(), 5u);
+  EXPECT_TRUE(mesh.normals.empty());
+}
+
+TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
+  const SceneDescription scene =
+      loadObj(std::string(kSquare) +
+              "vt 0.25 0.5\nvt -3 7 0\nvt 0.75\nvn 0 0 1\nvn 0 1 0\nf 1/2/1 2/1/2 3/3/1\n");
+  const Mesh& mesh = onlyMesh(scene);
+  const auto& t = mesh.triangles[0];
+  EXPECT_EQ(mesh.uvs[t[0]], (Vec2f{-3, 7}));
+  EXPECT_EQ(mesh.uvs[t[1]], (Vec2f{0.25f, 0.5f}));
+  EXPECT_EQ(mesh.uvs[t[2]], (Vec2f{0.75f, 0}));
+  EXPECT_EQ(mesh.normals[t[0]], Vec3f(0, 0, 1));
+  EXPECT_EQ(mesh.normals[t[1]], Vec3f(0, 1, 0));
+}
+
+TEST_F(ObjFaces, FacesWithAndWithoutNormalsAreKeptApart) {
+  const SceneDescription scene =
+      loadObj(std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 1//1 2 3//1\n");
+  std::map<bool, std::size_t> triangles;
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes)
+      triangles[!mesh.normals.empty()] += mesh.triangles.size();
+  }
+  EXPECT_EQ(triangles[true], 1u);
+  EXPECT_EQ(triangles[false], 2u);
+}
+
+TEST_F(ObjFaces, ConcavePolygonsAreCovered) {
+  // An L of area 3; a fan from its first corner would leave it.
+  const SceneDescription scene =
+      loadObj("v 1 1 5\nv 1 2 5\nv 0 2 5\nv 0 0 5\nv 2 0 5\nv 2 1 5\nf 3 4 5 6 1 2\n");
+  const Corners c = cornersOf(onlyMesh(scene));
+  ASSERT_EQ(c.size(), 12u);
+  float area = 0;
+  for (std::size_t i = 0; i < c.size(); i += 3) {
+    const Vec3f n = cross(c[i + 1] - c[i], c[i + 2] - c[i]);
+    EXPECT_GT(n.z, 0);
+    area += n.z / 2;
+  }
+  EXPECT_EQ(area, 3);
+}
+
+TEST_F(ObjFaces, LineEndsAndContinuations) {
+  const Corners expected{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  std::string unix = std::string(kSquare) + "f 1 2 3", dos, mac;
+  for (const char c : unix) {
+    if (c == '\n') dos += '\r';
+    dos += c;
+    mac += c == '\n' ? '\r' : c;
+  }
+  for (const std::string& text : {unix, unix + "\n", dos, dos + "\r\n", mac, mac + "\r",
+                                  std::string(kSquare) + "f 1 \\\n2 \\\r\n 3\n",
+                                  std::string(kSquare) + "# C:\\textures\\\nf 1 2 3\n"}) {
+    EXPECT_EQ(cornersOf(onlyMesh(loadObj(text))), expected) << text;
+  }
+}
+
+TEST_F(ObjFaces, MaterialsOfFaces) {
+  save("a library.mtl", "newmtl dark red\r\nKd 0.5 0 0\r\n");
+  save("sub/second.mtl", "newmtl blue\nKd 0 0 1\nnewmtl dark red\nKd 1 1 1\n");
+  const SceneDescription scene = loadObj(
+      std::string("mtllib a library.mtl\nmtllib sub\\second.mtl missing.mtl\n") + kSquare +
+      "f 1 2 3\nusemtl dark red \nf 1 2 4\nusemtl blue\nf 2 3 4\nusemtl unknown\nf 1 3 4\n");
+  const Mesh& mesh = onlyMesh(scene);
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  const auto diffuse = [&](std::size_t i) { return scene.materials[mesh.material(i)].diffuse; };
+  EXPECT_EQ(diffuse(0), Rgb(0.6f));  // none named: grey
+  EXPECT_EQ(diffuse(1), Rgb(0.5f, 0, 0));
+  EXPECT_EQ(diffuse(2), Rgb(0, 0, 1));
+  EXPECT_EQ(diffuse(3), Rgb(0.6f));
+  EXPECT_EQ(warned("material library missing"), 1u);
+  EXPECT_EQ(warned("material missing, grey instead"), 1u);
+}
+
+TEST_F(ObjFaces, AModelAloneGetsALight) {
+  const SceneDescription scene = loadObj(std::string(kSquare) + "f 1 2 3 4\n");
+  EXPECT_EQ(scene.name, "m");
+  EXPECT_TRUE(scene.cameras.empty());
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_GT(scene.lights[0].position.y, 1);
+  Warnings warnings;
+  SceneDescription copy = scene;
+  EXPECT_EQ(Scene::finalize(std::move(copy), warnings).cameras.size(), 1u);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,100 @@
+// Scene files, models and images written by tests, and what loading them gives.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/warnings.h"
+#include "io/load_scene.h"
+
+namespace whit {
+
+// A new folder for each test, removed afterwards.
+class SceneFileTest : public testing::Test {
+ protected:
+  SceneFileTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "whit-scene-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+    std::filesystem::create_directory(folder_ + "/inside");
+    root_ = folder_ + "/inside/";
+  }
+  ~SceneFileTest() override { std::filesystem::remove_all(folder_); }
+
+  // Beside the scene. A name that begins with "../" leaves its folder.
+  std::string save(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(std::filesystem::path(root_ + name).parent_path());
+    std::ofstream(root_ + name, std::ios::binary) << text;
+    return root_ + name;
+  }
+
+  SceneDescription load(const std::string& name) { return loadScene(name, options_, warnings_); }
+  // The members between the braces of a scene file.
+  SceneDescription loadMembers(const std::string& members, const std::string& query = "") {
+    return load(save("s.json", "{\"whit\": 1, " + members + "}") + query);
+  }
+  SceneDescription loadObj(const std::string& text) { return load(save("m.obj", text)); }
+
+  // "STATUS text" of the error, with the test's folder left out of the text.
+  template <typename Action>
+  std::string errorOf(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      std::string what = error.what();
+      for (std::size_t at; (at = what.find(root_)) != std::string::npos;) {
+        what.erase(at, root_.size());
+      }
+      return std::to_string(static_cast<int>(error.status())) + " " + what;
+    }
+    return "no error";
+  }
+  std::string errorOfMembers(const std::string& members) {
+    return errorOf([&] { loadMembers(members); });
+  }
+
+  std::uint64_t warned(const std::string& kind) const {
+    const auto entries = warnings_.entries();
+    const auto entry = entries.find(kind);
+    return entry == entries.end() ? 0 : entry->second.count;
+  }
+
+  std::string folder_, root_;
+  LoadOptions options_;
+  Warnings warnings_;
+};
+
+// An uncompressed TGA file, rows from the top: 1 byte a texel is grey, 3 are RGB, 4 are RGBA.
+inline std::string tga(int width, int height, const std::vector<std::vector<int>>& texels) {
+  const std::size_t channels = texels[0].size();
+  std::string file(18, '\0');
+  file[2] = channels == 1 ? 3 : 2;
+  file[12] = static_cast<char>(width);
+  file[14] = static_cast<char>(height);
+  file[16] = static_cast<char>(8 * channels);
+  file[17] = static_cast<char>(0x20 | (channels == 4 ? 8 : 0));
+  for (const std::vector<int>& t : texels) {
+    std::vector<int> stored = t;
+    if (channels >= 3) std::swap(stored[0], stored[2]);  // the format has blue first
+    for (const int c : stored) file += static_cast<char>(c);
+  }
+  return file;
+}
+
+inline std::size_t triangleCount(const SceneDescription& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes) count += mesh.triangles.size();
+  }
+  return count;
+}
+
+}  // namespace whit

@@ -1,0 +1,203 @@
+// Items, transforms, groups, objects and models of scene files.
+#include <cmath>
+
+#include "scene/scene.h"
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+using SceneItems = SceneFileTest;
+
+constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+// Where instance `i` puts corner `corner` of its object.
+Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t corner) {
+  const Instance& instance = scene.instances[i];
+  return instance.toWorld.point(Vec3d(scene.objects[instance.object].meshes[0].positions[corner]));
+}
+
+void expectNear(const Vec3d& a, const Vec3d& b) {
+  constexpr double kRounding = 1e-12;  // a few operations in double, on numbers below 100
+  EXPECT_LT(length(a - b), kRounding) << a.x << " " << a.y << " " << a.z;
+}
+
+TEST_F(SceneItems, TransformScalesThenRotatesThenTranslates) {
+  save("t.obj", kTriangle);
+  const SceneDescription scene = loadMembers(
+      "\"scene\": [{\"model\": \"t.obj\", \"transform\": {\"translate\": [10,0,0],"
+      "\"rotate\": [0,0,1,90], \"scale\": [2,3,4]}}]");
+  expectNear(cornerOf(scene, 0, 1), {10, 2, 0});
+  expectNear(cornerOf(scene, 0, 2), {7, 0, 0});
+}
+
+TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
+  save("t.obj", kTriangle);
+  const SceneDescription scene = loadMembers(
+      "\"scene\": [{\"model\": \"t.obj\", \"transform\": [{\"translate\": [1,0,0]},"
+      "{\"rotate\": [[0,0,1,90], [1,0,0,90]]}, {\"matrix\": [1,0,0,5, 0,1,0,6, 0,0,2,7]}]}]");
+  // (1,0,0) -> (2,0,0) -> (0,2,0) -> (0,0,2) -> (5,6,11)
+  expectNear(cornerOf(scene, 0, 1), {5, 6, 11});
+}
+
+TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
+  const auto error = [&](const std::string& transform) {
+    return errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"transform\": " + transform + "}]");
+  };
+  EXPECT_EQ(error("{\"scale\": [1,0,1]}"),
+            "3 s.json#/scene/0/transform/scale: expected a scale other than 0, found a list of 3");
+  EXPECT_EQ(error("{\"rotate\": [0,0,0,90]}"),
+            "3 s.json#/scene/0/transform/rotate: expected an axis other than 0, found a list of 4");
+  EXPECT_EQ(error("{\"matrix\": [1,0,0,0, 1,0,0,0, 0,0,1,0]}"),
+            "3 s.json#/scene/0/transform: expected a transform that can be undone, found an object "
+            "of 1");
+  EXPECT_EQ(error("{\"matrix\": [1,0,0,0], \"scale\": 2}"),
+            "3 s.json#/scene/0/transform/matrix: expected 12 numbers: a matrix of 3 rows of 4, "
+            "found a list of 4");
+  EXPECT_EQ(error("{\"scale\": 2, \"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0]}"),
+            "3 s.json#/scene/0/transform/scale: unknown key; is \"matrix\" meant?");
+}
+
+TEST_F(SceneItems, GroupsAndRepeats) {
+  save("t.obj", kTriangle);
+  const SceneDescription scene = loadMembers(
+      "\"scene\": [{\"group\": [{\"model\": \"t.obj\", \"transform\": {\"translate\": [1,0,0]}}],"
+      "\"transform\": {\"scale\": 2}, \"repeat\": {\"count\": [2,1,3], \"step\": [10,0,100]}}]");
+  ASSERT_EQ(scene.instances.size(), 6u);
+  // The step is in the parent's space: it is not scaled.
+  for (std::size_t i = 0; i < 6; ++i) {
+    expectNear(cornerOf(scene, i, 0),
+               {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
+  }
+  Warnings warnings;
+  SceneDescription copy = scene;
+  const Scene baked = Scene::finalize(std::move(copy), warnings);
+  EXPECT_EQ(baked.triangles.size(), 6u);
+  EXPECT_TRUE(baked.instances.empty());
+}
+
+TEST_F(SceneItems, RepeatsAreLimited) {
+  EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"repeat\": {\"count\": "
+                           "[10000,10000,10000], \"step\": [1,1,1]}}]"),
+            "3 s.json#/scene/0/repeat/count: expected at most 10000000 copies, found a list of 3");
+  options_.maxMemoryBytes = 1 << 20;
+  EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"quad\", \"repeat\": {\"count\": "
+                           "[100,100,100], \"step\": [1,1,1]}}]")
+                .substr(0, 2),
+            "5 ");
+}
+
+TEST_F(SceneItems, ObjectsPlacedOnceAreBakedAndMoreOftenInstanced) {
+  save("t.obj", kTriangle);
+  const std::string objects =
+      "\"objects\": {\"pair\": [{\"use\": \"one\"}, {\"use\": \"one\", \"transform\": "
+      "{\"translate\": [0,0,1]}}], \"one\": [{\"model\": \"t.obj\"}], \"never\": [{\"model\": "
+      "\"t.obj\"}]}, \"scene\": [{\"use\": \"pair\"}";
+  const SceneDescription once = loadMembers(objects + "]");
+  ASSERT_EQ(once.objects.size(), 1u);
+  ASSERT_EQ(once.instances.size(), 2u);
+  const SceneDescription thrice = loadMembers(
+      objects + ", {\"use\": \"pair\", \"repeat\": {\"count\": [2,1,1], \"step\": [10,0,0]}}]");
+  ASSERT_EQ(thrice.objects.size(), 1u);
+  ASSERT_EQ(thrice.instances.size(), 6u);
+  expectNear(cornerOf(thrice, 5, 1), {11, 0, 1});
+}
+
+TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
+  save("t.obj", kTriangle);
+  const SceneDescription scene = loadMembers(
+      "\"objects\": {\"o\": [{\"model\": \"t.obj\", \"transform\": {\"scale\": -2}}]},"
+      "\"scene\": [{\"use\": \"o\"}, {\"use\": \"o\", \"transform\": {\"translate\": [5,0,0]}}]");
+  ASSERT_EQ(scene.objects.size(), 1u);
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  EXPECT_EQ(mesh.positions[1], Vec3f(-2, 0, 0));
+  EXPECT_NE(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));  // a mirrored winding
+  expectNear(cornerOf(scene, 1, 1), {3, 0, 0});
+}
+
+TEST_F(SceneItems, ObjectsMayNotContainThemselves) {
+  EXPECT_EQ(errorOfMembers("\"objects\": {\"a\": [{\"use\": \"b\"}], \"b\": [{\"use\": \"a\"}]}"),
+            "3 s.json#/objects/a: this object contains itself");
+  EXPECT_EQ(errorOfMembers("\"objects\": {\"rock\": []}, \"scene\": [{\"use\": \"rok\"}]"),
+            "3 s.json#/scene/0/use: expected the name of an object (is \"rock\" meant?), found "
+            "\"rok\"");
+}
+
+TEST_F(SceneItems, InstancesThatMultiplyAreLimited) {
+  std::string objects = "\"objects\": {\"o0\": [{\"shape\": \"quad\"}]";
+  for (int i = 1; i <= 30; ++i) {
+    const std::string use = "{\"use\": \"o" + std::to_string(i - 1) + "\"}";
+    objects += ", \"o" + std::to_string(i) + "\": [" + use;
+    for (int k = 0; k < 9; ++k) objects += "," + use;
+    objects += "]";
+  }
+  const std::string error = errorOfMembers(objects + "}, \"scene\": [{\"use\": \"o30\"}]");
+  EXPECT_EQ(error.substr(0, 11), "5 instances") << error;  // 10^30 of them
+}
+
+TEST_F(SceneItems, MaterialsOfShapesAndTheirSlots) {
+  const std::string materials =
+      "\"materials\": {\"red\": {}, \"green\": {}},"
+      "\"scene\": [{\"shape\": \"tree\", \"leaves\": 5, \"material\": \"red\"";
+  const SceneDescription scene =
+      loadMembers(materials + ", \"materials\": {\"leaves\": \"green\"}}, {\"shape\": \"quad\"}]");
+  std::map<std::string, std::string> materialOf;
+  for (const Object& object : scene.objects) {
+    materialOf[object.meshes[0].name] = scene.materials[object.meshes[0].material(0)].name;
+  }
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.materials[scene.objects[0].meshes[0].material(0)].name, "red");    // bark
+  EXPECT_EQ(scene.materials[scene.objects[1].meshes[0].material(0)].name, "green");  // leaves
+  EXPECT_EQ(scene.materials[scene.objects[2].meshes[0].material(0)].name, "default");
+  EXPECT_EQ(errorOfMembers(materials + ", \"materials\": {\"leafs\": \"green\"}}]"),
+            "3 s.json#/scene/0/materials/leafs: unknown slot of this shape; is \"leaves\" meant?");
+  EXPECT_EQ(errorOfMembers("\"materials\": {\"red\": {}}, \"scene\": [{\"shape\": \"quad\", "
+                           "\"material\": \"rad\"}]"),
+            "3 s.json#/scene/0/material: expected the name of a material (is \"red\" meant?), "
+            "found \"rad\"");
+}
+
+TEST_F(SceneItems, ShapesWithPlacementsBecomeInstances) {
+  const SceneDescription scene = loadMembers(
+      "\"scene\": [{\"shape\": \"forest\", \"trees\": 7, \"leaves\": 5, \"transform\": "
+      "{\"translate\": [0,1000,0]}}]");
+  ASSERT_GE(scene.instances.size(), 2u);
+  EXPECT_LT(scene.objects.size(), scene.instances.size());
+  for (const Instance& instance : scene.instances) EXPECT_GT(instance.toWorld.p.y, 500);
+}
+
+TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
+  save("a.tga", tga(1, 1, {{10, 20, 30}}));
+  save("b.tga", tga(1, 1, {{40, 50, 60}}));
+  save("m.mtl",
+       "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0 0 0\n"
+       "newmtl y\nKd 0.25 0.25 0.25\n");
+  save("m.obj", std::string("mtllib m.mtl\nusemtl x\n") + kTriangle + "usemtl y\nf 1 2 3\n");
+  const std::string head =
+      "\"textures\": {\"b\": {\"image\": \"b.tga\"}}, \"scene\": [{\"model\": \"m.obj\"";
+  const SceneDescription scene = loadMembers(
+      head +
+      ", \"materials\": {\"x\": {\"specular\": 0.5}, \"*\": {\"emission\": 2}}},"
+      "{\"model\": \"m.obj\", \"materials\": {\"x\": {\"diffuseMap\": \"b\", \"diffuse\": 1}}}]");
+  const auto materialOf = [&](std::size_t object, std::size_t triangle) {
+    return scene.materials[scene.objects[object].meshes[0].material(triangle)];
+  };
+  const Material x = materialOf(0, 0), y = materialOf(0, 1), other = materialOf(1, 0);
+  EXPECT_EQ(x.diffuse, Rgb(0.5f));
+  EXPECT_EQ(x.specular, Rgb(0.5f));
+  EXPECT_NE(x.specularMap, kNoTexture);  // the file's, now that it has an effect
+  EXPECT_EQ(x.emission, Rgb(2.0f));
+  EXPECT_EQ(y.emission, Rgb(2.0f));
+  EXPECT_EQ(y.specular, Rgb(0.0f));
+  EXPECT_EQ(other.emission, Rgb(0.0f));
+  EXPECT_EQ(other.diffuse, Rgb(1.0f));
+  EXPECT_NE(other.diffuseMap, x.diffuseMap);
+  EXPECT_EQ(other.specularMap, kNoTexture);  // Ks 0 stays 0
+  EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"xx\": {}}}]"),
+            "3 s.json#/scene/0/materials/xx: unknown material of this model; is \"x\" meant?");
+  EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"x\": {\"difuse\": 1}}}]"),
+            "3 s.json#/scene/0/materials/x/difuse: unknown key; is \"diffuse\" meant?");
+}
+
+}  // namespace
+}  // namespace whit

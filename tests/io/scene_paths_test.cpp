@@ -1,0 +1,76 @@
+// Which files a scene may name, and where shipped scenes are found.
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+class ScenePaths : public SceneFileTest {
+ protected:
+  std::string errorOfModel(const std::string& path) {
+    return errorOfMembers("\"scene\": [{\"model\": \"" + path + "\"}]");
+  }
+  ~ScenePaths() override {
+    unsetenv("WHIT_DATA");
+    unsetenv("WHIT_SCENES");
+  }
+};
+
+TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
+  save("sub/in.obj", kTriangle);
+  save("../out.obj", kTriangle);
+  const std::string leaves =
+      " leaves the scene's folder and $WHIT_DATA (--allow-outside permits that)";
+  EXPECT_EQ(errorOfModel("sub/in.obj"), "no error");
+  EXPECT_EQ(errorOfModel("sub/../sub/in.obj"), "no error");
+  EXPECT_EQ(errorOfModel("../out.obj"), "3 s.json#/scene/0/model: \"../out.obj\"" + leaves);
+  EXPECT_EQ(errorOfModel("/etc/passwd"), "3 s.json#/scene/0/model: \"/etc/passwd\"" + leaves);
+  std::filesystem::create_symlink(folder_ + "/out.obj", root_ + "link.obj");
+  EXPECT_EQ(errorOfModel("link.obj"), "3 s.json#/scene/0/model: \"link.obj\"" + leaves);
+  options_.allowOutside = true;
+  EXPECT_EQ(errorOfModel("../out.obj"), "no error");
+  EXPECT_EQ(errorOfModel("link.obj"), "no error");
+}
+
+TEST_F(ScenePaths, AFolderWhoseNameBeginsAlikeIsOutside) {
+  save("../inside2/out.obj", kTriangle);
+  EXPECT_EQ(errorOfModel("../inside2/out.obj").substr(0, 2), "3 ");
+}
+
+TEST_F(ScenePaths, TheDataFolderIsAllowed) {
+  save("../data/in.obj", kTriangle);
+  setenv("WHIT_DATA", (folder_ + "/data").c_str(), 1);
+  EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"), "no error");
+  EXPECT_EQ(errorOfModel("$WHIT_DATA/../out.obj").substr(0, 2), "3 ");
+  EXPECT_EQ(errorOfModel("$WHIT_DATABASE/in.obj").substr(0, 2), "3 ");
+}
+
+TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {
+  EXPECT_EQ(errorOfModel("http://host/in.obj"),
+            "3 s.json#/scene/0/model: expected the path of a file on this machine");
+  EXPECT_EQ(errorOfModel("a\\u0000.obj"),
+            "3 s.json#/scene/0/model: expected the path of a file on this machine");
+  EXPECT_EQ(errorOfModel(""),
+            "3 s.json#/scene/0/model: expected the path of a file, found an empty string");
+}
+
+TEST_F(ScenePaths, FilesThatCannotBeRead) {
+  EXPECT_EQ(errorOf([&] { load(root_ + "none.json"); }), "4 cannot open none.json: no such file");
+  EXPECT_EQ(errorOf([&] { load(root_ + "none.obj"); }), "4 cannot open none.obj: no such file");
+  EXPECT_EQ(errorOfModel("sub"), "4 cannot open sub: no such file");
+  std::filesystem::create_directory(root_ + "folder.json");
+  EXPECT_EQ(errorOf([&] { load(root_ + "folder.json"); }), "4 cannot read folder.json: not a file");
+  EXPECT_EQ(errorOf([&] { load(save("a.txt", "")); }).substr(0, 2), "2 ");
+}
+
+TEST_F(ScenePaths, ShippedScenesByName) {
+  save("hall.json", "{\"whit\": 1, \"parameters\": {\"w\": 5}, \"size\": [\"$w\", 1]}");
+  setenv("WHIT_SCENES", root_.c_str(), 1);
+  EXPECT_EQ(load("hall").name, "hall");
+  EXPECT_EQ(load("hall?w=9").width, 9);
+  EXPECT_EQ(errorOf([&] { load("hal"); }), "2 no scene is called \"hal\"; did you mean \"hall\"?");
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,168 @@
+// Cameras, lights, sky, materials and textures of scene files.
+#include "scene/texture.h"
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+using SceneSections = SceneFileTest;
+
+TEST_F(SceneSections, DefaultsOfAnEmptyScene) {
+  const SceneDescription scene = loadMembers("\"scene\": []");
+  EXPECT_EQ(scene.width, 480);
+  EXPECT_EQ(scene.height, 300);
+  EXPECT_TRUE(scene.cameras.empty());
+  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_EQ(scene.sky.kind, Sky::Kind::none);
+}
+
+TEST_F(SceneSections, CamerasKeepTheFilesOrder) {
+  const SceneDescription scene = loadMembers(
+      "\"cameras\": {\"z\": {\"eye\": [1,2,3], \"at\": [0,0,0], \"fov\": 60},"
+      "\"a\": {\"eye\": [0,0,9], \"at\": [0,0,0], \"up\": [1,0,0]}}");
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  EXPECT_EQ(scene.cameras[0].name, "z");
+  EXPECT_EQ(scene.cameras[0].eye, Vec3f(1, 2, 3));
+  EXPECT_EQ(scene.cameras[0].fov, 60);
+  EXPECT_EQ(scene.cameras[1].name, "a");
+  EXPECT_EQ(scene.cameras[1].up, Vec3f(1, 0, 0));
+  EXPECT_EQ(scene.cameras[1].fov, 45);
+}
+
+TEST_F(SceneSections, KeyframesRepeatWhatIsMissing) {
+  const SceneDescription scene = loadMembers(
+      "\"path\": [{\"time\": 0, \"eye\": [0,0,5], \"at\": [0,0,0], \"fov\": 30},"
+      "{\"time\": 2, \"eye\": [0,0,7]}, {\"time\": 3, \"fov\": 50}]");
+  ASSERT_EQ(scene.cameraPath.size(), 3u);
+  EXPECT_EQ(scene.cameraPath[1].camera.eye, Vec3f(0, 0, 7));
+  EXPECT_EQ(scene.cameraPath[1].camera.fov, 30);
+  EXPECT_EQ(scene.cameraPath[2].camera.eye, Vec3f(0, 0, 7));
+  EXPECT_EQ(scene.cameraPath[2].camera.fov, 50);
+  EXPECT_EQ(scene.cameraPath[2].time, 3);
+}
+
+TEST_F(SceneSections, Lights) {
+  const SceneDescription scene = loadMembers(
+      "\"lights\": [{\"position\": [1,2,3], \"intensity\": 7},"
+      "{\"name\": \"key\", \"position\": [0,0,0], \"intensity\": [1,2,3], \"radius\": 0.5}]");
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights[0].intensity, Rgb(7, 7, 7));
+  EXPECT_EQ(scene.lights[0].position, Vec3f(1, 2, 3));
+  EXPECT_EQ(scene.lights[1].name, "key");
+  EXPECT_EQ(scene.lights[1].intensity, Rgb(1, 2, 3));
+  EXPECT_EQ(scene.lights[1].radius, 0.5f);
+}
+
+TEST_F(SceneSections, SkyOfOneColourAndAmbientFromIt) {
+  const SceneDescription scene = loadMembers(
+      "\"sky\": {\"colour\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25}");
+  EXPECT_EQ(scene.sky.kind, Sky::Kind::colour);
+  EXPECT_EQ(scene.sky.zenith, Rgb(1, 2, 4));
+  // The mean of a constant is the constant: 0.5 * 0.25 of it. Quadrature in float gets this far.
+  constexpr float kQuadrature = 1e-3f;
+  EXPECT_NEAR(scene.ambient.up.x, 0.125f, kQuadrature);
+  EXPECT_NEAR(scene.ambient.down.z, 0.5f, kQuadrature);
+}
+
+TEST_F(SceneSections, SkyGradientAndImage) {
+  const SceneDescription gradient = loadMembers(
+      "\"sky\": {\"zenith\": 1, \"horizon\": 2, \"ground\": 3}, \"ambient\": {\"up\": 1, \"down\": "
+      "[0,0.5,0]}");
+  EXPECT_EQ(gradient.sky.kind, Sky::Kind::gradient);
+  EXPECT_EQ(gradient.sky.horizon, Rgb(2, 2, 2));
+  EXPECT_EQ(gradient.ambient.down, Rgb(0, 0.5f, 0));
+  save("sky.tga", tga(2, 1, {{255, 0, 0}, {0, 0, 255}}));
+  const SceneDescription image = loadMembers("\"sky\": {\"image\": \"sky.tga\", \"rotation\": 90}");
+  EXPECT_EQ(image.sky.kind, Sky::Kind::image);
+  EXPECT_EQ(image.sky.rotation, 90);
+  ASSERT_EQ(image.sky.image.width, 2);
+  EXPECT_EQ(image.sky.image.r[0], 1);
+  EXPECT_EQ(image.sky.image.b[1], 1);
+  EXPECT_EQ(errorOfMembers("\"sky\": {\"zenith\": 1, \"ground\": 3}"),
+            "3 s.json#/sky: expected a member \"horizon\"");
+  EXPECT_EQ(errorOfMembers("\"ambient\": {\"fromSky\": 1}"),
+            "3 s.json#/ambient/fromSky: expected a scene with a sky, found 1");
+}
+
+TEST_F(SceneSections, MaterialsAndTheirDefaults) {
+  const SceneDescription scene = loadMembers(
+      "\"materials\": {\"plain\": {\"diffuse\": 0.25},"
+      "\"glass\": {\"transmission\": 0.9, \"ior\": 1.33, \"absorption\": [0,1,2], \"priority\": 2},"
+      "\"shadowGlass\": {\"transmission\": 0.9, \"castsShadow\": true},"
+      "\"mirror\": {\"mirror\": [0.5,0.25,0.125], \"roughness\": 0.1, \"specular\": 0.5},"
+      "\"coat\": {\"mirror\": 0.1, \"mirrorGrazing\": 1, \"emission\": [3,2,1]}}");
+  ASSERT_EQ(scene.materials.size(), 5u);
+  const Material &plain = scene.materials[0], &glass = scene.materials[1];
+  EXPECT_EQ(plain.name, "plain");
+  EXPECT_EQ(plain.diffuse, Rgb(0.25f));
+  EXPECT_TRUE(plain.castsShadow);
+  EXPECT_EQ(glass.transmission, Rgb(0.9f));
+  EXPECT_EQ(glass.ior, 1.33f);
+  EXPECT_EQ(glass.absorption, Rgb(0, 1, 2));
+  EXPECT_EQ(glass.priority, 2);
+  EXPECT_FALSE(glass.castsShadow);
+  EXPECT_TRUE(scene.materials[2].castsShadow);
+  EXPECT_EQ(scene.materials[3].mirrorGrazing, Rgb(0.5f, 0.25f, 0.125f));
+  EXPECT_EQ(scene.materials[4].mirrorGrazing, Rgb(1.0f));
+  EXPECT_EQ(scene.materials[4].emission, Rgb(3, 2, 1));
+}
+
+TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
+  save("a.tga", tga(1, 1, {{128, 128, 255}}));
+  const SceneDescription scene = loadMembers(
+      "\"textures\": {\"t\": {\"image\": \"a.tga\", \"wrap\": [\"clamp\", \"mirror\"]},"
+      "\"same\": {\"image\": \"a.tga\", \"wrap\": [\"clamp\", \"mirror\"]}},"
+      "\"materials\": {\"m\": {\"diffuseMap\": \"t\", \"normalMap\": \"t\"},"
+      "\"n\": {\"diffuseMap\": \"same\"}}");
+  ASSERT_EQ(scene.textures.size(), 2u);  // the same image and format only once
+  const Material& m = scene.materials[0];
+  const Texture& colour = scene.textures[static_cast<std::size_t>(m.diffuseMap)];
+  const Texture& data = scene.textures[static_cast<std::size_t>(m.normalMap)];
+  EXPECT_EQ(colour.format, TexelFormat::colour);
+  EXPECT_EQ(colour.wrapU, Wrap::clamp);
+  EXPECT_EQ(colour.wrapV, Wrap::mirror);
+  EXPECT_EQ(data.format, TexelFormat::data);
+  EXPECT_EQ(data.texels[0] & 0xffffffu, 0xff8080u);
+  EXPECT_EQ(scene.materials[1].diffuseMap, m.diffuseMap);
+}
+
+TEST_F(SceneSections, PatternsAndTheirErrors) {
+  const SceneDescription scene = loadMembers(
+      "\"textures\": {\"c\": {\"pattern\": \"checker\", \"columns\": 4, \"size\": 16}},"
+      "\"materials\": {\"m\": {\"diffuseMap\": \"c\"}}");
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].width, 16);
+  EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\", \"collumns\": 4}}"),
+            "3 s.json#/textures/c/collumns: unknown key; is \"columns\" meant?");
+  EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\"}},"
+                           "\"materials\": {\"m\": {\"normalMap\": \"c\"}}"),
+            "3 s.json#/materials/m/normalMap: expected a texture that is read as data (this one is "
+            "colour), found \"c\"");
+  EXPECT_EQ(errorOfMembers("\"textures\": {\"cc\": {\"pattern\": \"checker\"}},"
+                           "\"materials\": {\"m\": {\"diffuseMap\": \"c\"}}"),
+            "3 s.json#/materials/m/diffuseMap: expected the name of a texture (is \"cc\" meant?), "
+            "found \"c\"");
+}
+
+TEST_F(SceneSections, ImagesThatAreNotThereAreErrors) {
+  const std::string error = errorOfMembers("\"textures\": {\"t\": {\"image\": \"none.png\"}}");
+  EXPECT_EQ(error.substr(0, 2), "4 ") << error;
+  EXPECT_NE(error.find("none.png"), std::string::npos) << error;
+}
+
+TEST_F(SceneSections, ParametersStandForNumbers) {
+  const std::string members =
+      "\"parameters\": {\"n\": 10, \"w\": 3}, \"size\": [\"$n*2\", \"$w/2\"],"
+      "\"materials\": {\"m\": {\"roughness\": \"$n/100\"}}";
+  const SceneDescription own = loadMembers(members);
+  EXPECT_EQ(own.width, 20);
+  EXPECT_EQ(own.height, 2);  // the nearest to 1.5, halves away from 0
+  EXPECT_EQ(own.materials[0].roughness, 0.1f);
+  const SceneDescription given = loadMembers(members, "?n=50&w=8");
+  EXPECT_EQ(given.width, 100);
+  EXPECT_EQ(given.height, 4);
+  EXPECT_EQ(given.materials[0].roughness, 0.5f);
+}
+
+}  // namespace
+}  // namespace whit

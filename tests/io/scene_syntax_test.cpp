@@ -1,0 +1,113 @@
+// Scene files that are wrong, and where the errors point.
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+using SceneSyntax = SceneFileTest;
+
+TEST_F(SceneSyntax, CommentsAreAllowed) {
+  const SceneDescription scene = loadMembers("// one line\n \"size\": [3, /* sides */ 2]");
+  EXPECT_EQ(scene.width, 3);
+  EXPECT_EQ(scene.height, 2);
+  EXPECT_EQ(scene.name, "s");
+}
+
+TEST_F(SceneSyntax, SyntaxErrorsHaveLineAndColumn) {
+  const auto textOf = [&](const std::string& text) {
+    return errorOf([&] { load(save("s.json", text)); });
+  };
+  EXPECT_EQ(textOf("{\n  \"whit\": 1,\n  \"size\" [1, 1]\n}").substr(0, 13), "3 s.json:3:10");
+  EXPECT_EQ(textOf("").substr(0, 12), "3 s.json:1:1");
+  EXPECT_EQ(textOf("{\"whit\": 1,}").substr(0, 13), "3 s.json:1:12");
+  EXPECT_EQ(textOf("{\"whit\": 1e999}").substr(0, 8), "3 s.json");
+  EXPECT_EQ(textOf("{\"whit\": 1, \"size\": \"\xff\"}").substr(0, 12), "3 s.json:1:2");
+}
+
+TEST_F(SceneSyntax, TheVersionIsRequired) {
+  const auto textOf = [&](const std::string& text) {
+    return errorOf([&] { load(save("s.json", text)); });
+  };
+  EXPECT_EQ(textOf("{}"), "3 s.json#: expected a member \"whit\"");
+  EXPECT_EQ(textOf("[1]"), "3 s.json#: expected an object, found a list of 1");
+  EXPECT_EQ(textOf("{\"whit\": 2}"),
+            "3 s.json#/whit: expected a whole number from 1 to 1, found 2");
+}
+
+TEST_F(SceneSyntax, KeysGivenTwiceAreRefused) {
+  EXPECT_EQ(errorOfMembers("\"lights\": [{}, {\"radius\": 1, \"radius\": 2}]"),
+            "3 s.json#/lights/1/radius: this key is given twice");
+  EXPECT_EQ(errorOfMembers("\"objects\": {\"a/b~\": [], \"a/b~\": []}"),
+            "3 s.json#/objects/a~1b~0: this key is given twice");
+}
+
+TEST_F(SceneSyntax, UnknownKeysNameTheNearest) {
+  EXPECT_EQ(errorOfMembers("\"sice\": [1, 1]"), "3 s.json#/sice: unknown key; is \"size\" meant?");
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1], \"at\": [0,0,0], \"fow\": 4}}"),
+            "3 s.json#/cameras/a/fow: unknown key; is \"fov\" meant?");
+  EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"radiuss\": 2}]"),
+            "3 s.json#/scene/0/radiuss: unknown key; is \"radius\" meant?");
+}
+
+TEST_F(SceneSyntax, NestingIsLimited) {
+  const std::string deep = std::string(100, '[') + std::string(100, ']');
+  const std::string error = errorOfMembers("\"scene\": " + deep);
+  EXPECT_NE(error.find("nested deeper than 64 levels"), std::string::npos) << error;
+  EXPECT_EQ(error.substr(0, 17), "3 s.json#/scene/0");
+}
+
+TEST_F(SceneSyntax, MembersAreLimited) {
+  std::string many = "\"materials\": {";
+  for (int i = 0; i < 5000; ++i) many += "\"m" + std::to_string(i) + "\": {},";
+  EXPECT_NE(errorOfMembers(many + "\"z\": {}}").find("more than 4096 members"), std::string::npos);
+}
+
+TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
+  EXPECT_EQ(errorOfMembers("\"size\": [1]"),
+            "3 s.json#/size: expected [width, height], found a list of 1");
+  EXPECT_EQ(errorOfMembers("\"size\": [1.5, 1]"),
+            "3 s.json#/size/0: expected a whole number from 1 to 65536, found 1.5");
+  EXPECT_EQ(errorOfMembers("\"lights\": [{\"position\": [0, 1, \"x\"], \"intensity\": 1}]"),
+            "3 s.json#/lights/0/position/2: expected a number, found \"x\"");
+  EXPECT_EQ(errorOfMembers("\"lights\": [{\"position\": [0, 1, 1e30], \"intensity\": 1}]"),
+            "3 s.json#/lights/0/position/2: expected a number, found 1e+30");
+  EXPECT_EQ(errorOfMembers("\"materials\": {\"m\": {\"diffuse\": [1, 2, 0]}}"),
+            "3 s.json#/materials/m/diffuse/1: expected a number from 0 to 1, found 2");
+  EXPECT_EQ(errorOfMembers("\"materials\": {\"m\": {\"castsShadow\": 1}}"),
+            "3 s.json#/materials/m/castsShadow: expected true or false, found 1");
+  EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").substr(0, 37),
+            "3 s.json#/scene/0/shape: expected one");
+  EXPECT_NE(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").find("(is \"sphere\" meant?)"),
+            std::string::npos);
+}
+
+TEST_F(SceneSyntax, CamerasAndPathsMustMakeSense) {
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1]}}"),
+            "3 s.json#/cameras/a: expected a member \"at\"");
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1], \"at\": [0,0,1]}}"),
+            "3 s.json#/cameras/a: expected eye and at to differ, found an object of 2");
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,1,0], \"at\": [0,0,0]}}"),
+            "3 s.json#/cameras/a: expected an up that is not along the view, found an object of 2");
+  EXPECT_EQ(errorOfMembers("\"path\": [{\"time\": 1}, {\"time\": 1}]"),
+            "3 s.json#/path/1/time: expected a time after that of the keyframe before, found 1");
+}
+
+TEST_F(SceneSyntax, ParametersAreCheckedWhereTheyAreUsed) {
+  const std::string scene = "\"parameters\": {\"count\": 3}, \"size\": [1, ";
+  EXPECT_EQ(errorOfMembers(scene + "\"$cuont\"]"),
+            "3 s.json#/size/1: expected a number or a parameter (is \"$count\" meant?), found "
+            "\"$cuont\"");
+  EXPECT_EQ(errorOfMembers(scene + "\"$count*x\"]"),
+            "3 s.json#/size/1: expected \"$count\", \"$count*0.5\" or \"$count/2\", found "
+            "\"$count*x\"");
+  EXPECT_EQ(errorOfMembers(scene + "\"$count/0\"]"),
+            "3 s.json#/size/1: expected a number, found \"$count/0\"");
+  EXPECT_EQ(errorOf([&] { loadMembers("\"parameters\": {\"count\": 3}", "?cont=1"); }),
+            "2 s.json has no parameter \"cont\"; did you mean \"count\"?");
+  EXPECT_EQ(
+      errorOf([&] { loadMembers("\"parameters\": {\"count\": 3}", "?count=many"); }).substr(0, 2),
+      "2 ");
+}
+
+}  // namespace
+}  // namespace whit
