@@ -22,8 +22,6 @@ void forEachTexel(int side, Visitor&& visit) {
   }
 }
 
-double repeated(double x) { return x - std::floor(x); }
-
 }  // namespace
 
 Texture paintColour(const std::string& name, int side, const ColourFormula& colour) {
@@ -35,14 +33,24 @@ Texture paintColour(const std::string& name, int side, const ColourFormula& colo
 
 Texture paintNormals(const std::string& name, int side, const ScalarFormula& height) {
   Texture texture = blank(name, side, TexelFormat::data);
-  const double step = 0.5 / side;
-  forEachTexel(side, [&](double u, double v) {
-    const double du = height(repeated(u + step), v) - height(repeated(u - step), v);
-    const double dv = height(u, repeated(v + step)) - height(u, repeated(v - step));
-    const Vec3d n = normalized(Vec3d{-du, -dv, 2 * step});
-    const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
-    texture.texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
-  });
+  std::vector<double> heights;
+  heights.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  forEachTexel(side, [&](double u, double v) { heights.push_back(height(u, v)); });
+  const auto at = [&](int row, int column) {
+    const int r = (row + side) % side, c = (column + side) % side;
+    return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
+                   static_cast<std::size_t>(c)];
+  };
+  const double reach = 2.0 / side;  // between the neighbours on both sides
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const double du = at(row, column + 1) - at(row, column - 1);
+      const double dv = at(row - 1, column) - at(row + 1, column);
+      const Vec3d n = normalized(Vec3d{-du, -dv, reach});
+      const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
+      texture.texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
+    }
+  }
   return texture;
 }
 

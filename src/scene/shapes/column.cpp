@@ -47,11 +47,11 @@ void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double 
       [&](int i, int j) {
         const double s = 2.0 * i / kAcross - 1, t = static_cast<double>(j) / kUp;
         const double curl = std::max(0.0, t - 0.55) / 0.45;
-        const double narrow = (1 - 0.75 * t * t * t) * (0.9 + 0.1 * std::cos(4 * kPi * t));
+        const double narrow = (1 - 0.55 * t * t * t) * (0.9 + 0.1 * std::cos(4 * kPi * t));
         const double out =
-            bellRadius(plan, bell * t) + r * (0.05 + 0.36 * curl * curl + 0.05 * std::fabs(s));
+            bellRadius(plan, bell * t) + r * (0.05 + 0.24 * curl * curl + 0.05 * std::fabs(s));
         const double a = angle + s * halfWidth * narrow;
-        const double y = y0 + height * (t - 0.25 * curl * curl * curl);
+        const double y = y0 + height * (t - 0.32 * curl * curl * curl);
         return Vec3d{out * std::cos(a), y, -out * std::sin(a)};
       },
       [&](int i, int j) {

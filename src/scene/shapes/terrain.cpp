@@ -18,7 +18,8 @@ double Ground::height(double x, double z) const {
   const double u = x / size_, v = z / size_;
   const double bend =
       0.35 * valley_ * std::sin(7 * v) + 0.12 * gradientNoise(seed_ + 70, 0.5, 3 * v);
-  const double away = std::fabs(u - bend * smoothStep(0, 0.2, std::fabs(v)));
+  // Half as steep along z: a long basin that closes at both ends.
+  const double away = std::hypot(u - bend * smoothStep(0, 0.2, std::fabs(v)), 0.5 * v);
   const double slope = smoothStep(0.55 * valley_, 2.6 * valley_ + 0.08, away);
   const double warpU = u + 0.08 * fractalNoise(seed_ + 40, 3 * u, 3 * v, 2);
   const double warpV = v + 0.08 * fractalNoise(seed_ + 50, 3 * u + 9, 3 * v, 2);

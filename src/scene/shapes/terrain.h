@@ -8,7 +8,7 @@
 
 namespace whit::procedural {
 
-// Hills that rise towards ridges away from a winding valley through the origin along z. Lengths in
+// Hills that rise towards ridges away from a basin at the origin, longest along z. Lengths in
 // the scene's units; the same seed, size, height and valley give the same ground at any resolution.
 class Ground {
  public:

@@ -97,20 +97,19 @@ class TreeBuilder {
     for (int w = 0; w < whorls; ++w) {
       const double t = lerp(0.10, 0.97, static_cast<double>(w) / whorls);
       const double reach = 0.24 * h * std::pow(1 - t, 0.85) + 0.015 * h;
-      const int boughs = 7;
+      const int boughs = 6;
       for (int b = 0; b < boughs; ++b) {
         const double a = 2 * kPi * (b + 0.5 * (w % 2) + 0.3 * random_.next()) / boughs;
         const Vec3d out{std::cos(a), 0, std::sin(a)};
         const double size = reach * random_.between(0.8, 1.1);
         const Vec3d foot{0, t * h, 0};
-        const Vec3d middle = foot + out * (0.5 * size) + Vec3d{0, -0.10 * size, 0};
-        const Vec3d tip = foot + out * size + Vec3d{0, -0.32 * size, 0};
-        limb({foot, middle, tip}, {0.005 * h, 0.004 * h, 0.001 * h}, 3);
+        const Vec3d tip = foot + (out + Vec3d{0, -0.28, 0}) * size;
+        limb({foot, tip}, {0.005 * h, 0.001 * h}, 3);
         for (int k = 1; k <= 5; ++k) {
           const double s = k / 5.0;
-          const Vec3d p =
-              s < 0.5 ? foot + (middle - foot) * (2 * s) : middle + (tip - middle) * (2 * s - 1);
-          twigs_.push_back({p, normalized(tip - middle)});
+          // The twigs hang in a curve below the straight bough.
+          const Vec3d hanging = Vec3d{0, -0.2 * size * s * (1 - s), 0};
+          twigs_.push_back({foot + (tip - foot) * s + hanging, normalized(tip - foot)});
         }
       }
     }

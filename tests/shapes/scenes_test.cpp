@@ -1,0 +1,90 @@
+// The shipped scenes load, hold what they promise and need no mending.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "io/load_scene.h"
+#include "scene/scene.h"
+
+namespace whit::test {
+namespace {
+
+std::filesystem::path sourceDir() {
+  const char* dir = std::getenv("WHIT_SOURCE_DIR");
+  return dir ? dir : ".";
+}
+
+Scene load(const std::string& name, const std::string& query = "") {
+  Warnings warnings;
+  const std::string file = (sourceDir() / "scenes" / (name + ".json")).string();
+  SceneDescription description = loadScene(file + query, {}, warnings);
+  Scene scene = Scene::finalize(std::move(description), warnings);
+  for (const auto& [kind, entry] : warnings.entries()) {
+    ADD_FAILURE() << name << ": " << kind << ", first at " << entry.first;
+  }
+  return scene;
+}
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, loadsWithoutMendingAndHasCamerasAndAPath) {
+  const Scene scene = load(GetParam());
+  EXPECT_GE(scene.cameras.size(), 3u);
+  EXPECT_GE(scene.cameraPath.size(), 2u);
+  EXPECT_FALSE(scene.lights.empty());
+  EXPECT_FALSE(scene.triangles.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Shipped,
+                         testing::Values("atrium", "glass", "landscape", "matte", "mirrors",
+                                         "whitted"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Scenes, atriumIsLargeAndCallsForItsEffects) {
+  const Scene scene = load("atrium");
+  EXPECT_GE(scene.triangles.size(), 250000u);
+  EXPECT_GE(scene.lights.size(), 2u);
+  for (const Effect effect : {Effect::textures, Effect::normalMaps, Effect::alphaMasks,
+                              Effect::mirror, Effect::sky, Effect::shadows}) {
+    EXPECT_TRUE(scene.effects.has(effect)) << kEffectNames[static_cast<std::size_t>(effect)].name;
+  }
+}
+
+TEST(Scenes, matteCallsForLightsAndShadowsOnly) {
+  EXPECT_EQ(load("matte").effects, EffectSet().with(Effect::lights).with(Effect::shadows));
+}
+
+TEST(Scenes, glassNestsItsMedia) {
+  const Scene scene = load("glass");
+  EXPECT_TRUE(scene.effects.has(Effect::transmission));
+  EXPECT_TRUE(scene.effects.has(Effect::absorption));
+  EXPECT_GE(scene.media.size(), 5u);
+}
+
+TEST(Scenes, landscapeHasAboutTheTrianglesAskedFor) {
+  // Each of three forests rounds down by less than a tree of 4,000, the ground by less than a row.
+  const Scene usual = load("landscape");
+  EXPECT_NEAR(static_cast<double>(usual.instancedTriangles), 1e6, 2e4);
+  const Scene small = load("landscape", "?triangles=300000");
+  EXPECT_NEAR(static_cast<double>(small.instancedTriangles), 3e5, 2e4);
+  EXPECT_TRUE(usual.effects.has(Effect::instances));
+}
+
+TEST(Scenes, sponzaHasAMirrorFloor) {
+  const char* data = std::getenv("WHIT_DATA");
+  const auto folder = data ? std::filesystem::path(data) : sourceDir() / ".." / "shared" / "data";
+  if (!std::filesystem::exists(folder / "crytek_sponza" / "sponza.obj")) {
+    GTEST_SKIP() << "NOT TESTED: crytek_sponza/sponza.obj is not under " << folder
+                 << " (set WHIT_DATA)";
+  }
+  Warnings warnings;
+  const std::string file = (sourceDir() / "scenes" / "sponza-mirror.json").string();
+  const Scene scene = Scene::finalize(loadScene(file, {}, warnings), warnings);
+  EXPECT_GT(scene.triangles.size(), 250000u);
+  EXPECT_TRUE(scene.effects.has(Effect::mirror));
+  EXPECT_TRUE(scene.effects.has(Effect::skyImage));
+}
+
+}  // namespace
+}  // namespace whit::test
