@@ -109,7 +109,6 @@ HWY_INLINE V3 MappedNormal(const ShadingTables& tables, const TriangleLanes& t, 
 HWY_INLINE V3 TexturedColour(const ShadingTables& tables, const V3& colour, VI texture, MF live,
                              VF u, VF v) {
   const FloatTag d;
-  const IntTag di;
   const MF mapped = hn::And(live, hn::RebindMask(d, NonNegative(texture)));
   if (hn::AllFalse(d, mapped)) return colour;
   const Footprint texels =

@@ -160,6 +160,15 @@ FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs
   return stats;
 }
 
+void Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observer) {
+  job.observer = &observer;
+  pool->run([&](int worker) {
+    if (worker != 0) return;
+    FrameStats stats;
+    for (const auto& tile : tiles) tracers[0].trace(job, tile, stats, nullptr);
+  });
+}
+
 FrameStats Renderer::render(const Camera& camera, Film& film) {
   FrameJob job = parts_->makeJob(camera, film);
   return parts_->renderFrame(job, nullptr);

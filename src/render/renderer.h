@@ -61,8 +61,10 @@ class Renderer {
   double buildMs() const;             // acceleration structure and tables
   std::uint64_t memoryBytes() const;  // tables, queues, acceleration structure
 
- private:
   struct Parts;
+  Parts& parts() { return *parts_; }  // for the folder's own comparisons
+
+ private:
   std::unique_ptr<Parts> parts_;
 };
 
@@ -81,6 +83,7 @@ struct StageDifference {
   double worstUlp = 0, limitUlp = 0;
   int pixelX = 0, pixelY = 0, depth = 0;
 };
-std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& camera, Film& film);
+std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& camera,
+                                           const Film& film);
 
 }  // namespace whit

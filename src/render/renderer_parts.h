@@ -19,6 +19,8 @@ struct Renderer::Parts {
   FrameStats renderTiles(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats renderBatches(FrameJob& job);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
+  // One worker, tile by tile, with an observer looking on.
+  void renderObserved(FrameJob& job, StageObserver& observer);
 
   const Scene& scene;
   RenderOptions options;

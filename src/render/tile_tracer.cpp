@@ -207,6 +207,7 @@ void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Poin
   const Level& level = levels_[depth];
   ChunkView view;
   view.depth = static_cast<int>(depth);
+  view.first = level.cursor;
   view.n = level.chunk;
   view.rays = advanced(*level.rays, level.cursor);
   view.hits = *hits_;

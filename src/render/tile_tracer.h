@@ -27,7 +27,7 @@ namespace whit {
 // One chunk in the middle of a frame, for observers.
 struct ChunkView {
   int depth = 0;
-  std::size_t n = 0;
+  std::size_t first = 0, n = 0;  // the chunk's place in its queue
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;

@@ -1,0 +1,37 @@
+// Follows, for observers, which pixel each ray of each queue belongs to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/tile_tracer.h"
+
+namespace whit {
+
+class PixelTracker {
+ public:
+  // To be called with every stage that an observer sees.
+  void follow(Stage stage, const ChunkView& chunk) {
+    if (stage == Stage::generateRays) {
+      levels_.assign(1, {chunk.pixels.begin(), chunk.pixels.end()});
+    } else if (stage == Stage::addImpulses) {
+      const auto depth = static_cast<std::size_t>(chunk.depth);
+      levels_.resize(depth + 2);
+      std::vector<std::uint32_t>& next = levels_[depth + 1];
+      next.clear();
+      for (std::size_t i = 0; i < chunk.reflections + chunk.refractions; ++i) {
+        next.push_back(levels_[depth][chunk.first + chunk.children.parent[i]]);
+      }
+    }
+  }
+
+  // x | y << 16 of the pixel that slot i of the chunk is traced for.
+  std::uint32_t pixel(const ChunkView& chunk, std::size_t i) const {
+    return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> levels_;  // a queue a depth
+};
+
+}  // namespace whit
