@@ -39,7 +39,9 @@ void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
   }
 }
 
-Texture makePattern(JsonObject& object, const JsonValue& pattern) {
+Texture makePattern(const JsonValue& definition) {
+  JsonObject object(definition);
+  const JsonValue pattern = object.need("pattern");
   JsonShapeParameters parameters(object);
   Texture made = findGenerator(pattern, patternGenerators())(parameters);
   readWrap(object, made.wrapU, made.wrapV);
@@ -106,11 +108,13 @@ std::uint32_t MaterialReader::defaultMaterial() {
 std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& name,
                                   TextureUse use) {
   JsonObject object(definition);
-  if (const auto pattern = object.find("pattern")) {
-    Texture made = makePattern(object, *pattern);
-    if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
-    made.name = name.text();
-    return context_.textures.add(std::move(made));
+  if (object.has("pattern")) {
+    return context_.textures.add([definition, name, use] {
+      Texture made = makePattern(definition);
+      if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
+      made.name = name.text();
+      return made;
+    });
   }
   const JsonValue image = object.need("image");
   TextureSource source;
@@ -140,8 +144,8 @@ void MaterialReader::checkUnused() {
     if (!texture.slots.empty()) continue;
     JsonObject object(texture.definition);
     const auto as = object.find("as");
-    if (const auto pattern = object.find("pattern"); pattern && !as) {
-      makePattern(object, *pattern);
+    if (object.has("pattern")) {
+      context_.textures.add([definition = texture.definition] { return makePattern(definition); });
     } else {
       const bool data = as && as->word(useNames()) == "data";
       load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::colour);

@@ -34,7 +34,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, Tex
 
 TextureLoader::TextureLoader(int threads, MemoryBudget& budget, Warnings& warnings,
                              Progress* progress)
-    : budget_(budget), warnings_(warnings), queue_(threads, progress, "decoding textures") {}
+    : budget_(budget), warnings_(warnings), queue_(threads, progress, "making textures") {}
 
 std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
                                              const std::vector<TextureUse>& uses) {
@@ -60,9 +60,13 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
   return slots;
 }
 
-std::int32_t TextureLoader::add(Texture texture) {
-  budget_.charge(texture.texels.size(), sizeof(std::uint32_t), "texture " + texture.name);
-  slots_.emplace_back(std::move(texture));
+std::int32_t TextureLoader::add(std::function<Texture()> make) {
+  std::optional<Texture>& target = slots_.emplace_back();
+  queue_.add([this, make = std::move(make), &target] {
+    Texture texture = make();
+    budget_.charge(texture.texels.size(), sizeof(std::uint32_t), "texture " + texture.name);
+    target = std::move(texture);
+  });
   return static_cast<std::int32_t>(slots_.size() - 1);
 }
 

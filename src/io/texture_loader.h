@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ class TextureLoader {
   // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
   // use gives the same slot again.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
-  std::int32_t add(Texture texture);
+  // A texture that `make` computes, beside the rest.
+  std::int32_t add(std::function<Texture()> make);
   // The equirectangular map at `path`, in `sky` after finish().
   void addEnvironment(const std::string& path, EnvironmentImage& image);
 
