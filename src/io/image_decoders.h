@@ -19,7 +19,12 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 // Linear light of every 8-bit sRGB code.
 const std::array<float, 256>& linearOfCode();
 
-// PNG, JPEG, BMP, Radiance HDR by their signatures, else TGA (which has none) if the name says so.
+// Throws as readRawImage does. Refuses CMYK.
+bool isJpeg(const std::vector<std::uint8_t>& file);
+RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& file,
+                    const ImageLimits& limits);
+
+// PNG, BMP, Radiance HDR by their signatures, else TGA (which has none) if the name says so.
 // `values` of HDR files are as stored. Throws as readRawImage does; a file that is cut short is
 // badScene, even where a decoder would make up the missing rows.
 RawImage decodeWithStb(const std::string& path, const std::vector<std::uint8_t>& file,

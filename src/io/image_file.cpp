@@ -44,7 +44,8 @@ RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   if (std::filesystem::file_size(path, error) > longest)
     throwLimit(path + ": the file is longer than the " + std::to_string(longest) +
                " bytes allowed");
-  return decodeWithStb(path, readBytes(path, longest), limits);
+  const std::vector<std::uint8_t> file = readBytes(path, longest);
+  return isJpeg(file) ? decodeJpeg(path, file, limits) : decodeWithStb(path, file, limits);
 }
 
 // The display window's values; what lies outside the data window is 0.

@@ -54,6 +54,7 @@ thread_local Arena* Arena::current = nullptr;
 #define STBI_ASSERT(x) ((x) ? static_cast<void>(0) : assertionFailed())
 #define STBI_NO_STDIO
 #define STBI_NO_GIF
+#define STBI_NO_JPEG
 #define STBI_NO_PIC
 #define STBI_NO_PNM
 #define STBI_NO_PSD
@@ -118,9 +119,8 @@ bool isTgaName(const std::string& path) {
 }
 
 bool isKnown(const std::string& path, const std::vector<std::uint8_t>& file) {
-  return startsWith(file, "\x89PNG\r\n\x1a\n", 8) || startsWith(file, "\xff\xd8\xff", 3) ||
-         startsWith(file, "BM", 2) || startsWith(file, "#?RADIANCE", 10) ||
-         startsWith(file, "#?RGBE", 6) || isTgaName(path);
+  return startsWith(file, "\x89PNG\r\n\x1a\n", 8) || startsWith(file, "BM", 2) ||
+         startsWith(file, "#?RADIANCE", 10) || startsWith(file, "#?RGBE", 6) || isTgaName(path);
 }
 
 // Calls use(callbacks, source) with memory to work in, and translates what can go wrong. `use`
@@ -161,7 +161,7 @@ std::vector<Value> load(const std::string& path, const std::vector<std::uint8_t>
   return std::move(*values);
 }
 
-// Padding to blocks of up to 32 x 32, 16-bit coefficients, a packed copy, doubling while it grows.
+// 16-bit or float channels, a packed copy, doubling while it grows.
 std::size_t justifiedBlock(const RawImage& image, std::size_t fileSize) {
   return (static_cast<std::size_t>(image.width) + 128) *
              (static_cast<std::size_t>(image.height) + 128) * 32 +

@@ -143,6 +143,17 @@ TEST_F(BrokenImage, HugeExrClaimsAreRefusedBeforeDecoding) {
   EXPECT_NE(status(withWindow({10, 10, 12, 12})), ExitStatus::done);  // outside the display window
 }
 
+// A Huffman table that claims 16 * 255 codes, where 256 is the most there can be.
+TEST_F(BrokenImage, JpegWithTooManyCodesIsRefused) {
+  Bytes file = {0xff, 0xd8, 0xff, 0xc4, 0x10, 0x03, 0x13};  // 2 + 1 + 16 + 16 * 255 bytes long
+  append(file, Bytes(16, 255));
+  append(file, Bytes(16 * 255, 7));
+  const Bytes rest = jpegGrey200();
+  append(file, Bytes(rest.begin() + 2, rest.end()));
+  EXPECT_EQ(statusOf([&] { readRawImage(save("a.jpg", file), limits_, warnings_); }),
+            ExitStatus::badScene);
+}
+
 // 64 MiB of zeros pack to 64 KiB; the image claims a single pixel.
 TEST_F(BrokenImage, PngThatUnpacksToTooMuchIsRefused) {
   const std::string file = save("bomb.png", png(1, 1, 8, 0, Bytes(64u << 20, 0)));
