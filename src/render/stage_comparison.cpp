@@ -8,6 +8,7 @@
 #include "reference/media.h"
 #include "reference/shading.h"
 #include "reference/surfel.h"
+#include "reference/triangle.h"
 #include "render/pixel_tracker.h"
 #include "render/renderer_parts.h"
 #include "render/widen.h"
@@ -18,21 +19,25 @@ namespace {
 
 constexpr std::size_t kSlotsPerStage = 200000;  // a sample of the frame is plenty, and much faster
 
-// Limits, in ulps of the largest component. Each is about twice the worst value seen on the shipped
-// scenes; the reasons for their sizes:
-constexpr double kDirectionLimit = 8;       // a normalised sum of three products
-constexpr double kPositionLimit = 4;        // three products, against the largest corner
-constexpr double kNormalLimit = 4;          // cross product by differences of products, normalised
-constexpr double kShadingNormalLimit = 96;  // tangent frames of sliver uvs lose a few bits
-constexpr double kColourLimit = 512;        // texture coordinates: an ulp of u times texture size
-constexpr double kRadianceLimit = 96;       // GGX divides by differences of nearly equal numbers
-constexpr double kChildLimit = 64;          // refraction near the critical angle
-constexpr double kSumLimit = 1;             // one addition
+// Limits, in ulps of the largest component, with the reasons for their sizes.
+constexpr double kDirectionLimit = 4;  // a normalised sum of three products
+constexpr double kPositionLimit = 4;   // three products, against the largest corner
+constexpr double kNormalLimit = 4;     // cross product by differences of products, normalised
+// An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
+// the contrast between two of them it is a visible number of ulps of the colour (numerics H68).
+constexpr double kTexturedLimit = 4096;
+constexpr double kSkyLimit = 512;      // likewise, for azimuth and elevation
+constexpr double kRadianceLimit = 64;  // products of a dozen factors
+constexpr double kWeightLimit = 4096;  // Fresnel's root at the critical angle: 4e-4 (H37)
+constexpr double kChildLimit = 512;    // the refracted direction there: 3e-5 (H37)
+constexpr double kSumLimit = 1;        // one addition
 constexpr double kExact = 0;
 
 double ulpOf(double magnitude) {
   const float m = static_cast<float>(std::fabs(magnitude));
-  const float least = std::numeric_limits<float>::min();
+  // Far below anything visible, and far enough above the least normal float for its ulp to be one
+  // too: workers flush what is smaller to zero.
+  constexpr float least = 1e-25f;
   const float at = std::max(m, least);
   return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
 }
@@ -152,15 +157,25 @@ class StageComparer : public StageObserver {
       compare(stage, "position", got.position, twin.position, magnitude, kPositionLimit, c, i);
       // A surface seen edge on may be entered in one precision and left in the other.
       if (std::fabs(dot(twin.geometricNormal, twin.view)) < 1e-5) continue;
-      compare(stage, "geometricNormal", got.geometricNormal, twin.geometricNormal, 1, kNormalLimit,
-              c, i);
-      compare(stage, "shadingNormal", got.shadingNormal, twin.shadingNormal, 1, kShadingNormalLimit,
-              c, i);
-      compare(stage, "diffuse", got.diffuse, twin.diffuse, 1, kColourLimit, c, i);
+      const double sliver = sliverFactor(candidate);
+      compare(stage, "geometricNormal", got.geometricNormal, twin.geometricNormal, sliver,
+              kNormalLimit, c, i);
+      const bool mapped = plan_.effects.has(Effect::normalMaps);
+      compare(stage, "shadingNormal", got.shadingNormal, twin.shadingNormal, sliver,
+              mapped ? kTexturedLimit : kNormalLimit, c, i);
+      compare(stage, "diffuse", got.diffuse, twin.diffuse, 1, kTexturedLimit, c, i);
       if (plan_.groups.glossy) {
-        compare(stage, "specular", got.specular, twin.specular, 1, kColourLimit, c, i);
+        compare(stage, "specular", got.specular, twin.specular, 1, kTexturedLimit, c, i);
       }
     }
+  }
+
+  // How much the cross product of the edges amplifies their rounding.
+  double sliverFactor(const reference::Candidate& candidate) const {
+    const reference::Corners p =
+        reference::worldCorners(scene_, candidate.triangle, candidate.instance);
+    const Vec3d a = p[1] - p[0], b = p[2] - p[0];
+    return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
   }
 
   bool hidden(const ChunkView& c, std::size_t i) const {
@@ -174,7 +189,7 @@ class StageComparer : public StageObserver {
       double limit = kRadianceLimit;
       if (c.surfels.material[i] == kMiss) {
         twin = reference::skyAlong(scene_, plan_.effects, directionOf(c.rays, i));
-        limit = kColourLimit;
+        limit = kSkyLimit;
       } else if (!hidden(c, i)) {
         twin = reference::emittedAndAmbient(scene_, plan_.effects, surfelOf(c, i));
       }
@@ -192,9 +207,7 @@ class StageComparer : public StageObserver {
           reference::radianceFromLight(plan_.effects, surfelOf(c, i), *c.light);
       const RgbD got{c.unshadowed.r[i], c.unshadowed.g[i], c.unshadowed.b[i]};
       constexpr Stage stage = Stage::findRadianceAndShadowRays;
-      // Light that grazes the surface is a small difference of large products.
-      const double cosine = maxComponent(abs(twin.radiance)) == 0 ? 0 : 1;
-      if (cosine == 0) continue;
+      if (maxComponent(abs(twin.radiance)) == 0) continue;  // the light lies in the surface's plane
       compare(stage, "unshadowed", got, twin.radiance, grazingScale(c, i, twin.radiance),
               kRadianceLimit, c, i);
       const Vec3d origin{c.shadows.orgX[k], c.shadows.orgY[k], c.shadows.orgZ[k]};
@@ -206,11 +219,13 @@ class StageComparer : public StageObserver {
     }
   }
 
-  // What the radiance would be without the cosine, whose rounding error is absolute.
+  // What the radiance would be without the cosine, whose rounding error is absolute. An ulp of the
+  // half vector, over the width of the lobe, is how much a highlight moves.
   double grazingScale(const ChunkView& c, std::size_t i, const RgbD& radiance) const {
     const reference::Surfel s = surfelOf(c, i);
     const Vec3d l = normalized(Vec3d(c.light->position) - s.position);
-    return maxComponent(radiance) / std::max(dot(l, s.shadingNormal), 1e-4);
+    const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
+    return maxComponent(radiance) / (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   }
 
   void compareVisibility(const ChunkView& c) {
@@ -254,7 +269,7 @@ class StageComparer : public StageObserver {
       const reference::Impulse& twin = k < c.reflections ? twins.reflected : twins.refracted;
       constexpr Stage stage = Stage::addImpulses;
       const Vec3d weight{c.children.weightR[k], c.children.weightG[k], c.children.weightB[k]};
-      compare(stage, "weight", weight, twin.weight, 1, kChildLimit, c, i);
+      compare(stage, "weight", weight, twin.weight, 1, kWeightLimit, c, i);
       // Near the critical angle the root amplifies rounding without bound; there the weight of the
       // refracted ray goes to zero with it.
       if (maxComponent(twin.weight) < 0.05) continue;
