@@ -115,6 +115,9 @@ TEST(Noise, repeatsAfterItsPeriodAndVanishesOnTheLattice) {
     // x + 8 is rounded differently from x: 2^-49 times a slope of about two an octave.
     EXPECT_NEAR(fractalNoise(3, x, y, 5, 8), fractalNoise(3, x + 8, y, 5, 8), 1e-12);
     EXPECT_NEAR(fractalNoise(3, x, y, 5, 8), fractalNoise(3, x, y - 8, 5, 8), 1e-12);
+    // No seam where the period ends; slopes stay below ten an octave's cell.
+    EXPECT_NEAR(fractalNoise(3, 8 - 1e-9, y, 5, 8), fractalNoise(3, 1e-9, y, 5, 8), 1e-6);
+    EXPECT_NEAR(fractalNoise(3, x, 8 - 1e-9, 5, 8), fractalNoise(3, x, 1e-9, 5, 8), 1e-6);
     EXPECT_EQ(procedural::gradientNoise(3, k, 2 * k), 0);
     EXPECT_LE(std::fabs(fractalNoise(3, x, y, 5)), 1.1);
   }
