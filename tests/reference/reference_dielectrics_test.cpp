@@ -1,4 +1,4 @@
-// Refracted impulses through slabs, stacks of slabs and boxes (numerics H10, H38, H42-H50).
+// Refracted impulses through slabs and stacks of slabs (numerics H10, H38, H42, H44, H45).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,17 +10,11 @@
 namespace whit::reference {
 namespace {
 
+using test::addSlab;
 using test::glassMaterial;
 using test::radianceAlong;
 using test::SceneBuilder;
-
-// Two faces with the medium in between. Large ones are as good as infinite, but the magnitudes of
-// their corners make for large offsets.
-void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_t material,
-             float half = 1000) {
-  builder.add(test::floorAt(top, half, material));
-  builder.add(test::ceilingAt(bottom, half, material));
-}
+using test::steep;
 
 // The refracted ray, followed until it leaves the scene.
 struct StraightThrough {
@@ -49,10 +43,6 @@ StraightThrough followRefracted(const Scene& scene, const Vec3d& origin, const V
   return path;
 }
 
-Vec3d steep(double degrees) {
-  const double angle = degrees * 3.14159265358979323846 / 180;
-  return {std::sin(angle), -std::cos(angle), 0};
-}
 // Where the path's last ray crosses the plane y = 0, relative to where the straight line does.
 double lateralShift(const StraightThrough& path, const Vec3d& origin, const Vec3d& direction) {
   const auto across = [](const Vec3d& o, const Vec3d& d) { return o - d * (o.y / d.y); };
@@ -135,50 +125,6 @@ TEST_F(NestedTest, GapHoldsVacuum) {
               shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 0.75}}), kOffsets);
 }
 
-// Light that comes in at normal incidence: all of it comes back, save what is still inside at the
-// deepest impulse (numerics H43).
-TEST(Furnace, SlabLosesOnlyTheTail) {
-  SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
-  builder.sky(1);
-  const Scene scene = builder.build();
-  for (int inside = 1; inside <= 8; ++inside) {
-    const double seen = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1)).x;
-    const double tail = std::pow(0.04, inside) * 0.96;
-    EXPECT_NEAR(seen, 1 - tail, 1e-14) << inside;
-  }
-}
-
-TEST(Furnace, SplitsAsTheSeriesSays) {
-  SceneBuilder builder;
-  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
-  Sky& sky = builder.description.sky;
-  sky.kind = Sky::Kind::gradient;  // white above, black below
-  sky.zenith = sky.horizon = Rgb(1.0f);
-  const Scene scene = builder.build();
-  const double reflected = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(40)).x;
-  // The gradient starts at the horizon: straight down it is `ground`, black.
-  EXPECT_NEAR(reflected, 2 * 0.04 / 1.04, 1e-12);
-}
-
-// Any convex piece of glass in a white room is as bright as the room, from everywhere.
-TEST(Furnace, BoxVanishes) {
-  SceneBuilder builder;
-  const auto glass = builder.add(glassMaterial(1.5f));
-  builder.place({"box", {test::box({-1, -0.5f, -1}, {1, 0.5f, 1}, glass)}},
-                {Affine::rotation({1, 2, 3}, 33)});
-  builder.sky(1);
-  const Scene scene = builder.build();
-  test::Numbers numbers(13);
-  for (int i = 0; i < 300; ++i) {
-    const Vec3d eye = numbers.direction() * 5.0;
-    const Vec3d target{numbers.in(-0.9, 0.9), numbers.in(-0.4, 0.4), numbers.in(-0.9, 0.9)};
-    const double seen = radianceAlong(scene, eye, target - eye, test::uncut(64)).x;
-    EXPECT_LE(seen, 1 + 1e-12) << i;
-    EXPECT_GE(seen, 1 - 1e-4) << i;
-  }
-}
-
 // numerics H44, up to the rounding of one sum.
 TEST(Energy, ReflectedAndRefractedAddUpToOne) {
   SceneBuilder builder;
@@ -200,26 +146,33 @@ TEST(Energy, ReflectedAndRefractedAddUpToOne) {
   }
 }
 
-// Refracted rays go to the far side, whatever the shading normal says.
+// Refracted rays go to the far side, whatever the shading normal says. Leaving the glass, Snell's
+// law about a tilted normal turns some of them back.
 TEST(Energy, RefractedRaysGoThrough) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, builder.add(glassMaterial(1.5f))));
   const Scene scene = builder.build();
   test::Numbers numbers(15);
-  for (int i = 0; i < 10000; ++i) {
+  int turnedBack = 0;
+  for (int i = 0; i < 20000; ++i) {
     Surfel s;
     s.geometricNormal = {0, 1, 0};
     s.view = numbers.direction();
     s.view.y = std::abs(s.view.y);
     s.shadingNormal = normalized(numbers.direction() + Vec3d{0, 1, 0}, {0, 1, 0});
-    s.entering = true;
-    const Crossing crossing = crossMedia(scene, EffectSet::all(), 0, true, 0);
-    const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, 0);
-    if (maxComponent(found.refracted.weight) > 0) {
-      EXPECT_LT(found.refracted.ray.direction.y, 0);
-      EXPECT_NEAR(length(found.refracted.ray.direction), 1, 1e-14);
-    }
+    s.entering = i % 2;
+    const MediaStack stack = s.entering ? 0 : 1;
+    const Crossing crossing = crossMedia(scene, EffectSet::all(), 0, s.entering, stack);
+    const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, stack);
+    if (!(maxComponent(found.refracted.weight) > 0)) continue;
+    const Vec3d& r = found.refracted.ray.direction;
+    EXPECT_LT(r.y, 0);
+    EXPECT_NEAR(length(r), 1, 1e-14);
+    const double c = dot(s.view, s.shadingNormal);
+    const Interface interface = makeInterface(crossing.n1, crossing.n2, c);
+    turnedBack += refract(interface, -s.view, s.shadingNormal, c).y >= 0;
   }
+  EXPECT_GT(turnedBack, 100) << "the sweep was meant to reach the case";
 }
 
 // numerics H38: glass of the vacuum's index is not there at all, bit for bit.
@@ -258,50 +211,6 @@ TEST(Hidden, SurfacesAreNotThere) {
   EXPECT_EQ(seen, RgbD(0.25));
   EXPECT_EQ(counts.refraction, 4u);
   EXPECT_EQ(counts.reflection, 0u);
-}
-
-// numerics H50: exp(-sigma * length of the path inside).
-TEST(Absorption, DependsOnThePathInside) {
-  SceneBuilder builder;
-  Material tinted = glassMaterial(1);
-  tinted.absorption = {1, 0.5f, 0};
-  addSlab(builder, 0, -1, builder.add(tinted), 4);
-  builder.sky(1);
-  const Scene scene = builder.build();
-  for (const double degrees : {0.0, 30.0, 60.0}) {
-    const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
-    const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
-    EXPECT_NEAR(seen.x, std::exp(-path), kOffsets) << degrees;
-    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsets) << degrees;
-    EXPECT_EQ(seen.z, 1);
-    Settings clear = test::uncut();
-    clear.effects = EffectSet::all().without(Effect::absorption);
-    EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), clear), RgbD(1.0));
-  }
-}
-
-// An interface without a far side: absorbed is what is absorbed at all (numerics H49).
-TEST(Absorption, OpenSurfaceLeadsToInfinity) {
-  SceneBuilder builder;
-  Material tinted = glassMaterial(1);
-  tinted.absorption = {1e-3f, 0, 0};
-  builder.add(test::floorAt(0, 4, builder.add(tinted)));
-  builder.sky(1);
-  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}), RgbD(0, 1, 1));
-}
-
-// What is absorbed counts for the cutoff too.
-TEST(Absorption, ShortensPathsThroughTheCutoff) {
-  SceneBuilder builder;
-  Material dark = glassMaterial(1);
-  dark.absorption = Rgb(10.0f);
-  addSlab(builder, 0, -1, builder.add(dark));
-  builder.sky(1);
-  Settings settings = test::uncut();
-  settings.cutoff = 1e-3;
-  RayCounts counts;
-  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
-  EXPECT_EQ(counts.refraction, 1u) << "exp(-10) is below the cutoff: the way out is not traced";
 }
 
 TEST(Transmission, DisabledMeansOpaque) {

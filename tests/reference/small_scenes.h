@@ -45,6 +45,13 @@ inline Texture makeTexture(TexelFormat format, int width, int height,
   return t;
 }
 
+inline PointLight lightAt(const Vec3f& position, float intensity) {
+  PointLight light;
+  light.position = position;
+  light.intensity = Rgb(intensity);
+  return light;
+}
+
 class SceneBuilder {
  public:
   SceneDescription description;
@@ -99,6 +106,13 @@ inline Mesh floorAt(float y, float half, std::uint32_t material) {
 inline Mesh ceilingAt(float y, float half, std::uint32_t material) {
   return quad({-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}, material);
 }
+// Two faces with the medium in between. Large ones are as good as infinite, but the magnitudes of
+// their corners make for large offsets.
+inline void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_t material,
+                    float half = 1000) {
+  builder.add(floorAt(top, half, material));
+  builder.add(ceilingAt(bottom, half, material));
+}
 // An axis-aligned box with its outside outwards; eight shared corners, no texture coordinates.
 inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
   Mesh mesh;
@@ -110,6 +124,12 @@ inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   mesh.materials = {material};
   return mesh;
+}
+
+// Downwards, at an angle to the vertical.
+inline Vec3d steep(double degrees) {
+  const double angle = degrees * 3.14159265358979323846 / 180;
+  return {std::sin(angle), -std::cos(angle), 0};
 }
 
 // Depth 8, no cutoff: contributions are all counted.

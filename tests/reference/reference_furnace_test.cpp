@@ -1,0 +1,110 @@
+// Glass in a white room, and tinted glass (numerics H43, H49, H50).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::addSlab;
+using test::glassMaterial;
+using test::radianceAlong;
+using test::SceneBuilder;
+using test::steep;
+
+// Light that comes in at normal incidence: all of it comes back, save what is still inside at the
+// deepest impulse (numerics H43).
+TEST(Furnace, SlabLosesOnlyTheTail) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  for (int inside = 1; inside <= 8; ++inside) {
+    const double seen = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1)).x;
+    const double tail = std::pow(0.04, inside) * 0.96;
+    EXPECT_NEAR(seen, 1 - tail, 1e-14) << inside;
+  }
+}
+
+TEST(Furnace, SplitsAsTheSeriesSays) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+  Sky& sky = builder.description.sky;
+  sky.kind = Sky::Kind::gradient;  // white above, black below
+  sky.zenith = sky.horizon = Rgb(1.0f);
+  const Scene scene = builder.build();
+  const double reflected = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(40)).x;
+  // The gradient starts at the horizon: straight down it is `ground`, black.
+  EXPECT_NEAR(reflected, 2 * 0.04 / 1.04, 1e-12);
+}
+
+// Any convex piece of glass in a white room is as bright as the room, from everywhere.
+TEST(Furnace, BoxVanishes) {
+  SceneBuilder builder;
+  const auto glass = builder.add(glassMaterial(1.5f));
+  builder.place({"box", {test::box({-1, -0.5f, -1}, {1, 0.5f, 1}, glass)}},
+                {Affine::rotation({1, 2, 3}, 33)});
+  builder.sky(1);
+  const Scene scene = builder.build();
+  test::Numbers numbers(13);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d eye = numbers.direction() * 5.0;
+    const Vec3d target{numbers.in(-0.9, 0.9), numbers.in(-0.4, 0.4), numbers.in(-0.9, 0.9)};
+    const double seen = radianceAlong(scene, eye, target - eye, test::uncut(64)).x;
+    EXPECT_LE(seen, 1 + 1e-12) << i;
+    EXPECT_GE(seen, 1 - 1e-4) << i;
+  }
+}
+
+// At either face the path is cut short by offset = 32 u (|x| + |y| + |z|) of the interpolated
+// magnitudes, at most 4 + 1 + 4.
+constexpr double kOffsets = 2 * 32 * 9 / 16777216.0;
+
+// numerics H50: exp(-sigma * length of the path inside).
+TEST(Absorption, DependsOnThePathInside) {
+  SceneBuilder builder;
+  Material tinted = glassMaterial(1);
+  tinted.absorption = {1, 0.5f, 0};
+  addSlab(builder, 0, -1, builder.add(tinted), 4);
+  builder.sky(1);
+  const Scene scene = builder.build();
+  for (const double degrees : {0.0, 30.0, 60.0}) {
+    const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
+    const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
+    EXPECT_NEAR(seen.x, std::exp(-path), kOffsets) << degrees;
+    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsets) << degrees;
+    EXPECT_EQ(seen.z, 1);
+    Settings clear = test::uncut();
+    clear.effects = EffectSet::all().without(Effect::absorption);
+    EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), clear), RgbD(1.0));
+  }
+}
+
+// An interface without a far side: absorbed is what is absorbed at all (numerics H49).
+TEST(Absorption, OpenSurfaceLeadsToInfinity) {
+  SceneBuilder builder;
+  Material tinted = glassMaterial(1);
+  tinted.absorption = {1e-3f, 0, 0};
+  builder.add(test::floorAt(0, 4, builder.add(tinted)));
+  builder.sky(1);
+  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}), RgbD(0, 1, 1));
+}
+
+// What is absorbed counts for the cutoff too.
+TEST(Absorption, ShortensPathsThroughTheCutoff) {
+  SceneBuilder builder;
+  Material dark = glassMaterial(1);
+  dark.absorption = Rgb(10.0f);
+  addSlab(builder, 0, -1, builder.add(dark));
+  builder.sky(1);
+  Settings settings = test::uncut();
+  settings.cutoff = 1e-3;
+  RayCounts counts;
+  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
+  EXPECT_EQ(counts.refraction, 1u) << "exp(-10) is below the cutoff: the way out is not traced";
+}
+
+}  // namespace
+}  // namespace whit::reference
