@@ -68,6 +68,18 @@ void loadRay(Ray& ray, const Columns& rays, std::size_t i) {
   std::memcpy(ray.dir_z, rays.dirZ + i, sizeof(ray.dir_z));
 }
 
+// Masked lanes get a harmless empty ray: where Embree splits a packet that is wider than the CPU,
+// it looks at their coordinates all the same.
+template <int kWidth, typename Ray>
+void emptyLanes(Ray& ray, std::size_t live) {
+  for (std::size_t lane = live; lane < kWidth; ++lane) {
+    ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
+    ray.dir_x[lane] = ray.dir_y[lane] = 0;
+    ray.dir_z[lane] = 1;
+    ray.tfar[lane] = -1;
+  }
+}
+
 template <int kWidth>
 void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, std::size_t end) {
   group.count = 0;
@@ -81,6 +93,7 @@ void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, 
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
     setLanes<kWidth>(group.valid[group.count], end - i);
+    emptyLanes<kWidth>(packet.ray, end - i);
   }
 }
 
@@ -142,6 +155,7 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
       loadRay<kWidth>(packet, shadows, i);
       std::memcpy(packet.tfar, shadows.tFar + i, sizeof(packet.tfar));
       setLanes<kWidth>(group.valid[group.count], end - i);
+      emptyLanes<kWidth>(packet, end - i);
     }
     const Clock::time_point start = Clock::now();
     for (std::size_t p = 0; p < group.count; ++p) {

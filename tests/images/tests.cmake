@@ -1,3 +1,4 @@
+find_package(OpenEXR 3.1 REQUIRED)
 find_package(ZLIB REQUIRED)
 whit_test(display whit_core)
 whit_test(read_image whit_io ZLIB::ZLIB)

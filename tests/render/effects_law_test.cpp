@@ -1,0 +1,80 @@
+// Only the effects that a scene calls for.
+#include <gtest/gtest.h>
+
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+// A shipped scene that has the effect.
+const char* sceneWith(Effect effect) {
+  switch (effect) {
+    case Effect::transmission:
+    case Effect::absorption:
+      return "glass";
+    case Effect::alphaMasks:
+    case Effect::normalMaps:
+    case Effect::emission:
+      return "atrium";
+    case Effect::instances:
+      return "landscape?triangles=20000";
+    case Effect::skyImage:
+      return nullptr;  // shipped scenes bring no image; see environment_test
+    default:
+      return "whitted";
+  }
+}
+
+class EffectLaw : public testing::TestWithParam<int> {};
+
+TEST_P(EffectLaw, disablingAnEffectChangesASceneThatHasIt) {
+  const auto effect = static_cast<Effect>(GetParam());
+  const char* name = sceneWith(effect);
+  if (!name) return;
+  const Scene scene = load(name);
+  ASSERT_TRUE(scene.effects.has(effect)) << name;
+  RenderOptions o = smallOptions();
+  const Image with = render(scene, o).image;
+  o.disable = EffectSet().with(effect);
+  EXPECT_NE(firstDifference(render(scene, o).image, with), "") << name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EffectLaw, testing::Range(0, kEffectCount), [](const auto& info) {
+  return std::string(kEffectNames[static_cast<std::size_t>(info.param)].name);
+});
+
+TEST(EffectLaw, matteTracesNothingButPrimaryAndShadowRays) {
+  const Scene scene = load("matte");
+  const Picture p = render(scene, smallOptions());
+  EXPECT_GT(p.stats.of(RayKind::primary).rays, 0u);
+  EXPECT_GT(p.stats.of(RayKind::shadow).rays, 0u);
+  EXPECT_EQ(p.stats.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(p.stats.of(RayKind::refraction).rays, 0u);
+  EXPECT_EQ(p.stats.kernelCalls[static_cast<std::size_t>(Stage::addImpulses)], 0u);
+}
+
+TEST(EffectLaw, withoutLightsNoLightStageRuns) {
+  const Scene scene = load("matte");
+  RenderOptions o = smallOptions();
+  o.disable = EffectSet().with(Effect::lights);
+  const Picture p = render(scene, o);
+  for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
+    EXPECT_EQ(p.stats.kernelCalls[static_cast<std::size_t>(s)], 0u);
+  }
+  EXPECT_EQ(p.stats.of(RayKind::shadow).rays, 0u);
+}
+
+TEST(EffectLaw, withoutShadowsEveryLightShines) {
+  const Scene scene = load("matte");
+  RenderOptions o = smallOptions();
+  const Picture shadowed = render(scene, o);
+  o.disable = EffectSet().with(Effect::shadows);
+  const Picture lit = render(scene, o);
+  EXPECT_EQ(lit.stats.of(RayKind::shadow).rays, 0u);
+  for (std::size_t i = 0; i < lit.image.pixels.size(); ++i) {
+    EXPECT_GE(lit.image.pixels[i].x, shadowed.image.pixels[i].x);
+  }
+}
+
+}  // namespace
+}  // namespace whit::test

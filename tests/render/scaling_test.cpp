@@ -1,0 +1,79 @@
+// H61: laws that need no oracle, because floating point keeps them exactly.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+SceneDescription description(const std::string& name) {
+  Warnings warnings;
+  return loadScene(name, LoadOptions{}, warnings);
+}
+
+Vec3f scaled(const Vec3f& v, int k) {
+  return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
+}
+
+// Lengths times 2^k; intensities times 4^k, so that what arrives stays the same.
+void scale(SceneDescription& d, int k) {
+  for (Object& object : d.objects) {
+    for (Mesh& mesh : object.meshes) {
+      for (Vec3f& p : mesh.positions) p = scaled(p, k);
+    }
+  }
+  for (Instance& instance : d.instances) instance.toWorld.p *= std::ldexp(1.0, k);
+  for (PointLight& light : d.lights) {
+    light.position = scaled(light.position, k);
+    light.intensity = scaled(light.intensity, 2 * k);
+    light.radius = std::ldexp(light.radius, k);
+  }
+  for (Camera& camera : d.cameras) {
+    camera.eye = scaled(camera.eye, k);
+    camera.at = scaled(camera.at, k);
+  }
+  for (Material& m : d.materials) m.absorption = scaled(m.absorption, -k);
+}
+
+class Scaling : public testing::TestWithParam<std::string> {};
+
+TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
+  Warnings warnings;
+  const Scene original = Scene::finalize(description(GetParam()), warnings);
+  const Image expected = render(original, smallOptions()).image;
+  for (const int k : {-20, -7, 1, 20}) {
+    SceneDescription d = description(GetParam());
+    scale(d, k);
+    const Scene scene = Scene::finalize(std::move(d), warnings);
+    EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "")
+        << GetParam() << " times 2^" << k;
+  }
+}
+
+TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
+  Warnings warnings;
+  const auto lit = [&](int k) {
+    SceneDescription d = description(GetParam());
+    // Sky and ambient do not scale with the lights.
+    d.sky = Sky{};
+    d.ambient = Ambient{};
+    for (Material& m : d.materials) m.emission = Rgb(0.0f);
+    for (PointLight& light : d.lights) light.intensity = scaled(light.intensity, k);
+    return render(Scene::finalize(std::move(d), warnings), smallOptions()).image;
+  };
+  Image expected = lit(0);
+  for (const int k : {-60, 60}) {
+    Image image = lit(k);
+    for (Rgb& pixel : image.pixels) pixel = scaled(pixel, -k);
+    EXPECT_EQ(firstDifference(image, expected), "") << "intensity times 2^" << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Scaling, testing::ValuesIn(smallScenes()), [](const auto& info) {
+  return info.param.substr(0, info.param.find('?'));
+});
+
+}  // namespace
+}  // namespace whit::test

@@ -1,0 +1,64 @@
+// Shipped scenes, small, rendered in different ways.
+#pragma once
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/load_scene.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace whit::test {
+
+inline Scene load(const std::string& name) {
+  Warnings warnings;
+  return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+}
+
+// The default small picture: wide enough for several tiles, and not a multiple of any of them.
+inline RenderOptions smallOptions() {
+  RenderOptions o;
+  o.size = ImageSize{107, 67};
+  o.threads = 2;
+  return o;
+}
+
+struct Picture {
+  Image image;
+  FrameStats stats;
+};
+
+inline Picture render(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  Picture picture;
+  picture.stats = renderer.render(chooseCamera(scene, options), film);
+  picture.image = film.image;
+  return picture;
+}
+
+// The first pixel whose bits differ, or an empty string.
+inline std::string firstDifference(const Image& a, const Image& b) {
+  if (a.pixels.size() != b.pixels.size()) return "different sizes";
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(Rgb)) == 0) continue;
+    const auto w = static_cast<std::size_t>(a.windowWidth());
+    char text[160];
+    std::snprintf(text, sizeof(text), "pixel %zu,%zu: %a %a %a against %a %a %a", i % w, i / w,
+                  double{a.pixels[i].x}, double{a.pixels[i].y}, double{a.pixels[i].z},
+                  double{b.pixels[i].x}, double{b.pixels[i].y}, double{b.pixels[i].z});
+    return text;
+  }
+  return {};
+}
+
+// Scenes that between them use every effect.
+inline const std::vector<std::string>& smallScenes() {
+  static const std::vector<std::string> names{"whitted", "glass", "mirrors", "matte",
+                                              "landscape?triangles=20000"};
+  return names;
+}
+
+}  // namespace whit::test

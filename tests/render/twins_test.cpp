@@ -1,0 +1,70 @@
+// Every vector stage against its scalar twin, and whole pictures against the reference, for every
+// SIMD target and packet width of this machine.
+#include <gtest/gtest.h>
+
+#include "metrics/metrics.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+// What a picture may differ from the reference by: the gate for defaults.
+constexpr double kPixelsGe2CodesPct = 0.1;
+constexpr double kFlipMean = 0.01;
+
+class Twins : public testing::TestWithParam<std::string> {
+ protected:
+  void TearDown() override { simd::chooseTarget("auto"); }
+};
+
+TEST_P(Twins, everyStageAgreesWithItsTwinOnEveryTarget) {
+  const Scene scene = load(GetParam());
+  for (const std::string& target : simd::availableTargets()) {
+    RenderOptions o = smallOptions();
+    o.simd = target;
+    Renderer renderer(scene, o);
+    const Film film = makeFilm(scene, o);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
+          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
+      EXPECT_GT(row.slots, 0u);
+    }
+  }
+}
+
+TEST_P(Twins, picturesAgreeWithTheReference) {
+  const Scene scene = load(GetParam());
+  RenderOptions o = smallOptions();
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  const ImageDifference d = compareImages(packets.image, reference.image);
+  std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
+              GetParam().c_str(), d.pixelsGe2CodesPct, kPixelsGe2CodesPct, d.flipMean, kFlipMean);
+  EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct);
+  EXPECT_LE(d.flipMean, kFlipMean);
+  EXPECT_EQ(d.nonFinite, 0u);
+}
+
+TEST_P(Twins, targetsAgreeWithEachOther) {
+  const Scene scene = load(GetParam());
+  const Image expected = render(scene, smallOptions()).image;
+  for (const std::string& target : simd::availableTargets()) {
+    RenderOptions o = smallOptions();
+    o.simd = target;
+    const ImageDifference d = compareImages(render(scene, o).image, expected);
+    std::printf("%s on %s: RMSE %.3g, %.4f %% off by two codes or more\n", GetParam().c_str(),
+                target.c_str(), d.rmse, d.pixelsGe2CodesPct);
+    EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct) << target;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Twins, testing::ValuesIn(smallScenes()), [](const auto& info) {
+  return info.param.substr(0, info.param.find('?'));
+});
+
+}  // namespace
+}  // namespace whit::test
