@@ -95,7 +95,9 @@ ObjText::ObjText(std::string text, std::string file)
 }
 
 void ObjText::mendLineEnds() {
-  if (text_.find('\n') == std::string::npos) std::replace(text_.begin(), text_.end(), '\r', '\n');
+  for (std::size_t i = text_.find('\r'); i != std::string::npos; i = text_.find('\r', i + 1)) {
+    if (i + 1 == text_.size() || text_[i + 1] != '\n') text_[i] = '\n';
+  }
   std::size_t lineStart = 0, looked = 0;
   for (std::size_t i = text_.find('\\'); i != std::string::npos; i = text_.find('\\', i + 1)) {
     const std::size_t lineBreak = std::string_view(text_).substr(looked, i - looked).rfind('\n');

@@ -68,7 +68,7 @@ fs::path dataFolder() {
 }
 
 PathRules::PathRules(const fs::path& sceneFolder, bool allowOutside)
-    : sceneFolder_(realPath(sceneFolder)),
+    : sceneFolder_(realPath(sceneFolder.empty() ? "." : sceneFolder)),
       dataFolder_(realPath(dataFolder())),
       allowOutside_(allowOutside) {}
 

@@ -31,7 +31,14 @@ void ItemReader::read(JsonObject& file) {
     }
     for (const auto& [name, value] : objects->members()) readObject(objects_.at(name), name);
   }
-  if (const auto scene = file.find("scene")) readItems(*scene, layout_.body(0));
+  if (const auto scene = file.find("scene")) {
+    const std::vector<JsonValue> items = scene->elements();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      reportProgress(context_.progress, "reading scene",
+                     static_cast<double>(i) / static_cast<double>(items.size()));
+      readItem(items[i], layout_.body(0));
+    }
+  }
   layout_.moveTo(context_.scene);
 }
 
@@ -71,12 +78,7 @@ std::uint32_t ItemReader::object(const JsonValue& name) {
 }
 
 void ItemReader::readItems(const JsonValue& list, Body& to) {
-  const std::vector<JsonValue> items = list.elements();
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    reportProgress(context_.progress, "reading scene",
-                   static_cast<double>(i) / static_cast<double>(items.size()));
-    readItem(items[i], to);
-  }
+  for (const JsonValue& item : list.elements()) readItem(item, to);
 }
 
 void ItemReader::readItem(const JsonValue& value, Body& to) {
@@ -121,12 +123,10 @@ Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
     const std::uint32_t material = slot != slots.end() ? slot->second
                                    : everywhere        ? materials_.find(*everywhere)
                                                        : materials_.defaultMaterial();
-    context_.budget.charge(part.mesh.triangles.size(), 3 * sizeof(std::uint32_t), name.where());
-    context_.budget.charge(part.mesh.positions.size(), 2 * sizeof(Vec3f) + sizeof(Vec2f),
-                           name.where());
+    context_.budget.charge(1, bytesOf(part.mesh), name.where());
     part.mesh.materials = {material};
     if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
-    content.parts.push_back({std::make_shared<const Mesh>(std::move(part.mesh)), Affine()});
+    content.parts.push_back({std::make_shared<Mesh>(std::move(part.mesh)), Affine()});
   }
   if (shape.placements.empty()) return content;
   const std::uint32_t body = layout_.add(name.text());
@@ -178,6 +178,7 @@ std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& 
 void ItemReader::addMeshes(Model& model, const std::vector<std::uint32_t>& materials, Body& to) {
   reportProgress(context_.progress, "reading " + model.path().filename().string(), 0);
   for (const Mesh& mesh : model.meshes()) {
+    context_.budget.charge(1, bytesOf(mesh), model.path().string());
     auto copy = std::make_shared<Mesh>(mesh);
     for (std::uint32_t& material : copy->materials) material = materials[material];
     to.parts.push_back({std::move(copy), Affine()});

@@ -12,12 +12,6 @@ std::uint64_t saturatingSum(std::uint64_t a, std::uint64_t b) {
   return a > kMany - b ? kMany : a + b;
 }
 
-std::uint64_t bytesOf(const Mesh& mesh) {
-  return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
-         mesh.uvs.size() * sizeof(Vec2f) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
-         mesh.materials.size() * sizeof(std::uint32_t);
-}
-
 // Bodies reachable from `body`, each behind all that it holds.
 void orderBodies(const std::deque<Body>& bodies, std::uint32_t body, std::vector<bool>& seen,
                  std::vector<std::uint32_t>& order) {
@@ -30,6 +24,12 @@ void orderBodies(const std::deque<Body>& bodies, std::uint32_t body, std::vector
 }
 
 }  // namespace
+
+std::uint64_t bytesOf(const Mesh& mesh) {
+  return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
+         mesh.uvs.size() * sizeof(Vec2f) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
+         mesh.materials.size() * sizeof(std::uint32_t);
+}
 
 std::uint32_t SceneLayout::add(const std::string& name) {
   bodies_.push_back({name, {}, {}});
@@ -65,27 +65,34 @@ void SceneLayout::moveTo(SceneDescription& scene) {
   place(0, Affine(), scene);
 }
 
-void SceneLayout::placeOnce(const Body& body, const Affine& toWorld, SceneDescription& scene) {
-  for (const Part& part : body.parts) {
-    // The last user of a mesh could take it; copies are charged, so that repetition is bounded.
-    budget_.charge(1, bytesOf(*part.mesh), "object " + body.name);
+// The last user of a mesh gets it, others a copy.
+Mesh SceneLayout::take(Part& part, const std::string& body) {
+  const std::shared_ptr<Mesh> mesh = std::move(part.mesh);
+  if (mesh.use_count() == 1) return std::move(*mesh);
+  budget_.charge(1, bytesOf(*mesh), "object " + body);
+  return *mesh;
+}
+
+void SceneLayout::placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene) {
+  for (Part& part : body.parts) {
+    Mesh mesh = take(part, body.name);
     scene.instances.push_back(
         {static_cast<std::uint32_t>(scene.objects.size()), toWorld * part.toBody});
-    scene.objects.push_back({part.mesh->name, {*part.mesh}});
+    scene.objects.push_back({mesh.name, {}});
+    scene.objects.back().meshes.push_back(std::move(mesh));
   }
 }
 
 void SceneLayout::place(std::uint32_t index, const Affine& toWorld, SceneDescription& scene) {
-  const Body& body = bodies_[index];
+  Body& body = bodies_[index];
   if (counts_[index] == 1) {
     placeOnce(body, toWorld, scene);
   } else if (!body.parts.empty()) {
     if (objects_[index] == kNoObject) {
       objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
       Object object{body.name, {}};
-      for (const Part& part : body.parts) {
-        budget_.charge(1, bytesOf(*part.mesh), "object " + body.name);
-        object.meshes.push_back(*part.mesh);
+      for (Part& part : body.parts) {
+        object.meshes.push_back(take(part, body.name));
         if (!(part.toBody == Affine())) transform(object.meshes.back(), part.toBody);
       }
       scene.objects.push_back(std::move(object));

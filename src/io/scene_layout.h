@@ -13,8 +13,11 @@
 
 namespace whit {
 
+// What a mesh takes in memory.
+std::uint64_t bytesOf(const Mesh& mesh);
+
 struct Part {
-  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<Mesh> mesh;  // shared by copies of the part
   Affine toBody;
 };
 
@@ -42,13 +45,13 @@ class SceneLayout {
 
   // Fills in objects and instances. A body that is placed once adds its meshes to the world one by
   // one, each with its own map, so that vertices are rounded once; one that is placed more often
-  // becomes an object with an instance for each place.
+  // becomes an object with an instance for each place. Leaves the layout without its meshes.
   void moveTo(SceneDescription& scene);
 
  private:
-  void count(std::uint32_t body, std::vector<std::uint64_t>& counts) const;
   void place(std::uint32_t body, const Affine& toWorld, SceneDescription& scene);
-  void placeOnce(const Body& body, const Affine& toWorld, SceneDescription& scene);
+  void placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene);
+  Mesh take(Part& part, const std::string& body);
 
   MemoryBudget& budget_;
   std::deque<Body> bodies_;  // a deque: references stay valid

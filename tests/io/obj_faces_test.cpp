@@ -48,6 +48,24 @@ TEST_F(ObjFaces, CornersThatAgreeShareAVertex) {
   EXPECT_TRUE(mesh.normals.empty());
 }
 
+TEST_F(ObjFaces, ManyVerticesAtOnePositionStayApart) {
+  constexpr int kCount = 5000;
+  std::string text = kSquare;
+  for (int i = 0; i < kCount; ++i) text += "vt " + std::to_string(i) + " 0\n";
+  for (int i = 1; i <= kCount; ++i) {
+    const std::string uv = "/" + std::to_string(i);
+    text += "f 1" + uv + " 2" + uv + " 3" + uv + "\n";
+  }
+  const SceneDescription scene = loadObj(text);
+  const Mesh& mesh = onlyMesh(scene);
+  EXPECT_EQ(mesh.positions.size(), 3u * kCount);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      ASSERT_EQ(mesh.uvs[v].x, static_cast<float>(i));
+    }
+  }
+}
+
 TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
   const SceneDescription scene =
       loadObj(std::string(kSquare) +
@@ -96,9 +114,10 @@ TEST_F(ObjFaces, LineEndsAndContinuations) {
     dos += c;
     mac += c == '\n' ? '\r' : c;
   }
-  for (const std::string& text : {unix, unix + "\n", dos, dos + "\r\n", mac, mac + "\r",
-                                  std::string(kSquare) + "f 1 \\\n2 \\\r\n 3\n",
-                                  std::string(kSquare) + "# C:\\textures\\\nf 1 2 3\n"}) {
+  for (const std::string& text :
+       {std::string("v 0 0 0\nv 1 0 0\rv 1 1 0\r\nf 1 2 3"), unix, unix + "\n", dos, dos + "\r\n",
+        mac, mac + "\r", std::string(kSquare) + "f 1 \\\n2 \\\r\n 3\n",
+        std::string(kSquare) + "# C:\\textures\\\nf 1 2 3\n"}) {
     EXPECT_EQ(cornersOf(onlyMesh(loadObj(text))), expected) << text;
   }
 }

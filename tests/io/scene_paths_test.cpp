@@ -33,6 +33,16 @@ TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
   EXPECT_EQ(errorOfModel("link.obj"), "no error");
 }
 
+TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
+  save("in.obj", kTriangle);
+  save("s.json", "{\"whit\": 1, \"scene\": [{\"model\": \"in.obj\"}]}");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(root_);
+  EXPECT_EQ(errorOf([&] { load("s.json"); }), "no error");
+  EXPECT_EQ(errorOf([&] { load("in.obj"); }), "no error");
+  std::filesystem::current_path(before);
+}
+
 TEST_F(ScenePaths, AFolderWhoseNameBeginsAlikeIsOutside) {
   save("../inside2/out.obj", kTriangle);
   EXPECT_EQ(errorOfModel("../inside2/out.obj").substr(0, 2), "3 ");
