@@ -53,7 +53,7 @@ TEST_F(ObjFaces, ManyVerticesAtOnePositionStayApart) {
   std::string text = kSquare;
   for (int i = 0; i < kCount; ++i) text += "vt " + std::to_string(i) + " 0\n";
   for (int i = 1; i <= kCount; ++i) {
-    const std::string uv = "/" + std::to_string(i);
+    const std::string uv = std::string("/") + std::to_string(i);
     text += "f 1" + uv + " 2" + uv + " 3" + uv + "\n";
   }
   const SceneDescription scene = loadObj(text);
