@@ -24,8 +24,9 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
                       const Crossing& crossing, MediaStack stack);
 
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
-// below: shading normals would send some through to the wrong side. A tenth below the viewer's own
-// elevation at most, so that nothing changes where the normals agree (numerics: H32).
+// below: shading normals would send some through to the wrong side (numerics: H32). Less than the
+// viewer's own elevation, so that reflections are left alone where the normals agree; of refracted
+// rays, those are moved that leave a dense medium within 0.6 degrees of the surface.
 double smallestElevation(const Surfel& surfel);
 // The unit direction `r` raised to `elevation` above the plane of `normal` if it lies lower.
 Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation);
