@@ -1,0 +1,170 @@
+// Images that the program writes: what they say, and that nothing half-written is left.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <thread>
+
+#include "io/image_file.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void render(std::vector<std::string> words) {
+  words.insert(words.begin(), "render");
+  const Outcome outcome = runWhit(words);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+}
+
+std::map<std::string, std::string> metadataOf(const std::string& path) {
+  std::map<std::string, std::string> all;
+  for (const auto& [name, text] : readExrMetadata(path)) all[name] = text;
+  return all;
+}
+
+Image read(const std::string& path) {
+  Warnings warnings;
+  return readImage(path, ImageLimits(), warnings);
+}
+
+bool sameBits(const Image& a, const Image& b) {
+  return a.pixels.size() == b.pixels.size() &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
+}
+
+// Waits until the process handles SIGINT itself.
+void waitForHandler(pid_t child) {
+  const std::string path = "/proc/" + std::to_string(child) + "/status";
+  for (;;) {
+    std::ifstream in(path);
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("SigCgt:", 0) != 0) continue;
+      const unsigned long long caught = std::stoull(line.substr(7), nullptr, 16);
+      if (caught & (1ull << (SIGINT - 1))) return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(Images, TheSameRenderGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--threads", "1"});
+  render({tiny, "-o", folder / "b.exr", "-o", folder / "b.png", "--threads", "3", "--tile", "16"});
+  EXPECT_EQ(readFile(folder / "a.exr"), readFile(folder / "b.exr"));
+  EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
+}
+
+TEST(Images, SayHowTheyWereMade) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--camera", "side", "--depth", "3",
+          "--crop", "8,4,40,20"});
+  const auto said = metadataOf(folder / "a.exr");
+  const std::pair<const char*, const char*> expected[] = {
+      {"scene", "tiny"}, {"size", "48x32"}, {"crop", "8,4,40,20"}, {"camera", "side"},
+      {"eye", "6,2,0"},  {"at", "0,1,0"},   {"up", "0,1,0"},       {"fov", "40"},
+      {"depth", "3"},    {"spp", "1"},      {"mode", "packets"},   {"robust", "on"}};
+  for (const auto& [name, text] : expected) {
+    ASSERT_TRUE(said.contains(name)) << name;
+    EXPECT_EQ(said.at(name), text) << name;
+  }
+  EXPECT_EQ(said.at("software").rfind("whit ", 0), 0u);
+  EXPECT_NE(said.at("effectsUsed").find("mirror"), std::string::npos);
+  EXPECT_NE(said.at("packet"), "auto");
+  for (const char* secret : {"threads", "date", "host", "capDate", "owner"}) {
+    EXPECT_FALSE(said.contains(secret)) << secret;
+  }
+  const std::string png = readFile(folder / "a.png");
+  EXPECT_NE(png.find("tEXt"), std::string::npos);
+  EXPECT_NE(png.find("software"), std::string::npos);
+}
+
+TEST(Images, MetadataMakesTheImageAgain) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff", "0.01",
+          "--spp", "2", "--disable", "shadows"});
+  std::vector<std::string> words{tiny, "-o", folder / "b.exr"};
+  for (const auto& [name, text] : metadataOf(folder / "a.exr")) {
+    if (name == "software" || name == "scene" || name == "effectsUsed") continue;
+    if (name == "strict") continue;
+    words.push_back("--" + name + "=" + text);
+  }
+  render(words);
+  EXPECT_TRUE(sameBits(read(folder / "a.exr"), read(folder / "b.exr")));
+}
+
+TEST(Images, CropsMergeToTheWhole) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "whole.exr"});
+  const char* crops[] = {"0,0,20,32", "20,0,48,10", "20,10,48,32"};
+  std::vector<std::string> merge{"merge", folder / "merged.exr"};
+  for (const char* crop : crops) {
+    merge.push_back(folder / (std::string(crop) + ".exr"));
+    render({tiny, "-o", merge.back(), "--crop", crop});
+  }
+  const Outcome outcome = runWhit(merge);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(sameBits(read(folder / "whole.exr"), read(folder / "merged.exr")));
+  merge.pop_back();
+  merge[1] = folder / "gap.exr";
+  EXPECT_EQ(runWhit(merge).status, 2);
+  EXPECT_FALSE(fs::exists(folder / "gap.exr"));
+}
+
+TEST(Images, FramesFollowThePath) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "f-###.exr", "--frames", "0..2", "--fps", "2"});
+  EXPECT_EQ(metadataOf(folder / "f-000.exr").at("eye"), "0,2,6");
+  EXPECT_EQ(metadataOf(folder / "f-002.exr").at("eye"), "6,2,0");  // frame 2 of 2 a second: 1 s
+  EXPECT_EQ(metadataOf(folder / "f-001.exr").at("frame"), "1");
+  // What is there stays; what is missing comes.
+  std::ofstream(folder / "f-000.exr") << "kept";
+  fs::remove(folder / "f-001.exr");
+  render({tiny, "-o", folder / "f-###.exr", "--frames", "0..2", "--fps", "2", "--skip-existing"});
+  EXPECT_EQ(readFile(folder / "f-000.exr"), "kept");
+  EXPECT_TRUE(fs::exists(folder / "f-001.exr"));
+}
+
+TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
+  const TemporaryFolder folder, results, logs;
+  const std::string tiny = writeTinyScene(folder);
+  const pid_t child =
+      startWhit({"render", tiny, "-o", results / "f-#.exr", "--frames", "0..999999"}, logs);
+  while (!fs::exists(results / "f-3.exr")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(kill(child, 0), 0) << readFile(logs / "stderr");
+  }
+  kill(child, SIGINT);
+  EXPECT_EQ(waitFor(child), 130);
+  for (const auto& entry : fs::directory_iterator(results.path())) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(name.rfind("f-", 0), 0u) << name;
+    EXPECT_EQ(read(entry.path().string()).width, 48) << name;
+  }
+}
+
+TEST(Images, AnInterruptionDoesNotWaitForTheImage) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder, results, logs;
+    const std::string tiny = writeTinyScene(folder);
+    // Hours of work.
+    const pid_t child = startWhit({"render", tiny, "-o", results / "a.exr", "--size", "8192x8192",
+                                   "--spp", "4096", "--mode", "reference"},
+                                  logs);
+    waitForHandler(child);
+    kill(child, signal);
+    EXPECT_EQ(waitFor(child), 130);
+    EXPECT_TRUE(fs::is_empty(results.path()));
+  }
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,156 @@
+// The JSON results have the keys that tools rely on, and numbers that agree with each other.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+Json resultOf(std::vector<std::string> words, int status = 0) {
+  words.insert(words.end(), {"--json", "-"});
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  Json json = Json::parse(outcome.out, nullptr, false);
+  EXPECT_FALSE(json.is_discarded()) << outcome.out;
+  return json;
+}
+
+void expectKeys(const Json& json, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(json.contains(key)) << key;
+}
+
+class JsonResults : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string tiny_ = writeTinyScene(folder_);
+};
+
+void checkRun(const Json& run) {
+  expectKeys(run,
+             {"scene",       "size",         "threads",    "packet",    "simd",      "mode",
+              "batch",       "robust",       "effects",    "triangles", "frames",    "frame_ms",
+              "fps",         "build_ms",     "load_ms",    "stages_ms", "embree_ms", "rays",
+              "mrays_per_s", "lanes_filled", "peak_rss_mb"});
+  expectKeys(run["frame_ms"], {"median", "min", "p95"});
+  expectKeys(run["stages_ms"], {"generateRays", "findIntersections",
+                                "writeEmittedAndReflectiveAmbient", "findRadianceAndShadowRays",
+                                "checkShadows", "addShading", "addImpulses", "updateImage"});
+  EXPECT_EQ(run["stages_ms"].size(), 8u);
+  for (const char* kind : {"primary", "shadow", "reflection", "refraction"}) {
+    EXPECT_GE(run["rays"][kind].get<double>(), 0) << kind;
+    EXPECT_GE(run["lanes_filled"][kind].get<double>(), 0) << kind;
+    EXPECT_LE(run["lanes_filled"][kind].get<double>(), 1) << kind;
+  }
+  EXPECT_LE(run["frame_ms"]["min"].get<double>(), run["frame_ms"]["median"].get<double>());
+  EXPECT_LE(run["frame_ms"]["median"].get<double>(), run["frame_ms"]["p95"].get<double>());
+  EXPECT_GT(run["peak_rss_mb"].get<double>(), 1);
+}
+
+TEST_F(JsonResults, Bench) {
+  const Json json = resultOf({"bench", tiny_, tiny_, "--frames", "3"});
+  EXPECT_EQ(json["schema"], 1);
+  expectKeys(json["machine"], {"cpu", "cores", "simd", "embree", "compiler", "commit"});
+  EXPECT_GE(json["machine"]["cores"].get<int>(), 1);
+  ASSERT_EQ(json["runs"].size(), 2u);
+  for (const Json& run : json["runs"]) checkRun(run);
+  const Json& run = json["runs"][0];
+  EXPECT_EQ(run["scene"], "tiny");
+  EXPECT_EQ(run["size"], Json({48, 32}));
+  EXPECT_EQ(run["frames"], 3);
+  EXPECT_EQ(run["mode"], "packets");
+  EXPECT_EQ(run["batch"], "tile");
+  EXPECT_EQ(run["robust"], true);
+  EXPECT_EQ(run["rays"]["primary"], 48 * 32);
+  EXPECT_GT(run["rays"]["shadow"].get<int>(), 0);
+  EXPECT_GT(run["rays"]["reflection"].get<int>(), 0);
+  EXPECT_EQ(run["rays"]["refraction"], 0);
+  EXPECT_FALSE(run.contains("floor_ms"));
+}
+
+TEST_F(JsonResults, BenchFloorAndWidths) {
+  const Json json = resultOf({"bench", tiny_, "--frames", "2", "--floor", "--widths"});
+  ASSERT_EQ(json["runs"].size(), 4u);
+  const int widths[] = {1, 4, 8, 16};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Json& run = json["runs"][i];
+    checkRun(run);
+    EXPECT_EQ(run["packet"], widths[i]);
+    EXPECT_GT(run["floor_ms"].get<double>(), 0);
+    EXPECT_NEAR(run["frame_over_floor"].get<double>() * run["floor_ms"].get<double>(),
+                run["frame_ms"]["median"].get<double>(), 1e-6);
+  }
+}
+
+TEST_F(JsonResults, BenchOfTheReferenceTakesOneFrame) {
+  const Json json = resultOf({"bench", tiny_, "--mode", "reference"});
+  ASSERT_EQ(json["runs"].size(), 1u);
+  checkRun(json["runs"][0]);
+  EXPECT_EQ(json["runs"][0]["frames"], 1);
+  EXPECT_EQ(json["runs"][0]["mode"], "reference");
+  EXPECT_EQ(json["runs"][0]["rays"]["primary"], 48 * 32);
+}
+
+const std::vector<std::string> kCompareKeys{"rmse",      "relmse",
+                                            "psnr_db",   "flip_mean",
+                                            "max_code",  "pixels_ge_1_code_pct",
+                                            "nonfinite", "pixels_ge_2_codes_pct",
+                                            "time_ms",   "path_flips_per_mpx"};
+
+TEST_F(JsonResults, CompareScene) {
+  const Json json = resultOf({"compare", tiny_, "--stages"});
+  expectKeys(json, kCompareKeys);
+  EXPECT_GT(json["time_ms"]["a"].get<double>(), 0);
+  EXPECT_GT(json["time_ms"]["b"].get<double>(), 0);
+  EXPECT_GE(json["path_flips_per_mpx"].get<double>(), 0);
+  EXPECT_EQ(json["nonfinite"], 0);
+  ASSERT_FALSE(json["stages"].empty());
+  for (const Json& row : json["stages"]) {
+    expectKeys(row, {"stage", "column", "slots", "worst_ulp", "limit_ulp", "pixel", "depth"});
+    EXPECT_EQ(row["pixel"].size(), 2u);
+  }
+}
+
+TEST_F(JsonResults, CompareFiles) {
+  const std::string a = folder_ / "a.exr";
+  ASSERT_EQ(runWhit({"render", tiny_, "-o", a}).status, 0);
+  const Json json = resultOf({"compare", a, a});
+  expectKeys(json, kCompareKeys);
+  EXPECT_EQ(json["rmse"], 0);
+  EXPECT_EQ(json["max_code"], 0);
+  EXPECT_TRUE(json["psnr_db"].is_null());  // infinite
+  EXPECT_TRUE(json["path_flips_per_mpx"].is_null());
+  EXPECT_FALSE(json.contains("stages"));
+}
+
+TEST_F(JsonResults, Info) {
+  const Json json = resultOf({"info", tiny_, "--disable", "shadows"});
+  expectKeys(json, {"triangles", "instances", "bounds", "materials", "lights", "textures",
+                    "memory_mb", "warnings", "effects", "stages", "kernels"});
+  EXPECT_EQ(json["triangles"], 2 + 20 * 4 * 4);  // quad, icosahedron split twice
+  EXPECT_EQ(json["lights"], 1);
+  EXPECT_GT(json["memory_mb"].get<double>(), 0);
+  EXPECT_EQ(json["effects"]["mirror"]["on"], true);
+  EXPECT_NE(json["effects"]["mirror"]["because"], "");
+  EXPECT_EQ(json["effects"]["shadows"]["on"], false);
+  EXPECT_EQ(json["effects"]["shadows"]["because"], "disabled by --disable");
+  EXPECT_EQ(json["effects"]["transmission"]["on"], false);
+  for (const Json& stage : json["stages"]) EXPECT_NE(stage, "checkShadows");
+  ASSERT_FALSE(json["kernels"].empty());
+  for (const Json& kernel : json["kernels"]) expectKeys(kernel, {"stage", "variant", "target"});
+}
+
+TEST_F(JsonResults, RenderWritesAFile) {
+  const std::string image = folder_ / "a.png", file = folder_ / "a.json";
+  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--json", file}).status, 0);
+  const Json json = Json::parse(readFile(file), nullptr, false);
+  ASSERT_FALSE(json.is_discarded());
+  checkRun(json);
+  EXPECT_EQ(json["files"], Json({image}));
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,185 @@
+// Option values, presets, and the parser, without running the program.
+#include <gtest/gtest.h>
+
+#include "cli/image_output.h"
+#include "cli/option_values.h"
+#include "cli/parse_options.h"
+#include "core/error.h"
+#include "core/quality.h"
+
+namespace whit::cli {
+namespace {
+
+// The message of the usage error that `words` give; empty when they parse.
+std::string usageError(const std::vector<std::string>& words) {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  OptionList list;
+  listCommonOptions(list, common);
+  list.operands("SCENE", "a scene", 1, 1, scenes);
+  try {
+    parseOptions("test", "test", list, words);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::usage);
+    return error.what();
+  }
+  return "";
+}
+
+CommonOptions parsed(std::vector<std::string> words) {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  OptionList list;
+  listCommonOptions(list, common);
+  list.operands("SCENE", "a scene", 1, 1, scenes);
+  words.push_back("scene");
+  EXPECT_EQ(parseOptions("test", "test", list, words), Parsed::run);
+  settleOptions(common);
+  return common;
+}
+
+TEST(Options, TakesEveryKindOfValue) {
+  const RenderOptions o =
+      parsed({"--size",    "640x360",        "--eye",     "-1,2.5,-3e-1", "--fov=35",
+              "--crop",    "1,2,30,40",      "--packet",  "16",           "--batch",
+              "frame",     "--robust",       "off",       "--effects",    "all",
+              "--disable", "shadows,mirror", "--tonemap", "filmic",       "--strict"})
+          .render;
+  EXPECT_EQ(o.size, (ImageSize{640, 360}));
+  EXPECT_EQ(o.eye, Vec3f(-1, 2.5f, -0.3f));
+  EXPECT_EQ(o.fov, 35.0f);
+  EXPECT_EQ(o.crop, (Crop{1, 2, 30, 40}));
+  EXPECT_EQ(o.packet, 16);
+  EXPECT_EQ(o.batch, Batch::frame);
+  EXPECT_FALSE(o.robust);
+  EXPECT_EQ(o.effects, EffectChoice::all);
+  EXPECT_EQ(o.disable, EffectSet().with(Effect::shadows).with(Effect::mirror));
+  EXPECT_EQ(o.toneCurve, ToneCurve::filmic);
+  EXPECT_TRUE(o.strict);
+}
+
+TEST(Options, LaterValueWins) { EXPECT_EQ(parsed({"--spp", "2", "--spp", "4"}).render.spp, 4); }
+
+TEST(Options, AutomaticPacketIsZero) { EXPECT_EQ(parsed({"--packet", "auto"}).render.packet, 0); }
+
+struct BadWords {
+  std::vector<std::string> words;
+  std::string said;
+};
+
+TEST(Options, SaysWhatWasExpected) {
+  const BadWords cases[] = {
+      {{"s", "--size", "640"}, "WIDTHxHEIGHT"},
+      {{"s", "--size", "0x10"}, "WIDTHxHEIGHT"},
+      {{"s", "--size", "10x10x10"}, "WIDTHxHEIGHT"},
+      {{"s", "--size", "99999999999x1"}, "WIDTHxHEIGHT"},
+      {{"s", "--size", "65537x1"}, "65536"},
+      {{"s", "--eye", "1,2"}, "x,y,z"},
+      {{"s", "--eye", "1,2,x"}, "x,y,z"},
+      {{"s", "--eye", "1,2,nan"}, "x,y,z"},
+      {{"s", "--eye", "1,2,inf"}, "x,y,z"},
+      {{"s", "--crop", "4,0,4,9"}, "x0 < x1"},
+      {{"s", "--crop", "-1,0,4,9"}, "x0 < x1"},
+      {{"s", "--spp", "0"}, "from 1 to 4096"},
+      {{"s", "--spp", "1.5"}, "whole number"},
+      {{"s", "--depth", "65"}, "from 0 to 64"},
+      {{"s", "--cutoff", "-1"}, "from 0 to 1"},
+      {{"s", "--threads", "100000"}, "from 0 to 1024"},
+      {{"s", "--packet", "5"}, "auto|1|4|8|16"},
+      {{"s", "--mode", "packet"}, "nearest: packets"},
+      {{"s", "--tonemap", "filmc"}, "nearest: filmic"},
+      {{"s", "--robust", "yes"}, "on or off"},
+      {{"s", "--disable", "shadow"}, "nearest: 'shadows'"},
+      {{"s", "--fov", "180"}, "from 0.001 to 179"},
+      {{"s", "--size"}, "--size"},
+      {{"s", "--sise", "10x10"}, "nearest: '--size'"},
+      {{"s", "--sise=10x10"}, "no option '--sise'"},
+      {{"s", "-z"}, "no option '-z'"},
+      {{"s", "t"}, "one word too many: 't'"},
+      {{}, "expected SCENE"},
+  };
+  for (const BadWords& c : cases) {
+    const std::string words = testing::PrintToString(c.words);
+    const std::string error = usageError(c.words);
+    EXPECT_NE(error.find(c.said), std::string::npos) << words << " said: " << error;
+  }
+}
+
+TEST(Options, WordsAfterTwoDashesAreNoOptions) { EXPECT_EQ(usageError({"--", "--odd.json"}), ""); }
+
+TEST(Options, EveryChoiceGoesBothWays) {
+  RenderOptions options;
+  const auto roundTrip = [](const auto& original, const OptionSpec& spec, const auto& field) {
+    auto copy = original;
+    parseValue(spec, formatValue(spec, field), copy);
+    EXPECT_EQ(copy, field) << spec.name;
+  };
+  options.size = ImageSize{3, 4};
+  options.camera = "front";
+  options.eye = Vec3f{0.1f, -1e-30f, 3e20f};
+  options.at = options.up = Vec3f{0, 1, 0};
+  options.fov = 1.0f / 3;
+  options.crop = Crop{1, 2, 3, 4};
+  options.disable = EffectSet::all();
+  for (const Quality quality :
+       {Quality::draft, Quality::standard, Quality::fine, Quality::reference}) {
+    options.quality = quality;
+    options.mode = Mode::reference;
+    options.batch = Batch::frame;
+    options.effects = EffectChoice::all;
+    options.toneCurve = ToneCurve::reinhard;
+    options.packet = 4;
+    forEachOption(
+        options, [&](const char* name, const char* placeholder, const char*, const auto& field) {
+          roundTrip(std::decay_t<decltype(field)>{}, renderOptionSpec(name, placeholder), field);
+        });
+  }
+}
+
+// The words of a placeholder stand in the order of the enumeration.
+TEST(Options, ChoicesAreNamedRight) {
+  EXPECT_EQ(parsed({"--mode", "reference"}).render.mode, Mode::reference);
+  EXPECT_EQ(parsed({"--effects", "auto"}).render.effects, EffectChoice::automatic);
+  EXPECT_EQ(parsed({"--tonemap", "none"}).render.toneCurve, ToneCurve::none);
+  EXPECT_EQ(parsed({"--tonemap", "reinhard"}).render.toneCurve, ToneCurve::reinhard);
+  EXPECT_EQ(parsed({"--quality", "draft"}).render.quality, Quality::draft);
+  EXPECT_EQ(parsed({"--quality", "standard"}).render.quality, Quality::standard);
+  EXPECT_EQ(parsed({"--quality", "fine"}).render.quality, Quality::fine);
+  EXPECT_EQ(parsed({"--quality", "reference"}).render.quality, Quality::reference);
+  EXPECT_EQ(parsed({"--batch", "tile"}).render.batch, Batch::tile);
+}
+
+TEST(Quality, StandardIsTheDefaults) {
+  const RenderOptions defaults, standard = parsed({"--quality", "standard"}).render;
+  EXPECT_EQ(standard.spp, defaults.spp);
+  EXPECT_EQ(standard.depth, defaults.depth);
+  EXPECT_EQ(standard.cutoff, defaults.cutoff);
+  EXPECT_EQ(standard.mode, defaults.mode);
+}
+
+TEST(Quality, PresetsGiveWayToWhatIsGiven) {
+  const RenderOptions draft = parsed({"--depth", "6", "--quality", "draft"}).render;
+  EXPECT_EQ(draft.depth, 6);
+  EXPECT_EQ(draft.cutoff, 4.0e-3f);
+  const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
+  EXPECT_EQ(reference.spp, 2);
+  EXPECT_EQ(reference.depth, kDepthLimit);
+  EXPECT_EQ(reference.cutoff, 0.0f);
+  EXPECT_EQ(reference.mode, Mode::reference);
+}
+
+TEST(Frames, RangesAndNames) {
+  EXPECT_EQ(parseFrameRange("7").first, 7);
+  EXPECT_EQ(parseFrameRange("7").last, 7);
+  EXPECT_EQ(parseFrameRange("3..12").first, 3);
+  EXPECT_EQ(parseFrameRange("3..12").last, 12);
+  for (const char* bad : {"", "a", "3..", "..3", "5..3", "-1..3", "1...3", "1..99999999999"}) {
+    EXPECT_THROW(parseFrameRange(bad), Error) << bad;
+  }
+  EXPECT_EQ(frameName("a#/out-####.exr", 12), "a#/out-0012.exr");
+  EXPECT_EQ(frameName("#.png", 12345), "12345.png");
+  EXPECT_THROW(frameName("a#/out.exr", 1), Error);
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,131 @@
+// The program's words and exit statuses.
+#include <gtest/gtest.h>
+
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+void expectFailure(const std::vector<std::string>& words, int status, const std::string& said) {
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, status) << testing::PrintToString(words) << outcome.err;
+  EXPECT_EQ(outcome.out, "") << testing::PrintToString(words);
+  EXPECT_EQ(outcome.err.rfind("whit: ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find(said), std::string::npos)
+      << testing::PrintToString(words) << outcome.err;
+}
+
+TEST(Program, TellsItsVersion) {
+  const Outcome outcome = runWhit({"--version"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out.rfind("whit ", 0), 0u) << outcome.out;
+}
+
+TEST(Program, EveryCommandHasHelp) {
+  const Outcome all = runWhit({"--help"});
+  EXPECT_EQ(all.status, 0);
+  for (const std::string command : {"render", "bench", "compare", "info", "merge"}) {
+    EXPECT_NE(all.out.find("  " + command), std::string::npos) << all.out;
+    const Outcome help = runWhit({command, "--help"});
+    EXPECT_EQ(help.status, 0) << command;
+    EXPECT_EQ(help.out.find(command == "merge" ? "--size" : "--nothing"), std::string::npos);
+    EXPECT_NE(help.out.find("Usage: whit " + command), std::string::npos) << help.out;
+    EXPECT_NE(help.out.find("--quiet"), std::string::npos) << help.out;
+    if (command != "merge") {
+      EXPECT_NE(help.out.find("--size WxH"), std::string::npos) << help.out;
+    }
+  }
+}
+
+TEST(Program, NamesTheNearestCommandAndOption) {
+  expectFailure({"rendre"}, 2, "'render'");
+  expectFailure({"--versoin"}, 2, "'--version'");
+  expectFailure({"render", "--sise", "10x10", "tiny"}, 2, "'--size'");
+  expectFailure({"bench", "--flor", "tiny"}, 2, "'--floor'");
+  expectFailure({"merge", "--stric", "a.exr", "b.exr"}, 2, "'--strict'");
+}
+
+TEST(Program, WithoutWordsShowsHelpAndFails) {
+  const Outcome outcome = runWhit({});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.out.find("Usage: whit"), std::string::npos);
+}
+
+TEST(Program, RefusesWrongUsage) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  expectFailure({"render", tiny}, 2, "-o OUT");
+  expectFailure({"render", tiny, "-o", folder / "a.jpg"}, 2, ".exr or .png");
+  expectFailure({"render", tiny, "-o", folder / "a.exr", "--frames", "0..1"}, 2, "####");
+  expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "2..1"}, 2, "--frames");
+  expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "1", "--camera", "side"}, 2,
+                "--camera");
+  expectFailure({"render", tiny, "-o", folder / "a.exr", "--camera", "sid"}, 2, "side");
+  expectFailure({"render", tiny, "-o", folder / "a.exr", "--crop", "0,0,49,32"}, 2, "");
+  expectFailure({"bench", tiny, "--mode", "reference", "--widths"}, 2, "--widths");
+  expectFailure({"bench", tiny, "--packet", "8", "--widths"}, 2, "--packet");
+  expectFailure({"compare", "a.exr", "b.exr", "--stages"}, 2, "--stages");
+  expectFailure({"compare", tiny, "--heatmap", folder / "h.exr"}, 2, ".png");
+  expectFailure({"merge", folder / "a.exr"}, 2, "OUT.exr PART.exr");
+}
+
+TEST(Program, RefusesBadScenes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "broken.json") << "{\n  \"whit\": 1,\n  \"size\": [48,\n}\n";
+  expectFailure({"info", folder / "broken.json"}, 3, "broken.json:4");
+  std::ofstream(folder / "wrong.json") << R"({"whit": 1, "size": ["wide", 3]})";
+  expectFailure({"info", folder / "wrong.json"}, 3, "wrong.json#/size");
+  std::ofstream(folder / "no.png") << "this is no image";
+  expectFailure({"compare", folder / "no.png", folder / "no.png"}, 3, "no.png");
+}
+
+TEST(Program, SaysWhatCannotBeReadOrWritten) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  expectFailure({"info", folder / "none.json"}, 4, "none.json");
+  expectFailure({"compare", folder / "none.exr", folder / "none.exr"}, 4, "none.exr");
+  expectFailure({"render", tiny, "-o", folder / "none/a.exr"}, 4, "there is no folder");
+  expectFailure({"render", tiny, "-o", folder / "a.exr", "--json", folder / "none/a.json"}, 4,
+                "there is no folder");
+  std::filesystem::create_directory(folder / "a.exr");
+  expectFailure({"render", tiny, "-o", folder / "a.exr"}, 4, "folder");
+}
+
+TEST(Program, KeepsToItsMemory) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  // 65536 x 65536 pixels would take more than 100 GB.
+  expectFailure({"render", tiny, "-o", folder / "a.exr", "--size", "65536x65536"}, 5,
+                "--max-memory");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
+TEST(Program, QuietSaysNothing) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const Outcome quiet = runWhit({"render", tiny, "-o", folder / "a.exr", "--quiet"});
+  EXPECT_EQ(quiet.status, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  const Outcome loud = runWhit({"render", tiny, "-o", folder / "a.exr"});
+  EXPECT_EQ(loud.out, "");
+  EXPECT_NE(loud.err.find("addImpulses"), std::string::npos) << loud.err;
+  EXPECT_EQ(loud.err.find('\r'), std::string::npos) << "a progress bar, but no terminal";
+}
+
+TEST(Program, CompareFailsAboveTheTolerance) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "a.exr", "-o", folder / "a.png"}).status, 0);
+  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "b.exr", "--disable", "shadows"}).status, 0);
+  const std::string a = folder / "a.exr", b = folder / "b.exr";
+  EXPECT_EQ(runWhit({"compare", a, a, "--tolerance", "0"}).status, 0);
+  EXPECT_EQ(runWhit({"compare", a, b}).status, 0);
+  const Outcome apart =
+      runWhit({"compare", a, b, "--tolerance", "1e-6", "--heatmap", folder / "heat.png"});
+  EXPECT_EQ(apart.status, 1) << apart.err;
+  EXPECT_NE(apart.out.find("RMSE"), std::string::npos) << apart.out;
+  EXPECT_GT(std::filesystem::file_size(folder / "heat.png"), 100u);
+}
+
+}  // namespace
+}  // namespace whit::cli

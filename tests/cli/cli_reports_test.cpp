@@ -1,0 +1,92 @@
+// Tables and summaries of made-up frames, whose numbers are known.
+#include <gtest/gtest.h>
+
+#include "cli/frame_summary.h"
+#include "cli/progress_bar.h"
+#include "cli/stage_table.h"
+
+namespace whit::cli {
+namespace {
+
+// Frames of 10, 20, ... ms on two workers; stage i takes i + 1 percent of the frame.
+RunSummary madeUpRun(int frames) {
+  RunSummary run;
+  run.scene = "made-up";
+  run.width = 64;
+  run.height = 32;
+  run.triangles = 12;
+  run.machine = {"avx2", "3.13.5 avx2", 8, 2};
+  for (int f = frames; f >= 1; --f) {
+    FrameStats frame;
+    frame.frameMs = 10.0 * f;
+    frame.workers = 2;
+    for (std::size_t i = 0; i < kStageCount; ++i) {
+      frame.stageWorkerMs[i] = 2 * frame.frameMs * static_cast<double>(i + 1) / 100;
+    }
+    frame.tally[0] = {2048, 2048};
+    frame.tally[1] = {300, 400};
+    run.frames.push_back(frame);
+  }
+  return run;
+}
+
+TEST(Summary, QuantilesByNearestRank) {
+  EXPECT_EQ(quantile({5, 1, 4, 2, 3}, 0.5), 3);
+  EXPECT_EQ(quantile({4, 1, 3, 2}, 0.5), 2);
+  EXPECT_EQ(quantile({1, 2, 3, 4}, 1.0), 4);
+  EXPECT_EQ(quantile({2, 1}, 1e-9), 1);
+  std::vector<double> hundred;
+  for (int i = 1; i <= 100; ++i) hundred.push_back(i);
+  EXPECT_EQ(quantile(hundred, 0.95), 95);
+  EXPECT_EQ(quantile({}, 0.5), 0);
+}
+
+TEST(Summary, MedianFrameIsOneOfTheFrames) {
+  EXPECT_EQ(medianFrame(madeUpRun(5)).frameMs, 30);
+  EXPECT_EQ(medianFrame(madeUpRun(4)).frameMs, 20);
+  EXPECT_EQ(medianFrame(madeUpRun(1)).frameMs, 10);
+}
+
+TEST(Summary, LanesAndRates) {
+  EXPECT_EQ(lanesFilled({300, 400}), 0.75);
+  EXPECT_EQ(lanesFilled({0, 0}), 0);
+  EXPECT_EQ(mraysPerSecond(3'000'000, 1000), 3);
+  EXPECT_EQ(mraysPerSecond(1, 0), 0);
+}
+
+TEST(StageTable, NamesStagesTimesAndRays) {
+  RunSummary run = madeUpRun(3);
+  run.floorMs = {16};
+  const std::string table = stageTable(run);
+  for (const std::string_view name : kStageNames) {
+    EXPECT_NE(table.find(name), std::string::npos) << name;
+  }
+  for (const std::string_view kind : kRayKindNames) {
+    EXPECT_NE(table.find(kind), std::string::npos) << kind;
+  }
+  EXPECT_NE(table.find("frame 20.00 ms (50.0 a second), least 10.00, 95 % within 30.00"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("     1.600     8.0\n"), std::string::npos) << table;  // 8 % of 20 ms
+  EXPECT_NE(table.find("75.0\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("frame over floor 1.25"), std::string::npos) << table;
+  EXPECT_EQ(table.find("not finite"), std::string::npos) << table;
+}
+
+TEST(StageTable, ReferenceHasNoStages) {
+  RunSummary run = madeUpRun(1);
+  run.options.mode = Mode::reference;
+  const std::string table = stageTable(run);
+  EXPECT_EQ(table.find("addShading"), std::string::npos) << table;
+  EXPECT_NE(table.find("scalar reference"), std::string::npos) << table;
+}
+
+TEST(ProgressText, FillsUpAndStaysInRange) {
+  EXPECT_EQ(progressText("decoding", 0.25), "[#####---------------]  25 % decoding");
+  EXPECT_EQ(progressText("", 7), "[####################] 100 % ");
+  EXPECT_EQ(progressText("", -1), "[--------------------]   0 % ");
+  EXPECT_EQ(progressText("", std::nan("")), "[--------------------]   0 % ");
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,100 @@
+// Runs the built whit, and gives it scenes and folders of its own.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace whit::cli {
+
+inline std::string readFile(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// A folder that is gone with its owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "whit-cli-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Starts whit with standard output and error going to files in `folder`; returns the process.
+inline pid_t startWhit(const std::vector<std::string>& words, const TemporaryFolder& folder) {
+  std::vector<std::string> all{WHIT_PROGRAM};
+  all.insert(all.end(), words.begin(), words.end());
+  std::vector<char*> argv;
+  for (std::string& word : all) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const std::string out = folder / "stdout", err = folder / "stderr";
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  return child;
+}
+
+// The exit status, or minus the signal that ended it.
+inline int waitFor(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+struct Outcome {
+  int status = 0;
+  std::string out, err;
+};
+
+inline Outcome runWhit(const std::vector<std::string>& words) {
+  const TemporaryFolder folder;
+  const int status = waitFor(startWhit(words, folder));
+  return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
+}
+
+// A floor, a mirrored ball, a light with shadows, two cameras and a path: one of each ray kind but
+// refraction, in a few hundred triangles.
+inline std::string writeTinyScene(const TemporaryFolder& folder) {
+  std::ofstream(folder / "tiny.json") << R"({
+    "whit": 1, "size": [48, 32],
+    "cameras": {"front": {"eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40},
+                "side": {"eye": [6, 2, 0], "at": [0, 1, 0], "fov": 40}},
+    "path": [{"time": 0, "eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40},
+             {"time": 1, "eye": [6, 2, 0]}],
+    "lights": [{"name": "lamp", "position": [3, 6, 4], "intensity": [60, 60, 60]}],
+    "materials": {"floor": {"diffuse": 0.5}, "mirror": {"diffuse": 0.1, "mirror": 0.8}},
+    "scene": [{"shape": "quad", "width": 8, "depth": 8, "material": "floor"},
+              {"shape": "icosphere", "radius": 1, "level": 2, "material": "mirror",
+               "transform": {"translate": [0, 1, 0]}}]
+  })";
+  return folder / "tiny.json";
+}
+
+}  // namespace whit::cli
