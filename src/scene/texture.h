@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/srgb.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -35,10 +36,6 @@ struct Texture {
 std::uint32_t encodeColourTexel(const Rgb& linear);
 std::uint32_t encodeDataTexel(float r, float g, float b, float a);
 Rgb decodeColourTexel(std::uint32_t texel);
-
-// Linear light of an sRGB code in [0, 1], and back (IEC 61966-2-1, exact branches).
-double srgbToLinear(double code);
-double linearToSrgb(double linear);
 
 // Equirectangular radiance map: row 0 is the zenith (+y), column 0 begins at direction -z and
 // columns run towards +x. Planes, so that kernels gather one channel at a time.
