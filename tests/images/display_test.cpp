@@ -34,6 +34,12 @@ TEST(Srgb, CodesChangeAtTheTies) {
   }
 }
 
+// A few roundings of double, and pow's.
+TEST(Srgb, DecodingFollowsTheFormula) {
+  for (int code = 0; code < 256; ++code)
+    EXPECT_NEAR(srgbToLinear(code / 255.0), static_cast<double>(decode(code / 255.0L)), 4e-16);
+}
+
 TEST(Srgb, BranchesMeet) {
   EXPECT_NEAR(linearToSrgb(0.0031308), linearToSrgb(std::nextafter(0.0031308, 1)), 1e-7);
   EXPECT_NEAR(srgbToLinear(0.04045), srgbToLinear(std::nextafter(0.04045, 1)), 1e-8);
