@@ -34,10 +34,10 @@ TEST(Srgb, CodesChangeAtTheTies) {
   }
 }
 
-// A few roundings of double, and pow's.
+// Three roundings before the power, which makes 2.4 of each.
 TEST(Srgb, DecodingFollowsTheFormula) {
   for (int code = 0; code < 256; ++code)
-    EXPECT_NEAR(srgbToLinear(code / 255.0), static_cast<double>(decode(code / 255.0L)), 4e-16);
+    EXPECT_NEAR(srgbToLinear(code / 255.0), static_cast<double>(decode(code / 255.0L)), 1e-15);
 }
 
 TEST(Srgb, BranchesMeet) {
