@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/compact-inl.h"
 #include "simd/fresnel-inl.h"
 #include "simd/media-inl.h"
 
@@ -82,21 +83,14 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
   const MF traced =
       hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))));
   if (hn::AllFalse(d, traced)) return 0;
-  hn::CompressStore(child.origin.x, traced, d, children.orgX + at);
-  hn::CompressStore(child.origin.y, traced, d, children.orgY + at);
-  hn::CompressStore(child.origin.z, traced, d, children.orgZ + at);
-  hn::CompressStore(child.direction.x, traced, d, children.dirX + at);
-  hn::CompressStore(child.direction.y, traced, d, children.dirY + at);
-  hn::CompressStore(child.direction.z, traced, d, children.dirZ + at);
-  hn::CompressStore(child.weight.x, traced, d, children.weightR + at);
-  hn::CompressStore(child.weight.y, traced, d, children.weightG + at);
-  hn::CompressStore(child.weight.z, traced, d, children.weightB + at);
-  hn::CompressStore(throughput, traced, d, children.throughput + at);
-  if (children.media) {
-    hn::CompressStore(child.media, hn::RebindMask(du, traced), du, children.media + at);
-  }
-  return hn::CompressStore(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, traced), du,
-                           children.parent + at);
+  const Compactor compactor(traced);
+  compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
+  compactor.Store(child.direction, children.dirX, children.dirY, children.dirZ, at);
+  compactor.Store(child.weight, children.weightR, children.weightG, children.weightB, at);
+  compactor.Store(throughput, children.throughput + at);
+  if (children.media) compactor.Store(child.media, children.media + at);
+  compactor.Store(hn::Iota(du, static_cast<uint32_t>(i)), children.parent + at);
+  return compactor.Count();
 }
 
 HWY_INLINE V3 ChildOrigin(const SurfelColumns& surfels, const ImpulseLanes& lanes, size_t i,

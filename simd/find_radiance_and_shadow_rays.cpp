@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/vec3-inl.h"
+#include "simd/compact-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -103,15 +103,12 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const Po
     const V3 origin = MulAdd3(ng, hn::Load(d, surfels.offset + i), position);
     const V3 direction = Sub3(lightPosition, origin);
     const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);
-    hn::CompressStore(origin.x, live, d, shadows.orgX + count);
-    hn::CompressStore(origin.y, live, d, shadows.orgY + count);
-    hn::CompressStore(origin.z, live, d, shadows.orgZ + count);
-    hn::CompressStore(direction.x, live, d, shadows.dirX + count);
-    hn::CompressStore(direction.y, live, d, shadows.dirY + count);
-    hn::CompressStore(direction.z, live, d, shadows.dirZ + count);
-    hn::CompressStore(tFar, live, d, shadows.tFar + count);
-    count += hn::CompressStore(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, live), du,
-                               shadows.slot + count);
+    const Compactor lit(live);
+    lit.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
+    lit.Store(direction, shadows.dirX, shadows.dirY, shadows.dirZ, count);
+    lit.Store(tFar, shadows.tFar + count);
+    lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
+    count += lit.Count();
   }
   return count;
 }
