@@ -1,10 +1,8 @@
 // Images that the program writes: what they say, and that nothing half-written is left.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstring>
 #include <map>
-#include <thread>
 
 #include "io/image_file.h"
 #include "run_program.h"
@@ -36,18 +34,13 @@ bool sameBits(const Image& a, const Image& b) {
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
 }
 
-// Waits until the process handles SIGINT itself.
-void waitForHandler(pid_t child) {
-  const std::string path = "/proc/" + std::to_string(child) + "/status";
-  for (;;) {
-    std::ifstream in(path);
-    for (std::string line; std::getline(in, line);) {
-      if (line.rfind("SigCgt:", 0) != 0) continue;
-      const unsigned long long caught = std::stoull(line.substr(7), nullptr, 16);
-      if (caught & (1ull << (SIGINT - 1))) return;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+bool handlesInterrupts(pid_t child) {
+  std::ifstream in("/proc/" + std::to_string(child) + "/status");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("SigCgt:", 0) != 0) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) & (1ull << (SIGINT - 1))) != 0;
   }
+  return false;
 }
 
 TEST(Images, TheSameRenderGivesTheSameBytes) {
@@ -138,10 +131,8 @@ TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
   const std::string tiny = writeTinyScene(folder);
   const pid_t child =
       startWhit({"render", tiny, "-o", results / "f-#.exr", "--frames", "0..999999"}, logs);
-  while (!fs::exists(results / "f-3.exr")) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_EQ(kill(child, 0), 0) << readFile(logs / "stderr");
-  }
+  ASSERT_TRUE(waitUntil(child, [&] { return fs::exists(results / "f-3.exr"); }))
+      << readFile(logs / "stderr");
   kill(child, SIGINT);
   EXPECT_EQ(waitFor(child), 130);
   for (const auto& entry : fs::directory_iterator(results.path())) {
@@ -159,7 +150,7 @@ TEST(Images, AnInterruptionDoesNotWaitForTheImage) {
     const pid_t child = startWhit({"render", tiny, "-o", results / "a.exr", "--size", "8192x8192",
                                    "--spp", "4096", "--mode", "reference"},
                                   logs);
-    waitForHandler(child);
+    ASSERT_TRUE(waitUntil(child, [&] { return handlesInterrupts(child); }));
     kill(child, signal);
     EXPECT_EQ(waitFor(child), 130);
     EXPECT_TRUE(fs::is_empty(results.path()));

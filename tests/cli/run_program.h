@@ -68,6 +68,19 @@ inline int waitFor(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
+// Waits for `happened`, a minute at most: far longer than what is waited for ever takes. Ends the
+// process if it does not come.
+template <typename Condition>
+bool waitUntil(pid_t child, Condition&& happened) {
+  for (int i = 0; i < 60'000; ++i) {
+    if (happened()) return true;
+    usleep(1000);
+  }
+  kill(child, SIGKILL);
+  waitFor(child);
+  return false;
+}
+
 struct Outcome {
   int status = 0;
   std::string out, err;

@@ -1,5 +1,6 @@
 whit_test(cli_options whit_cli)
 whit_test(cli_reports whit_cli)
+whit_test(cli_interrupt whit_cli)
 # These run the program itself.
 find_package(nlohmann_json 3.11 REQUIRED)
 foreach(name cli_program cli_images cli_json)
