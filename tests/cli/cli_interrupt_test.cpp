@@ -13,8 +13,8 @@ void interruptedWhileWriting() {
   installInterruptHandlers();
   {
     const WriteScope outer;
-    { const WriteScope inner; }
     raise(SIGINT);
+    { const WriteScope inner; }
     std::fputs("finished the file", stderr);
   }
   std::fputs("went on", stderr);
