@@ -16,10 +16,17 @@ struct ImpulseLanes {
   MF dielectric;  // and bounds a medium
   MF hidden;      // and is not there, because a higher priority fills its place
   V3 direction, ng, ns;
+  VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
-  VF lift;    // least cosine with the geometric normal that a child must keep
   VI material;
 };
+
+// The least sine over the surface that a child keeps, if `elevation` is what it would have without
+// bent normals.
+HWY_INLINE VF LeastElevation(VF elevation) {
+  const FloatTag d;
+  return hn::Min(hn::Mul(hn::Set(d, 0.9f), elevation), hn::Set(d, 0.01f));
+}
 
 HWY_INLINE ImpulseLanes LoadImpulseLanes(const ShadingTables& tables, bool transmission,
                                          uint32_t wanted, const RayColumns& rays,
@@ -49,8 +56,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ShadingTables& tables, bool trans
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
   lanes.cosine = hn::Min(hn::Max(towards, zero), one);
-  const VF facing = hn::Neg(Dot(lanes.direction, lanes.ng));
-  lanes.lift = hn::Min(hn::Mul(hn::Set(d, 0.9f), facing), hn::Set(d, 0.01f));
+  lanes.facing = hn::Neg(Dot(lanes.direction, lanes.ng));
   return lanes;
 }
 
@@ -126,9 +132,10 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     V3 r = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
     const VF height = Dot(r, lanes.ng);
-    const MF low = hn::Lt(height, lanes.lift);
+    const VF lift = LeastElevation(lanes.facing);
+    const MF low = hn::Lt(height, lift);
     if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(low, lanes.live)))) {
-      const V3 lifted = NormalizeOr(MulAdd3(lanes.ng, hn::Sub(lanes.lift, height), r), lanes.ng);
+      const V3 lifted = NormalizeOr(MulAdd3(lanes.ng, hn::Sub(lift, height), r), lanes.ng);
       r = Select3(low, lifted, r);
     }
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
@@ -158,9 +165,13 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
     const VF height = Dot(r, lanes.ng);
-    const MF high = hn::Gt(height, hn::Neg(lanes.lift));
+    // Under the geometric normal the ray would leave this steeply; normals that agree change
+    // nothing.
+    const VF g2 = hn::Max(hn::MulAdd(lanes.facing, lanes.facing, interface.k), hn::Zero(d));
+    const VF lift = LeastElevation(hn::Div(hn::Sqrt(g2), interface.eta));
+    const MF high = hn::Gt(height, hn::Neg(lift));
     const V3 pressed =
-        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lanes.lift, height)), r), lanes.direction);
+        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
     const Child child{ChildOrigin(surfels, lanes, i, -1.0f), r, weight,

@@ -15,6 +15,7 @@ namespace whit::simd::HWY_NAMESPACE {
 struct Interface {
   VF reflectance;  // F
   VF eta;          // ior behind over ior before
+  VF k;            // eta^2 - 1
   VF bend;         // k / (c + g), the share of the normal that refraction takes off the direction
   MF straight;     // same ior on both sides: the direction does not change at all
 };
@@ -40,7 +41,7 @@ HWY_INLINE Interface DielectricInterface(VF iorBefore, VF iorBehind, VF c) {
   VF f = hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(rs, rs, hn::Mul(rp, rp)));
   f = hn::IfThenElse(total, one, hn::Min(f, one));
   f = hn::IfThenElse(straight, zero, f);
-  return {f, eta, bend, straight};
+  return {f, eta, k, bend, straight};
 }
 
 // (1 - c)^5 (Schlick 1994).

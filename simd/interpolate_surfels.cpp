@@ -80,7 +80,8 @@ HWY_INLINE V3 TransformVector(const InstanceLanes& m, const V3& v) {
 
 // Tangent-space normal, in the frame that the texture coordinates span (T along u, B along v).
 HWY_INLINE V3 MappedNormal(const ShadingTables& tables, const TriangleLanes& t, const V3& edge1,
-                           const V3& edge2, const V3& ns, VF u, VF v, VI texture, MF live) {
+                           const V3& edge2, const V3& ns, VF handedness, VF u, VF v, VI texture,
+                           MF live) {
   const FloatTag d;
   const VF du1 = hn::Sub(t.u1, t.u0), dv1 = hn::Sub(t.v1, t.v0);
   const VF du2 = hn::Sub(t.u2, t.u0), dv2 = hn::Sub(t.v2, t.v0);
@@ -92,7 +93,7 @@ HWY_INLINE V3 MappedNormal(const ShadingTables& tables, const TriangleLanes& t, 
   const V3 none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const V3 unitAlong = NormalizeOr(along, none);
   const V3 tangent = NormalizeOr(MulAdd3(ns, hn::Neg(Dot(ns, unitAlong)), unitAlong), none);
-  const V3 bitangent = Scale3(Cross(ns, tangent), sign);
+  const V3 bitangent = Scale3(Cross(ns, tangent), hn::Mul(sign, handedness));
   const Footprint texels =
       FindFootprint(tables.textures.data(), tables.texels.data(), texture, live, u, v);
   const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
@@ -194,6 +195,7 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
     // (pbrt-v4, section 6.8.5); 32 ulps along the normal also cover Embree's own arithmetic.
     const Weights wa{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
     V3 magnitude = Interpolate3(wa, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
+    VF handedness = one;
     if (instanced) {
       const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
       const MF placed = hn::And(valid, hn::RebindMask(d, NonNegative(instance)));
@@ -211,6 +213,7 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
         edge2 = Select3(placed, TransformVector(m, edge2), edge2);
         ng = Select3(placed, NormalizeOr(TransformVector(normal, ng), ng), ng);
         ns = Select3(placed, NormalizeOr(TransformVector(normal, ns), ng), ns);
+        handedness = hn::IfThenElse(placed, reader.Columns4(24).x, one);
       }
     }
     const TableReader material(tables.materials.data(), kMaterialStride, t.material, valid);
@@ -224,7 +227,7 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
       const VI map = hn::BitCast(di, material.Columns4(8).w);
       const MF mapped = hn::And(valid, hn::RebindMask(d, NonNegative(map)));
       if (!hn::AllFalse(d, mapped)) {
-        ns = MappedNormal(tables, t, edge1, edge2, ns, texU, texV, map, mapped);
+        ns = MappedNormal(tables, t, edge1, edge2, ns, handedness, texU, texV, map, mapped);
       }
     }
     const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);

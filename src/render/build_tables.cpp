@@ -83,6 +83,7 @@ void addInstances(const Scene& scene, ShadingTables& tables) {
         if (column < 3) t.normal[row * 4 + column] = static_cast<float>(normals[column][row]);
       }
     }
+    t.handedness = m.determinant() < 0 ? -1.0f : 1.0f;
     tables.instances.push_back(t);
   }
   if (tables.instances.empty()) tables.instances.push_back({});

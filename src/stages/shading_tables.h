@@ -46,7 +46,8 @@ inline constexpr int kTextureStride = sizeof(TextureRecord) / sizeof(std::uint32
 struct alignas(64) InstanceTransform {
   float toWorld[12];  // row-major 3x4
   float normal[12];   // row-major 3x3, rows padded to four
-  float spare[8];
+  float handedness;   // -1 if the transform mirrors
+  float spare[7];
 };
 static_assert(sizeof(InstanceTransform) == 128);
 inline constexpr int kInstanceStride = sizeof(InstanceTransform) / sizeof(float);
@@ -68,18 +69,19 @@ struct SkyTable {
 
 struct ShadingTables {
   const TriangleRecord* triangles = nullptr;  // at least one
-  // One record a triangle, or with a stride of 0 a single one of zeros, which stands for flat faces.
+  // One record a triangle, or with a stride of 0 a single one of zeros, which stands for flat
+  // faces.
   const NormalRecord* normals = nullptr;
-  int normalStride = 0;                       // floats
-  std::vector<MaterialRecord> materials;      // at least one
-  std::vector<TextureRecord> textures;        // at least one
-  std::vector<std::uint32_t> texels;          // all textures of the frame's effects
-  std::vector<InstanceTransform> instances;   // at least one
-  std::vector<MediumRecord> media;            // [0] is vacuum
+  int normalStride = 0;                      // floats
+  std::vector<MaterialRecord> materials;     // at least one
+  std::vector<TextureRecord> textures;       // at least one
+  std::vector<std::uint32_t> texels;         // all textures of the frame's effects
+  std::vector<InstanceTransform> instances;  // at least one
+  std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<PointLight> lights;
   SkyTable sky;
   Ambient ambient;
-  bool samePriority = true;                   // no medium outranks another
+  bool samePriority = true;  // no medium outranks another
 };
 
 }  // namespace whit
