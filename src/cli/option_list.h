@@ -29,7 +29,7 @@ class OptionList {
   Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
     const std::string known = formatValue(spec, field);
     const bool tell =
-        !spec.placeholder.empty() && !known.empty() && help.find("(") == std::string::npos;
+        !spec.placeholder.empty() && !known.empty() && help.find('(') == std::string::npos;
     return push(spec, tell ? help + " (default: " + known + ")" : help,
                 [spec, &field](const std::string& text) { parseValue(spec, text, field); });
   }

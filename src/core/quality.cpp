@@ -11,10 +11,10 @@ struct Preset {
   Mode mode;
 };
 
-constexpr RenderOptions kDefaults;
+const RenderOptions kDefaults;
 // draft drops impulses worth less than one 8-bit sRGB step at the dark end (1 / 255 = 4e-3);
 // reference drops none.
-constexpr Preset kPresets[] = {
+const Preset kPresets[] = {
     {Quality::draft, 1, 4, 4.0e-3f, Mode::packets},
     {Quality::standard, kDefaults.spp, kDefaults.depth, kDefaults.cutoff, kDefaults.mode},
     {Quality::fine, 4, kDefaults.depth, kDefaults.cutoff, Mode::packets},
