@@ -1,3 +1,4 @@
+#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -40,7 +41,7 @@ HWY_INLINE float LightBound(const PointLight& light) {
   return 0x1p-19f * (p.x + p.y + p.z);
 }
 
-template <bool kGlossy>
+template <uint32_t kBits>
 HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const PointLight& light,
                                                      const RayColumns& rays,
                                                      const SurfelColumns& surfels, size_t n,
@@ -78,7 +79,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const Po
     const VF nl = Dot(ns, l);
     V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
                      hn::Set(d, 0.318309886f));
-    if constexpr (kGlossy) {
+    if constexpr ((kBits & EffectSet::bit(Effect::glossy)) != 0) {
       const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
       const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
       if (!hn::AllFalse(d, shiny)) {
@@ -117,10 +118,10 @@ size_t FindRadianceAndShadowRays(const ShadingTables&, EffectSet effects, const 
                                  const RayColumns& rays, const SurfelColumns& surfels, size_t n,
                                  const UnshadowedColumns& unshadowed,
                                  const ShadowColumns& shadows) {
-  return effects.has(Effect::glossy) ? FindRadianceAndShadowRaysVariant<true>(
-                                           effects, light, rays, surfels, n, unshadowed, shadows)
-                                     : FindRadianceAndShadowRaysVariant<false>(
-                                           effects, light, rays, surfels, n, unshadowed, shadows);
+  static constexpr auto kVariants = variantTable<kFindRadianceAndShadowRays>(
+      []<uint32_t kBits>() { return &FindRadianceAndShadowRaysVariant<kBits>; });
+  return kVariants[kFindRadianceAndShadowRays.variantFor(effects)](effects, light, rays, surfels, n,
+                                                                   unshadowed, shadows);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

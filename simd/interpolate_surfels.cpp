@@ -1,4 +1,5 @@
 // Second half of findIntersections: from hits to surfels.
+#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -19,8 +20,6 @@ constexpr uint32_t kInstanced = EffectSet::bit(Effect::instances);
 constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
-// The effects that change this kernel's code; the others are plain branches, the same for a call.
-constexpr uint32_t kVariantBits = kSmooth | kTextured | kNormalMapped;
 
 // The corners and texture coordinates of each lane's triangle, and what follows from them.
 struct TriangleLanes {
@@ -259,22 +258,9 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
 
 void InterpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
                         const HitColumns& hits, size_t n, const SurfelColumns& surfels) {
-  switch (effects.bits() & kVariantBits) {
-#define WHIT_VARIANT(bits) \
-  case bits:               \
-    return InterpolateSurfelsVariant<bits>(tables, effects, rays, hits, n, surfels);
-    WHIT_VARIANT(0)
-    WHIT_VARIANT(kSmooth)
-    WHIT_VARIANT(kTextured)
-    WHIT_VARIANT(kNormalMapped)
-    WHIT_VARIANT(kSmooth | kTextured)
-    WHIT_VARIANT(kSmooth | kNormalMapped)
-    WHIT_VARIANT(kTextured | kNormalMapped)
-    WHIT_VARIANT(kSmooth | kTextured | kNormalMapped)
-#undef WHIT_VARIANT
-    default:
-      HWY_ABORT("interpolateSurfels: no such variant");
-  }
+  static constexpr auto kVariants = variantTable<kInterpolateSurfels>(
+      []<uint32_t kBits>() { return &InterpolateSurfelsVariant<kBits>; });
+  kVariants[kInterpolateSurfels.variantFor(effects)](tables, effects, rays, hits, n, surfels);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -1,6 +1,7 @@
 // Which SIMD target the kernels run on.
 #include <cstdint>
 
+#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -52,6 +53,24 @@ std::vector<std::string> availableTargets() {
     if ((detectedTargets() & target.bit) != 0) names.emplace_back(target.name);
   }
   return names;
+}
+
+std::vector<std::string> compiledTargets() {
+  std::vector<std::string> names;
+  for (const TargetName& target : kTargetNames) {
+    if ((HWY_TARGETS & target.bit) != 0) names.emplace_back(target.name);
+  }
+  return names;
+}
+
+std::string variantName(EffectSet variant) {
+  std::string name;
+  for (int i = 0; i < kEffectCount; ++i) {
+    if (!variant.has(static_cast<Effect>(i))) continue;
+    if (!name.empty()) name += '+';
+    name += kEffectNames[static_cast<std::size_t>(i)].name;
+  }
+  return name.empty() ? "plain" : name;
 }
 
 bool chooseTarget(const std::string& name) {

@@ -3,10 +3,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/image_output.h"
 #include "cli/json_report.h"
-#include "cli/open_scene.h"
 #include "cli/progress_bar.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
@@ -17,22 +17,27 @@ namespace {
 
 constexpr const char* kUsage = "whit bench SCENE... [options]";
 constexpr const char* kSummary =
-    "Renders frames and says where their time goes. With --widths the frames of all runs take\n"
-    "turns, so that whatever else the machine does hits all of them alike.";
-constexpr int kWarmUpFrames = 3;
+    "Renders frames and says where their time goes. With --widths and --ab-effects the frames\n"
+    "of all runs take turns, so that whatever else the machine does hits all of them alike.";
 constexpr int kWidths[] = {1, 4, 8, 16};
 
 struct BenchJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   int frames = 0;  // 0: not given
-  bool floor = false, widths = false;
+  bool floor = false, widths = false, abEffects = false;
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
   // The reference takes seconds a frame, against which warming up is nothing.
-  int countedFrames() const { return frames > 0 ? frames : reference() ? 1 : 20; }
-  int warmUpFrames() const { return reference() ? 0 : kWarmUpFrames; }
+  Turns turns() const {
+    Turns turns;
+    if (reference()) turns.warmUp = 0, turns.counted = 1;
+    if (frames > 0) turns.counted = frames;
+    turns.floor = floor;
+    return turns;
+  }
+  bool comparesRuns() const { return widths || abEffects; }
 };
 
 OptionList listOptions(BenchJob& job) {
@@ -42,6 +47,8 @@ OptionList listOptions(BenchJob& job) {
              job.frames);
   list.flag("floor", "also what Embree alone needs for the same rays", job.floor);
   list.flag("widths", "packets of 1, 4, 8 and 16 as separate runs", job.widths);
+  list.flag("ab-effects", "kernels with the scene's effects and with every effect as two runs",
+            job.abEffects);
   list.value({"json", "FILE"}, "all runs for machines; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -49,57 +56,24 @@ OptionList listOptions(BenchJob& job) {
   return list;
 }
 
-// A scene with one choice of options.
-class BenchRun {
- public:
-  BenchRun(std::shared_ptr<const OpenScene> open, const BenchJob& job, const RenderOptions& options,
-           Progress* progress)
-      : open_(std::move(open)),
-        options_(options),
-        renderer_(open_->scene, options, progress),
-        camera_(chooseCamera(open_->scene, options)),
-        film_(openFilm(open_->scene, job.common)),
-        summary_(summarise(open_->scene, options, renderer_, film_, open_->loadMs)) {}
-
-  void warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }
-  void measure(bool floor) {
-    summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
-    if (floor) summary_.floorMs.push_back(renderer_.measureFloor(camera_, film_, 1).floorMs);
-  }
-  const RunSummary& summary() const { return summary_; }
-
- private:
-  std::shared_ptr<const OpenScene> open_;
-  RenderOptions options_;
-  Renderer renderer_;
-  Camera camera_;
-  Film film_;
-  RunSummary summary_;
-};
-
-using BenchRuns = std::vector<std::unique_ptr<BenchRun>>;
-
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
-  if (!job.widths) {
-    runs.push_back(std::make_unique<BenchRun>(open, job, job.common.render, progress));
-    return;
-  }
-  for (const int width : kWidths) {
-    RenderOptions options = job.common.render;
-    options.packet = width;
-    runs.push_back(std::make_unique<BenchRun>(open, job, options, progress));
-  }
-}
-
-// One frame of each run in turn; a floor right after its frame.
-void takeTurns(const BenchRuns& runs, const BenchJob& job, Progress* progress) {
-  for (int i = 0; i < job.warmUpFrames(); ++i) {
-    for (const auto& run : runs) run->warmUp();
-  }
-  for (int i = 0; i < job.countedFrames(); ++i) {
-    reportProgress(progress, "measuring", static_cast<double>(i) / job.countedFrames());
-    for (const auto& run : runs) run->measure(job.floor);
+  const auto add = [&](const RenderOptions& options) {
+    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
+  };
+  RenderOptions options = job.common.render;
+  if (job.widths) {
+    for (const int width : kWidths) {
+      options.packet = width;
+      add(options);
+    }
+  } else if (job.abEffects) {
+    for (const EffectChoice choice : {EffectChoice::automatic, EffectChoice::all}) {
+      options.effects = choice;
+      add(options);
+    }
+  } else {
+    add(options);
   }
 }
 
@@ -109,6 +83,12 @@ void checkJob(const BenchJob& job) {
   if (job.reference() && job.widths) throwUsage("--widths is for packets, not --mode reference");
   if (job.widths && job.common.given.contains("packet")) {
     throwUsage("--widths runs every packet width: leave out --packet");
+  }
+  if (!job.abEffects) return;
+  if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
+  if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");
+  if (job.common.given.contains("effects")) {
+    throwUsage("--ab-effects runs both choices of --effects: leave out --effects");
   }
 }
 
@@ -125,8 +105,8 @@ int benchCommand(const Words& words) {
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
-    if (job.widths && i + 1 < job.scenes.size()) continue;
-    takeTurns(runs, job, progress.get());
+    if (job.comparesRuns() && i + 1 < job.scenes.size()) continue;
+    takeTurns(runs, job.turns(), progress.get());
     for (const auto& run : runs) summaries.push_back(run->summary());
     runs.clear();
   }
@@ -134,8 +114,11 @@ int benchCommand(const Words& words) {
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
+    for (std::size_t i = 0; job.abEffects && i + 1 < summaries.size(); i += 2) {
+      std::fprintf(people, "%s", effectsRatioText(summaries[i], summaries[i + 1]).c_str());
+    }
   }
-  if (!job.json.empty()) writeJson(job.json, benchJson(summaries));
+  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.abEffects));
   return 0;
 }
 

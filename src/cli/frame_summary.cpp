@@ -40,6 +40,22 @@ const FrameStats& medianFrame(const RunSummary& run) {
                        [&](const FrameStats& frame) { return frame.frameMs == median; });
 }
 
+double outsideEmbreeMs(const RunSummary& run) {
+  const FrameStats& frame = medianFrame(run);
+  return frame.frameMs - frame.embreeMs();
+}
+
+RunRatio ratioOf(const RunSummary& a, const RunSummary& b) {
+  std::vector<double> frames, outside;
+  for (std::size_t i = 0; i < std::min(a.frames.size(), b.frames.size()); ++i) {
+    const FrameStats &x = a.frames[i], &y = b.frames[i];
+    const double restX = x.frameMs - x.embreeMs(), restY = y.frameMs - y.embreeMs();
+    if (y.frameMs > 0) frames.push_back(x.frameMs / y.frameMs);
+    if (restY > 0) outside.push_back(restX / restY);
+  }
+  return {quantile(frames, 0.5), quantile(outside, 0.5)};
+}
+
 double lanesFilled(const RayTally& tally) {
   return tally.lanes == 0 ? 0 : static_cast<double>(tally.rays) / static_cast<double>(tally.lanes);
 }

@@ -33,6 +33,16 @@ double quantile(std::vector<double> values, double share);
 const FrameStats& medianFrame(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
 
+// The median frame's time that is not spent inside Embree's calls.
+double outsideEmbreeMs(const RunSummary& run);
+
+// `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
+// else the machine did to both of a turn's frames cancels. 0 for none.
+struct RunRatio {
+  double frame = 0, outsideEmbree = 0;
+};
+RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
+
 // Live lanes over lanes sent to Embree; 0 where nothing was sent.
 double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);

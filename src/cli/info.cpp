@@ -8,6 +8,8 @@
 #include "cli/json_report.h"
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
+#include "core/error.h"
+#include "simd/kernel_variants.h"
 
 namespace whit::cli {
 
@@ -57,8 +59,8 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
   }
   std::printf("\nkernels\n");
   for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
-    std::printf("  %-34s%-8s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
-                kernel.target.c_str(), kernel.variant.c_str());
+    std::printf("  %-34s%-34s%-8s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
+                kernel.kernel.c_str(), kernel.target.c_str(), kernel.variant.c_str());
   }
   if (open.warnings.entries().empty()) return;
   std::printf("\nwarnings\n");
@@ -68,22 +70,46 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
   }
 }
 
+// Every variant that is compiled, whatever the scene.
+void printKernels() {
+  std::string targets;
+  for (const std::string& name : simd::compiledTargets()) targets += " " + name;
+  std::size_t variants = 0;
+  for (const simd::Kernel& kernel : simd::kKernels) {
+    for (std::size_t i = 0; i < kernel.variantCount(); ++i, ++variants) {
+      std::printf("%-34s%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
+                  std::string(kernel.name).c_str(), simd::variantName(kernel.variant(i)).c_str());
+    }
+  }
+  std::printf("%zu variants of %zu kernels, each for:%s\n", variants, simd::kKernels.size(),
+              targets.c_str());
+}
+
 }  // namespace
 
 int infoCommand(const Words& words) {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string json;
+  bool kernels = false;
   OptionList list;
+  list.flag("kernels", "every compiled variant of every kernel; needs no scene", kernels);
   list.value({"json", "FILE"}, "the same for machines; - is standard output", json);
   listCommonOptions(list, common);
-  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
-  if (parseOptions("whit info SCENE [options]",
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 0, 1, scenes);
+  if (parseOptions("whit info SCENE [options], or whit info --kernels",
                    "What the scene holds, which effects it calls for and why, which kernels run.",
                    list, words) == Parsed::helpShown) {
     return 0;
   }
   settleOptions(common);
+  if (kernels) {
+    if (!scenes.empty())
+      throwUsage("--kernels lists what is compiled, for any scene: leave it out");
+    printKernels();
+    return 0;
+  }
+  if (scenes.empty()) throwUsage("whit info expected a SCENE");
   requireJsonWritable(json);
   auto progress = makeProgressBar(!common.quiet && common.progress == "auto");
   CommonOptions loading = common;

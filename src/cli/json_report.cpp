@@ -57,6 +57,7 @@ Json runJson(const RunSummary& run) {
             {"packet", run.machine.packet},
             {"simd", run.machine.simd}};
   json.update(settingsJson(run.options));
+  json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
   json["effects"] = effectNames(run.effects);
   json["triangles"] = run.triangles;
   json["frames"] = run.frames.size();
@@ -67,6 +68,7 @@ Json runJson(const RunSummary& run) {
   json["load_ms"] = run.loadMs;
   json["stages_ms"] = stagesJson(frame);
   json["embree_ms"] = frame.embreeMs();
+  json["outside_embree_ms"] = outsideEmbreeMs(run);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["rays"][std::string(kRayKindNames[i])] = frame.tally[i].rays;
   }
@@ -84,10 +86,16 @@ Json runJson(const RunSummary& run) {
   return json;
 }
 
-Json benchJson(const std::vector<RunSummary>& runs) {
+Json benchJson(const std::vector<RunSummary>& runs, bool abEffects) {
   Json json{{"schema", kSchema}, {"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
+  for (std::size_t i = 0; abEffects && i + 1 < runs.size(); i += 2) {
+    const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
+    json["all_over_auto"].push_back({{"scene", runs[i].scene},
+                                     {"frame", ratio.frame},
+                                     {"outside_embree", ratio.outsideEmbree}});
+  }
   return json;
 }
 
@@ -144,6 +152,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
   json["kernels"] = Json::array();
   for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
     json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+                               {"kernel", kernel.kernel},
                                {"variant", kernel.variant},
                                {"target", kernel.target}});
   }

@@ -19,7 +19,9 @@ using Json = nlohmann::ordered_json;
 Json machineJson(const Machine& machine);
 // `stages_ms`, `embree_ms`, `rays` and what follows are those of the median frame.
 Json runJson(const RunSummary& run);
-Json benchJson(const std::vector<RunSummary>& runs);
+// `abEffects`: the runs come in pairs, the scene's effects and all of them; adds the latter over
+// the former as `all_over_auto`.
+Json benchJson(const std::vector<RunSummary>& runs, bool abEffects = false);
 
 struct Comparison {
   ImageDifference difference;

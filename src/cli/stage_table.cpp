@@ -94,4 +94,16 @@ std::string stageTable(const RunSummary& run) {
   return text;
 }
 
+std::string effectsRatioText(const RunSummary& scenes, const RunSummary& all) {
+  const RunRatio ratio = ratioOf(all, scenes);
+  std::string text;
+  append(text, "%s, every effect over the scene's, medians of %zu turns\n", scenes.scene.c_str(),
+         scenes.frames.size());
+  append(text, "  %-34s%10.3f  (%.2f over %.2f ms)\n", "whole frame", ratio.frame,
+         medianFrame(all).frameMs, medianFrame(scenes).frameMs);
+  append(text, "  %-34s%10.3f  (%.2f over %.2f ms)\n", "outside Embree", ratio.outsideEmbree,
+         outsideEmbreeMs(all), outsideEmbreeMs(scenes));
+  return text;
+}
+
 }  // namespace whit::cli

@@ -11,4 +11,8 @@ namespace whit::cli {
 // the median frame, and the floor if it was measured.
 std::string stageTable(const RunSummary& run);
 
+// What it costs to compile in every effect: the ratios of two runs of one scene, whose frames took
+// turns.
+std::string effectsRatioText(const RunSummary& scenes, const RunSummary& all);
+
 }  // namespace whit::cli

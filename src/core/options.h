@@ -74,7 +74,7 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);
-  visit("simd", "auto|avx3|avx2|sse4|ssse3|scalar", "kernel target, and the Embree ISA with it",
+  visit("simd", "auto|avx3|avx2|sse4|neon|scalar", "kernel target, and the Embree ISA with it",
         o.simd);
   visit("mode", "packets|reference", "vector pipeline, or the scalar recursive reference", o.mode);
   visit("batch", "tile|frame", "stages run over a tile at a time, or over the whole frame",

@@ -54,6 +54,12 @@ void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
     use(m.specularMap);
     use(m.normalMap);
   }
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    if (needed && used[i]) total += scene.textures[i].texels.size();
+  }
+  if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
+  tables.texels.reserve(total + 1);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const Texture& t = scene.textures[i];
     TextureRecord record{static_cast<std::uint32_t>(tables.texels.size()), t.width, t.height,
@@ -66,7 +72,6 @@ void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
     }
     tables.textures.push_back(record);
   }
-  if (tables.texels.size() > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
   if (tables.texels.empty()) tables.texels.push_back(0);
   if (tables.textures.empty()) tables.textures.push_back({0, 1, 1, 0});
 }

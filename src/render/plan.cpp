@@ -1,5 +1,8 @@
 #include "render/plan.h"
 
+#include <algorithm>
+
+#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -14,15 +17,13 @@ EffectSet consistent(EffectSet e) {
   return e;
 }
 
-// The effects of `mask` that are on, joined by '+'.
-std::string variantName(EffectSet effects, std::initializer_list<Effect> mask) {
-  std::string name;
-  for (const Effect e : mask) {
-    if (!effects.has(e)) continue;
-    if (!name.empty()) name += '+';
-    name += kEffectNames[static_cast<std::size_t>(e)].name;
+bool runs(const Plan& plan, const simd::Kernel& kernel) {
+  if (std::find(plan.stages.begin(), plan.stages.end(), kernel.stage) == plan.stages.end()) {
+    return false;
   }
-  return name.empty() ? "plain" : name;
+  if (kernel.name == "addReflections") return plan.traceReflections;
+  if (kernel.name == "addRefractions") return plan.traceRefractions;
+  return true;
 }
 
 }  // namespace
@@ -53,15 +54,18 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
 std::vector<KernelUse> kernelsOf(const Plan& plan) {
   const std::string target = simd::chosenTarget();
   std::vector<KernelUse> uses;
-  for (const Stage stage : plan.stages) {
-    std::string variant = "plain";
-    if (stage == Stage::findIntersections) {
-      variant =
-          variantName(plan.effects, {Effect::smoothNormals, Effect::textures, Effect::normalMaps});
-    } else if (stage == Stage::findRadianceAndShadowRays) {
-      variant = variantName(plan.effects, {Effect::glossy});
+  bool shadows = plan.traceShadows;
+  for (const simd::Kernel& kernel : simd::kKernels) {
+    if (!runs(plan, kernel)) continue;
+    if (shadows && kernel.stage > Stage::checkShadows) {
+      uses.push_back({Stage::checkShadows, "occluded", "plain", "embree"});
+      shadows = false;
     }
-    uses.push_back({stage, variant, stage == Stage::checkShadows ? "embree" : target});
+    if (kernel.stage == Stage::findIntersections) {
+      uses.push_back({kernel.stage, "intersect", "plain", "embree"});
+    }
+    const EffectSet variant = kernel.variant(kernel.variantFor(plan.effects));
+    uses.push_back({kernel.stage, std::string(kernel.name), simd::variantName(variant), target});
   }
   return uses;
 }

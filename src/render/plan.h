@@ -23,11 +23,13 @@ struct Plan {
 
 Plan makePlan(const Scene& scene, const RenderOptions& options);
 
-// One row of `whit info`'s kernels.
+// One row of `whit info`'s kernels: those of simd/kernel_variants.h that the plan runs, and
+// Embree's part of a stage.
 struct KernelUse {
   Stage stage;
+  std::string kernel;
   std::string variant;  // effect names joined by '+', "plain" if none
-  std::string target;   // SIMD target
+  std::string target;   // SIMD target, or "embree"
 };
 std::vector<KernelUse> kernelsOf(const Plan& plan);
 

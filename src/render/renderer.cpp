@@ -169,6 +169,25 @@ void Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observer) {
   });
 }
 
+void Renderer::setOptions(const RenderOptions& options) {
+  Parts& p = *parts_;
+  const Plan plan = makePlan(p.scene, options);
+  if (plan.effects.has(Effect::alphaMasks) != p.plan.effects.has(Effect::alphaMasks)) {
+    throwUsage("alpha masks are part of the acceleration structure: it has to be built anew");
+  }
+  if (plan.effects != p.plan.effects) p.tables = buildTables(p.scene, plan.effects);
+  const bool otherQueues = plan.effects != p.plan.effects || plan.depth != p.plan.depth;
+  p.plan = plan;
+  if (otherQueues) p.tracers.clear();  // laid out again by the next frame
+  p.options.spp = options.spp;
+  p.options.depth = options.depth;
+  p.options.cutoff = options.cutoff;
+  p.options.exposure = options.exposure;
+  p.options.toneCurve = options.toneCurve;
+  p.options.effects = options.effects;
+  p.options.disable = options.disable;
+}
+
 FrameStats Renderer::render(const Camera& camera, Film& film) {
   FrameJob job = parts_->makeJob(camera, film);
   return parts_->renderFrame(job, nullptr);

@@ -48,9 +48,9 @@ Camera framingCamera(const Scene& scene) {
   return camera;
 }
 
-template <typename T>
-std::uint64_t bytesOf(const std::vector<T>& v) {
-  return static_cast<std::uint64_t>(v.size()) * sizeof(T);
+template <typename Vector>
+std::uint64_t bytesOf(const Vector& v) {
+  return static_cast<std::uint64_t>(v.size()) * sizeof(typename Vector::value_type);
 }
 
 }  // namespace

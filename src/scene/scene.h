@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/effects.h"
+#include "core/huge_vector.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "scene/camera.h"
@@ -100,9 +101,9 @@ class Scene {
   // Geometry 0 is the world (may be empty), the others are instanced.
   std::vector<Geometry> geometries;
   std::vector<InstanceRecord> instances;
-  std::vector<TriangleRecord> triangles;  // all geometries, one after the other
+  HugeVector<TriangleRecord> triangles;  // all geometries, one after the other
   // Same length, or empty when no mesh has normals other than its triangles'.
-  std::vector<NormalRecord> normals;
+  HugeVector<NormalRecord> normals;
 
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;

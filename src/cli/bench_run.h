@@ -1,0 +1,44 @@
+// Runs that are measured against each other: their frames take turns, so that whatever else the
+// machine does hits all of them alike.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cli/frame_summary.h"
+#include "cli/open_scene.h"
+
+namespace whit::cli {
+
+// A scene with one choice of options.
+class BenchRun {
+ public:
+  // `common` gives the film's size and limits, `options` everything else.
+  BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
+           const RenderOptions& options, Progress* progress);
+
+  void warmUp();
+  void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
+  const RunSummary& summary() const { return summary_; }
+  // Of the scene and of what the renderer has allocated, in 10^6 bytes. Complete after a frame.
+  double memoryMb() const;
+
+ private:
+  std::shared_ptr<const OpenScene> open_;
+  RenderOptions options_;
+  Renderer renderer_;
+  Camera camera_;
+  Film film_;
+  RunSummary summary_;
+};
+
+using BenchRuns = std::vector<std::unique_ptr<BenchRun>>;
+
+struct Turns {
+  int warmUp = 3, counted = 20;
+  bool floor = false;
+};
+// One frame of each run in turn; a floor right after its frame.
+void takeTurns(const BenchRuns& runs, const Turns& turns, Progress* progress);
+
+}  // namespace whit::cli

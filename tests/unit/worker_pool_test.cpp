@@ -1,0 +1,68 @@
+#include "core/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace whit::test {
+namespace {
+
+TEST(WorkerPool, everyWorkerRunsOnceARun) {
+  for (const int workers : {1, 2, 3, 8}) {
+    WorkerPool pool(workers);
+    // Plain integers, one a worker: a missing barrier is a data race that the thread sanitizer
+    // sees.
+    std::vector<int> calls(static_cast<std::size_t>(workers), 0);
+    for (int round = 1; round <= 200; ++round) {
+      pool.run([&](int worker) { ++calls[static_cast<std::size_t>(worker)]; });
+      for (const int c : calls) ASSERT_EQ(c, round) << workers << " workers";
+    }
+  }
+}
+
+TEST(WorkerPool, workIsSharedThroughACounter) {
+  WorkerPool pool(3);
+  std::vector<int> done(1000, 0);
+  std::atomic<std::size_t> next{0};
+  pool.run([&](int) {
+    for (std::size_t i = next++; i < done.size(); i = next++) ++done[i];
+  });
+  for (const int d : done) EXPECT_EQ(d, 1);
+}
+
+TEST(WorkerPool, anExceptionReachesTheCallerAndThePoolLivesOn) {
+  WorkerPool pool(2);
+  for (const int thrower : {0, 1}) {
+    EXPECT_THROW(pool.run([&](int worker) {
+      if (worker == thrower) throw std::runtime_error("from a worker");
+    }),
+                 std::runtime_error);
+  }
+  std::atomic<int> calls{0};
+  pool.run([&](int) { ++calls; });
+  EXPECT_EQ(calls, 2);
+}
+
+// A product that is denormal, computed where the compiler cannot see its factors.
+float denormalProduct() {
+  const volatile float tiny = std::numeric_limits<float>::min();
+  const volatile float half = 0.5f;
+  return tiny * half;
+}
+
+TEST(WorkerPool, H55_denormalsAreFlushedInEveryWorkerAndNowhereElse) {
+  ASSERT_GT(denormalProduct(), 0.0f);
+  WorkerPool pool(3);
+  std::vector<float> products(3, -1.0f);
+  pool.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
+  for (const float p : products) EXPECT_EQ(p, 0.0f);
+  EXPECT_GT(denormalProduct(), 0.0f);
+}
+
+TEST(WorkerPool, thereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }
+
+}  // namespace
+}  // namespace whit::test
