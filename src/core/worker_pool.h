@@ -1,5 +1,5 @@
-// A fixed crew of threads that run one function together. Two barriers a run; nobody spins for ever,
-// so a stolen core costs its share and no more.
+// A fixed crew of threads that run one function together. Two barriers a run; nobody spins for
+// ever, so a stolen core costs its share and no more.
 #pragma once
 
 #include <barrier>
@@ -21,9 +21,9 @@ class WorkerPool {
 
   int workers() const { return workers_; }
 
-  // Calls job(0) .. job(workers() - 1), each on a thread of its own (0 on the caller's), and returns
-  // when all are done. Rethrows the first exception. While it runs, every worker flushes denormals
-  // to zero. Not reentrant.
+  // Calls job(0) .. job(workers() - 1), each on a thread of its own (0 on the caller's), and
+  // returns when all are done. Rethrows the first exception. While it runs, every worker flushes
+  // denormals to zero. Not reentrant.
   void run(const std::function<void(int)>& job);
 
  private:

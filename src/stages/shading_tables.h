@@ -75,7 +75,7 @@ struct ShadingTables {
   int normalStride = 0;                      // floats
   std::vector<MaterialRecord> materials;     // at least one
   std::vector<TextureRecord> textures;       // at least one
-  HugeVector<std::uint32_t> texels;         // all textures of the frame's effects
+  HugeVector<std::uint32_t> texels;          // all textures of the frame's effects
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<PointLight> lights;
