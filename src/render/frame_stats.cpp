@@ -12,6 +12,8 @@ void FrameStats::add(const FrameStats& worker) {
     tally[i].lanes += worker.tally[i].lanes;
   }
   embreeWorkerMs += worker.embreeWorkerMs;
+  reflectionCalls += worker.reflectionCalls;
+  refractionCalls += worker.refractionCalls;
   nonFinitePixels += worker.nonFinitePixels;
 }
 

@@ -44,9 +44,9 @@ TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
       capacity_(roundUpToBlock(capacity)),
       levels_(static_cast<std::size_t>(plan.depth) + 1),
       hits_(capacity_, plan.groups),
-      surfels_(capacity_, plan.groups),
-      unshadowed_(plan.effects.has(Effect::lights) ? capacity_ : kBlock, plan.groups),
-      shadows_(plan.traceShadows ? capacity_ : kBlock, plan.groups) {
+      surfels_(capacity_, plan.groups) {
+  if (plan.effects.has(Effect::lights)) unshadowed_.allocate(capacity_, plan.groups);
+  if (plan.traceShadows) shadows_.allocate(capacity_, plan.groups);
   reserveLevel(0, capacity_);
 }
 
@@ -57,10 +57,22 @@ void TileTracer::reserveLevel(std::size_t depth, std::size_t rays) {
   if (level.radiance.capacity() == 0) level.radiance.allocate(capacity_, plan_.groups);
 }
 
+BufferBytes TileTracer::bufferBytes() const {
+  BufferBytes bytes;
+  for (const Level& level : levels_) {
+    bytes.rays += level.rays.bytes();
+    bytes.radiance += level.radiance.bytes();
+  }
+  bytes.hits = hits_.bytes();
+  bytes.surfels = surfels_.bytes();
+  bytes.unshadowed = unshadowed_.bytes();
+  bytes.shadows = shadows_.bytes();
+  return bytes;
+}
+
 std::size_t TileTracer::bytes() const {
-  std::size_t sum = hits_.bytes() + surfels_.bytes() + unshadowed_.bytes() + shadows_.bytes();
-  for (const Level& level : levels_) sum += level.rays.bytes() + level.radiance.bytes();
-  return sum + sums_.capacity() * sizeof(double) + codes_.capacity() * sizeof(std::uint32_t);
+  return bufferBytes().sum() + sums_.capacity() * sizeof(double) +
+         codes_.capacity() * sizeof(std::uint32_t);
 }
 
 void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixels,
@@ -177,11 +189,13 @@ void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& ra
   if (plan_.traceReflections) {
     next.count = simd::addReflections(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
                                       *surfels_, level.chunk, *next.rays, 0);
+    ++pass.stats.reflectionCalls;
   }
   next.reflections = next.count;
   if (plan_.traceRefractions) {
     next.count += simd::addRefractions(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
                                        *surfels_, level.chunk, *next.rays, next.count);
+    ++pass.stats.refractionCalls;
   }
   pass.children = next.count;
   endStage(pass, Stage::addImpulses, depth);

@@ -62,6 +62,12 @@ struct FrameJob {
   StageObserver* observer = nullptr;
 };
 
+// Of each set of columns, all depths together; 0 where the plan has no use for it.
+struct BufferBytes {
+  std::size_t rays = 0, radiance = 0, hits = 0, surfels = 0, unshadowed = 0, shadows = 0;
+  std::size_t sum() const { return rays + radiance + hits + surfels + unshadowed + shadows; }
+};
+
 class TileTracer {
  public:
   TileTracer(const Plan& plan, std::size_t capacity);
@@ -69,6 +75,7 @@ class TileTracer {
   // Traces all samples of the pixels and writes them to the film. `log` may be null.
   void trace(const FrameJob& job, std::span<const std::uint32_t> pixels, FrameStats& stats,
              RayLog* log);
+  BufferBytes bufferBytes() const;
   std::size_t bytes() const;
 
  private:

@@ -1,4 +1,7 @@
 whit_test(invariance whit_render whit_io)
 whit_test(effects_law whit_render whit_io)
+whit_test(effects_kernels whit_render)
+whit_test(effects_absent whit_render whit_io)
 whit_test(scaling whit_render whit_io)
 whit_test(twins whit_render whit_io whit_metrics)
+whit_test(analytic whit_render whit_io)

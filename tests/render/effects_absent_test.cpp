@@ -1,0 +1,201 @@
+// A scene without an effect, and the same scene with it: what the effect costs when it is absent.
+#include <gtest/gtest.h>
+
+#include "render/renderer_parts.h"
+#include "render/shipped_scene.h"
+#include "scene/effect_steps.h"
+#include "scene/leave_out.h"
+
+namespace whit::test {
+namespace {
+
+Scene loadWithout(EffectSet effects) {
+  Warnings warnings;
+  SceneDescription description = loadScene("effects", LoadOptions{}, warnings);
+  leaveOut(description, effects);
+  return Scene::finalize(std::move(description), warnings);
+}
+
+// What cannot be there without `effect`.
+EffectSet withDependents(Effect effect) {
+  const EffectSet set = EffectSet().with(effect);
+  switch (effect) {
+    case Effect::lights:
+      return set.with(Effect::shadows);
+    case Effect::sky:
+      return set.with(Effect::skyImage);
+    case Effect::transmission:
+      return set.with(Effect::absorption);
+    default:
+      return set;
+  }
+}
+
+std::string nameOf(Effect effect) {
+  return std::string(kEffectNames[static_cast<std::size_t>(effect)].name);
+}
+
+class AbsentEffect : public testing::TestWithParam<int> {
+ protected:
+  Effect effect() const { return static_cast<Effect>(GetParam()); }
+};
+
+TEST_P(AbsentEffect, IsWhatTheSceneNoLongerCallsFor) {
+  EXPECT_EQ(loadWithout(EffectSet()).effects, EffectSet::all());
+  EXPECT_EQ(loadWithout(withDependents(effect())).effects,
+            EffectSet::all().without(withDependents(effect())));
+}
+
+TEST_P(AbsentEffect, CompiledInAllTheSameGivesTheSameBits) {
+  const Scene scene = loadWithout(withDependents(effect()));
+  RenderOptions o = smallOptions();
+  const Image plain = render(scene, o).image;
+  o.effects = EffectChoice::all;
+  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+  o.disable = withDependents(effect()).without(EffectSet().with(effect()));
+  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "") << "this one alone";
+}
+
+TEST_P(AbsentEffect, OnTopOfTheMatteSceneGivesTheSameBits) {
+  const EffectSet matte = kMatteEffects.without(withDependents(effect()));
+  const Scene scene = loadWithout(EffectSet::all().without(matte));
+  ASSERT_EQ(scene.effects, matte);
+  RenderOptions o = smallOptions();
+  const Image plain = render(scene, o).image;
+  o.effects = EffectChoice::all;
+  o.disable = EffectSet::all().without(matte.with(effect()));
+  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+}
+
+// Rays, kernel calls and memory of a frame.
+struct Cost {
+  FrameStats stats;
+  BufferBytes buffers;
+  std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
+  bool skyImage = false;
+};
+
+Cost costWithout(EffectSet effects) {
+  const Scene scene = loadWithout(effects);
+  RenderOptions o = smallOptions();
+  o.threads = 1;
+  o.depth = 1;
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  Cost cost;
+  cost.stats = renderer.render(chooseCamera(scene, o), film);
+  const Renderer::Parts& parts = renderer.parts();
+  cost.buffers = parts.tracers.at(0).bufferBytes();
+  cost.capacity = static_cast<std::size_t>(o.tile * o.tile);
+  cost.texels = parts.tables.texels.size();
+  cost.instances = parts.tables.instances.size();
+  cost.lights = parts.tables.lights.size();
+  cost.skyImage = parts.tables.sky.r != nullptr;
+  return cost;
+}
+
+std::uint64_t callsOf(const Cost& cost, Stage stage) {
+  return cost.stats.kernelCalls[static_cast<std::size_t>(stage)];
+}
+
+template <typename Columns>
+std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool instances) {
+  Groups groups;
+  groups.glossy = glossy;
+  groups.transmission = transmission;
+  groups.instances = instances;
+  return ColumnStore<Columns>(cost.capacity, groups).bytes();
+}
+
+TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
+  const Cost cost = costWithout(EffectSet());
+  for (const RayTally& tally : cost.stats.tally) EXPECT_GT(tally.rays, 0u);
+  for (const std::uint64_t calls : cost.stats.kernelCalls) EXPECT_GT(calls, 0u);
+  EXPECT_GT(cost.stats.reflectionCalls, 0u);
+  EXPECT_GT(cost.stats.refractionCalls, 0u);
+  EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
+  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
+  EXPECT_EQ(cost.buffers.unshadowed, columnBytes<UnshadowedColumns>(cost, true, true, true));
+  EXPECT_EQ(cost.buffers.shadows, columnBytes<ShadowColumns>(cost, true, true, true));
+  EXPECT_GT(cost.texels, 1000u);
+  EXPECT_GT(cost.instances, 1u);
+  EXPECT_TRUE(cost.skyImage);
+}
+
+TEST(AbsentEffects, WithoutLightsNoLightKernelsNoShadowRaysNoBuffers) {
+  const Cost cost = costWithout(EffectSet().with(Effect::lights));
+  EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
+  for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
+    EXPECT_EQ(callsOf(cost, s), 0u) << kStageNames[static_cast<std::size_t>(s)];
+  }
+  EXPECT_EQ(cost.buffers.unshadowed + cost.buffers.shadows, 0u);
+  EXPECT_EQ(cost.lights, 0u);
+}
+
+TEST(AbsentEffects, WithoutShadowsNoShadowRaysAndNoBufferForThem) {
+  const Cost cost = costWithout(EffectSet().with(Effect::shadows));
+  EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
+  EXPECT_EQ(callsOf(cost, Stage::checkShadows), 0u);
+  EXPECT_GT(callsOf(cost, Stage::addShading), 0u);
+  EXPECT_EQ(cost.buffers.shadows, 0u);
+  EXPECT_GT(cost.buffers.unshadowed, 0u);
+}
+
+TEST(AbsentEffects, WithoutMirrorsNoReflections) {
+  const Cost cost = costWithout(EffectSet().with(Effect::mirror));
+  EXPECT_EQ(cost.stats.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(cost.stats.reflectionCalls, 0u);
+  EXPECT_GT(cost.stats.of(RayKind::refraction).rays, 0u);
+}
+
+TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
+  const Cost cost = costWithout(EffectSet().with(Effect::transmission));
+  EXPECT_EQ(cost.stats.of(RayKind::refraction).rays, 0u);
+  EXPECT_EQ(cost.stats.refractionCalls, 0u);
+  EXPECT_GT(cost.stats.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, false, true));
+}
+
+TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
+  const Cost cost = costWithout(EffectSet().with(Effect::transmission).with(Effect::mirror));
+  EXPECT_EQ(callsOf(cost, Stage::addImpulses), 0u);
+  EXPECT_EQ(cost.buffers.rays, columnBytes<RayColumns>(cost, true, false, true));
+  EXPECT_EQ(cost.buffers.radiance, columnBytes<RadianceColumns>(cost, true, true, true));
+}
+
+TEST(AbsentEffects, WithoutGlossyNoSpecularColumns) {
+  const Cost cost = costWithout(EffectSet().with(Effect::glossy));
+  EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, false, true, true));
+}
+
+TEST(AbsentEffects, WithoutInstancesNoColumnAndNoTransforms) {
+  const Cost cost = costWithout(EffectSet().with(Effect::instances));
+  EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, false));
+  EXPECT_EQ(cost.instances, 1u);  // what masked lanes read
+}
+
+TEST(AbsentEffects, WithoutTexturesNoTexels) {
+  const EffectSet maps = EffectSet().with(Effect::textures).with(Effect::normalMaps);
+  const Cost all = costWithout(EffectSet()), none = costWithout(maps);
+  EXPECT_EQ(none.texels, 1u);  // what masked lanes read
+  for (const Effect effect : {Effect::textures, Effect::normalMaps}) {
+    const Cost one = costWithout(EffectSet().with(effect));
+    EXPECT_GT(one.texels, none.texels) << nameOf(effect);
+    EXPECT_LT(one.texels, all.texels) << nameOf(effect);
+  }
+}
+
+TEST(AbsentEffects, WithoutVertexNormalsNoneAreKept) {
+  EXPECT_TRUE(loadWithout(EffectSet().with(Effect::smoothNormals)).normals.empty());
+  EXPECT_FALSE(loadWithout(EffectSet()).normals.empty());
+}
+
+TEST(AbsentEffects, WithoutASkyImageNoPlanes) {
+  EXPECT_FALSE(costWithout(EffectSet().with(Effect::skyImage)).skyImage);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AbsentEffect, testing::Range(0, kEffectCount),
+                         [](const auto& info) { return nameOf(static_cast<Effect>(info.param)); });
+
+}  // namespace
+}  // namespace whit::test
