@@ -32,7 +32,7 @@ struct BenchJob {
   // The reference takes seconds a frame, against which warming up is nothing.
   Turns turns() const {
     Turns turns;
-    if (reference()) turns.warmUp = 0, turns.counted = 1;
+    if (reference()) turns = {0, 1};
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;

@@ -13,6 +13,7 @@ int benchCommand(const Words& words);
 int compareCommand(const Words& words);
 int infoCommand(const Words& words);
 int mergeCommand(const Words& words);
+int effectsCommand(const Words& words);
 
 struct Command {
   const char *name, *summary;
@@ -24,6 +25,7 @@ inline constexpr Command kCommands[] = {
     {"bench", "how long a frame takes, by stage and by kind of ray", benchCommand},
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
+    {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
     {"merge", "crops of one image, put together", mergeCommand},
 };
 

@@ -106,7 +106,8 @@ int infoCommand(const Words& words) {
   if (kernels) {
     if (!scenes.empty())
       throwUsage("--kernels lists what is compiled, for any scene: leave it out");
-    printKernels();
+    if (!json.empty()) writeJson(json, kernelsJson());
+    if (json != "-") printKernels();
     return 0;
   }
   if (scenes.empty()) throwUsage("whit info expected a SCENE");

@@ -8,6 +8,7 @@
 #include "cli/machine_facts.h"
 #include "cli/option_values.h"
 #include "io/atomic_file.h"
+#include "simd/kernel_variants.h"
 
 namespace whit::cli {
 
@@ -155,6 +156,18 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
                                {"kernel", kernel.kernel},
                                {"variant", kernel.variant},
                                {"target", kernel.target}});
+  }
+  return json;
+}
+
+Json kernelsJson() {
+  Json json{{"targets", simd::compiledTargets()}};
+  for (const simd::Kernel& kernel : simd::kKernels) {
+    for (std::size_t i = 0; i < kernel.variantCount(); ++i) {
+      json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+                                 {"kernel", kernel.name},
+                                 {"variant", simd::variantName(kernel.variant(i))}});
+    }
   }
   return json;
 }

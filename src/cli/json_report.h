@@ -35,6 +35,9 @@ Json compareJson(const Comparison& comparison);
 Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,
               const Warnings& warnings);
 
+// Every compiled variant of every kernel: {"targets":[...],"kernels":[{stage, kernel, variant}]}.
+Json kernelsJson();
+
 // "-" is standard output. Throws Error(io).
 void writeJson(const std::string& path, const Json& json);
 

@@ -1,0 +1,108 @@
+// whit effects: one scene as a matte one and then with one effect more at a time; what each adds.
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/bench_run.h"
+#include "cli/commands.h"
+#include "cli/effects_report.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/load_scene.h"
+#include "scene/effect_steps.h"
+#include "scene/leave_out.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kUsage = "whit effects [SCENE] --out DIR [options]";
+constexpr const char* kSummary =
+    "Measures a scene with nothing but point lights and their shadows, then with one effect more "
+    "at\n"
+    "a time until it is complete. The frames of all steps take turns. Writes DIR/effects.csv and\n"
+    "DIR/effects.svg.";
+
+struct EffectsJob {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string out;
+  int frames = 20;
+};
+
+std::shared_ptr<OpenScene> openStep(const SceneDescription& whole, EffectSet kept,
+                                    const EffectsJob& job) {
+  auto open = std::make_shared<OpenScene>(job.common.render.strict);
+  SceneDescription description = whole;
+  leaveOut(description, EffectSet::all().without(kept));
+  open->scene = Scene::finalize(std::move(description), open->warnings);
+  return open;
+}
+
+// Steps for the effects that the scene has; the others would add nothing.
+std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) {
+  Warnings warnings(job.common.render.strict);
+  const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
+  const SceneDescription whole = loadScene(name, job.common.load, warnings, progress);
+  if (!job.common.quiet) tellWarnings(warnings);
+  const EffectSet has = openStep(whole, EffectSet::all(), job)->scene.effects;
+  std::vector<EffectStep> steps;
+  BenchRuns runs;
+  const auto add = [&](std::string_view added, EffectSet kept) {
+    steps.push_back({std::string(added), {}, 0});
+    runs.push_back(std::make_unique<BenchRun>(openStep(whole, kept, job), job.common,
+                                              job.common.render, progress));
+  };
+  EffectSet kept = kMatteEffects;
+  add("matte", kept);
+  for (const Effect effect : kAddedEffects) {
+    kept = kept.with(effect);
+    if (has.has(effect)) add(kEffectNames[static_cast<std::size_t>(effect)].name, kept);
+  }
+  takeTurns(runs, Turns{3, job.frames, false}, progress);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    steps[i].run = runs[i]->summary();
+    steps[i].memoryMb = runs[i]->memoryMb();
+  }
+  return steps;
+}
+
+void checkJob(const EffectsJob& job) {
+  if (job.out.empty()) throwUsage("whit effects expected --out DIR");
+  if (job.common.render.mode == Mode::reference) throwUsage("whit effects is for packets");
+  for (const char* option : {"effects", "disable"}) {
+    if (!job.common.given.contains(option)) continue;
+    throwUsage(std::string("whit effects chooses the effects itself: leave out --") + option);
+  }
+  std::error_code error;
+  std::filesystem::create_directories(job.out, error);
+  if (error) throwIo("cannot make the folder '" + job.out + "': " + error.message());
+}
+
+}  // namespace
+
+int effectsCommand(const Words& words) {
+  EffectsJob job;
+  OptionList list;
+  list.group("Measuring");
+  list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
+  list.value({"frames", "N", 1, 1e6}, "frames of each step that count", job.frames);
+  listCommonOptions(list, job.common);
+  list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
+                job.scenes);
+  if (parseOptions(kUsage, kSummary, list, words) == Parsed::helpShown) return 0;
+  settleOptions(job.common);
+  checkJob(job);
+  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  const std::vector<EffectStep> steps = measureSteps(job, progress.get());
+  progress.reset();
+  if (!job.common.quiet) std::printf("%s", effectsTable(steps).c_str());
+  const WriteScope scope;
+  const std::filesystem::path folder(job.out);
+  writeTextFile((folder / "effects.csv").string(), effectsCsv(steps));
+  writeTextFile((folder / "effects.svg").string(), effectsSvg(steps));
+  return 0;
+}
+
+}  // namespace whit::cli

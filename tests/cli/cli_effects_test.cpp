@@ -1,0 +1,97 @@
+// Effects on the command line: which kernels there are, and what compiling them in costs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+
+namespace whit::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(InfoKernels, ListsEveryVariant) {
+  const Outcome outcome = runWhit({"info", "--kernels"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* text : {"interpolateSurfels", "textures+normalMaps+smoothNormals", "glossy",
+                           "encodeDisplay", "variants of 9 kernels, each for:"}) {
+    EXPECT_NE(outcome.out.find(text), std::string::npos) << text << "\n" << outcome.out;
+  }
+  const Json json = Json::parse(runWhit({"info", "--kernels", "--json", "-"}).out);
+  EXPECT_FALSE(json["targets"].empty());
+  const auto lines = std::count(outcome.out.begin(), outcome.out.end(), '\n');
+  EXPECT_EQ(json["kernels"].size() + 1, static_cast<std::size_t>(lines));
+}
+
+TEST(InfoKernels, EitherASceneOrTheList) {
+  EXPECT_EQ(runWhit({"info"}).status, 2);
+  EXPECT_EQ(runWhit({"info", "--kernels", "matte"}).status, 2);
+}
+
+TEST(AbEffects, MeasuresTheSceneTwice) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const Outcome table = runWhit({"bench", tiny, "--ab-effects", "--frames", "3"});
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_NE(table.out.find("every effect over the scene's, medians of 3 turns"), std::string::npos)
+      << table.out;
+  EXPECT_NE(table.out.find("outside Embree"), std::string::npos) << table.out;
+  const Json json = Json::parse(
+      runWhit({"bench", tiny, tiny, "--ab-effects", "--frames", "2", "--json", "-"}).out);
+  ASSERT_EQ(json["runs"].size(), 4u);
+  ASSERT_EQ(json["all_over_auto"].size(), 2u);
+  for (std::size_t i = 0; i < 4; i += 2) {
+    EXPECT_EQ(json["runs"][i]["effects_choice"], "auto");
+    EXPECT_EQ(json["runs"][i + 1]["effects_choice"], "all");
+    EXPECT_LT(json["runs"][i]["effects"].size(), json["runs"][i + 1]["effects"].size());
+    EXPECT_EQ(json["runs"][i]["rays"], json["runs"][i + 1]["rays"]);
+  }
+  EXPECT_GT(json["all_over_auto"][0]["frame"].get<double>(), 0);
+  EXPECT_GT(json["all_over_auto"][0]["outside_embree"].get<double>(), 0);
+}
+
+TEST(AbEffects, RefusesWhatDoesNotGoWithIt) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--widths"}, {"--mode", "reference"}, {"--effects", "all"}}) {
+    std::vector<std::string> all{"bench", "matte", "--ab-effects"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(runWhit(all).status, 2) << words[0];
+  }
+}
+
+TEST(EffectsCommand, WritesATableAndAPicture) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      runWhit({"effects", "--out", folder / "made", "--frames", "1", "--size", "48x30"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string csv = readFile(folder / "made/effects.csv");
+  // The head, the matte scene, and all effects but its lights and their shadows.
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 13) << csv;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2 + 13) << outcome.out;
+  EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;
+  EXPECT_EQ(readFile(folder / "made/effects.svg").rfind("<svg ", 0), 0u);
+}
+
+TEST(EffectsCommand, AddsOnlyWhatTheSceneHas) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const Outcome outcome =
+      runWhit({"effects", tiny, "--out", folder.path().string(), "--frames", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string csv = readFile(folder / "effects.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2) << csv;  // smooth normals, a mirror
+}
+
+TEST(EffectsCommand, RefusesWrongUsage) {
+  EXPECT_EQ(runWhit({"effects"}).status, 2);
+  EXPECT_EQ(runWhit({"effects", "--out", "x", "--disable", "sky"}).status, 2);
+  EXPECT_EQ(runWhit({"effects", "--out", "x", "--mode", "reference"}).status, 2);
+  EXPECT_EQ(runWhit({"effects", "--out", "/proc/no/such"}).status, 4);
+  const Outcome help = runWhit({"effects", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.out.find("--out DIR"), std::string::npos) << help.out;
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,101 @@
+// The cost of effects from made-up frames, whose numbers are known.
+#include "cli/effects_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/stage_table.h"
+
+namespace whit::cli {
+namespace {
+
+// Frames of the given durations, two fifths of each inside Embree.
+RunSummary madeUpRun(const std::vector<double>& ms, std::uint64_t reflections) {
+  RunSummary run;
+  run.scene = "made-up";
+  run.width = 64;
+  run.height = 32;
+  run.machine = {"avx2", "3.13.5 avx2", 8, 2};
+  for (const double duration : ms) {
+    FrameStats frame;
+    frame.frameMs = duration;
+    frame.workers = 2;
+    frame.embreeWorkerMs = 2 * 0.4 * duration;
+    frame.tally[0] = {2048, 2048};
+    frame.tally[2] = {reflections, reflections};
+    run.frames.push_back(frame);
+  }
+  return run;
+}
+
+// The machine slows down threefold in the middle of the measurement.
+std::vector<EffectStep> madeUpSteps() {
+  return {{"matte", madeUpRun({10, 30, 10, 10, 30}, 0), 1.5},
+          {"mirror", madeUpRun({15, 45, 15, 15, 45}, 3000), 1.75}};
+}
+
+TEST(EffectCosts, AreMediansOfDifferencesWithinATurn) {
+  const std::vector<EffectCost> costs = effectCosts(madeUpSteps());
+  ASSERT_EQ(costs.size(), 2u);
+  EXPECT_DOUBLE_EQ(costs[0].addedMs, 10);
+  EXPECT_DOUBLE_EQ(costs[0].outsideMs, 6);
+  EXPECT_DOUBLE_EQ(costs[0].addedRays, 2048);
+  EXPECT_DOUBLE_EQ(costs[1].frameMs, 15);
+  EXPECT_DOUBLE_EQ(costs[1].addedMs, 5);
+  EXPECT_DOUBLE_EQ(costs[1].outsideMs, 3);
+  EXPECT_DOUBLE_EQ(costs[1].addedRays, 3000);
+  EXPECT_DOUBLE_EQ(costs[1].addedMb, 0.25);
+}
+
+TEST(EffectCosts, RatiosAreMediansOfRatiosWithinATurn) {
+  const std::vector<EffectStep> steps = madeUpSteps();
+  const RunRatio ratio = ratioOf(steps[1].run, steps[0].run);
+  EXPECT_DOUBLE_EQ(ratio.frame, 1.5);
+  EXPECT_DOUBLE_EQ(ratio.outsideEmbree, 1.5);
+  const std::string text = effectsRatioText(steps[0].run, steps[1].run);
+  EXPECT_NE(text.find("1.500  (15.00 over 10.00 ms)"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.500  (9.00 over 6.00 ms)"), std::string::npos) << text;
+}
+
+TEST(EffectsTable, HasARowForEachStep) {
+  const std::string table = effectsTable(madeUpSteps());
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  EXPECT_NE(table.find("+ mirror               15.00     +5.00           +3.00       +3000"),
+            std::string::npos)
+      << table;
+}
+
+TEST(EffectsCsv, HasThePromisedColumns) {
+  EXPECT_EQ(effectsCsv(madeUpSteps()),
+            "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
+            "reflection_rays,refraction_rays,added_rays,memory_mb,added_memory_mb\n"
+            "matte,10.0000,10.0000,6.0000,2048,0,0,0,2048,1.500,1.500\n"
+            "mirror,15.0000,5.0000,3.0000,2048,0,3000,0,3000,1.750,0.250\n");
+}
+
+TEST(EffectsSvg, ShowsEveryStepInLightAndDark) {
+  const std::string svg = effectsSvg(madeUpSteps());
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
+  EXPECT_NE(svg.find("</svg>\n"), std::string::npos);
+  EXPECT_NE(svg.find("prefers-color-scheme:dark"), std::string::npos);
+  for (const char* text : {">matte<", ">+ mirror<", ">+5.00<", ">+3<", ">+0.25<"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text << "\n" << svg;
+  }
+  // Bars of the added time: the first is as long as the column, the second half of it.
+  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"77.0\" width=\"150.0\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"75.0\""), std::string::npos);
+}
+
+TEST(EffectsSvg, SavingsReachToTheLeftOfZero) {
+  std::vector<EffectStep> steps = madeUpSteps();
+  steps[1].run = madeUpRun({5, 15, 5, 5, 15}, 0);  // 5 ms less
+  const std::string svg = effectsSvg(steps);
+  // Zero is a third of the way, five of fifteen milliseconds.
+  EXPECT_NE(svg.find("class=\"axis\" x1=\"200.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"50.0\""), std::string::npos);
+  EXPECT_EQ(svg.find("width=\"-"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace whit::cli
