@@ -162,9 +162,9 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
 }
 
 template <uint32_t kBits>
-HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectSet effects,
-                                            const RayColumns& rays, const HitColumns& hits,
-                                            size_t n, const SurfelColumns& surfels) {
+HWY_NOINLINE uint32_t InterpolateSurfelsVariant(const ShadingTables& tables, EffectSet effects,
+                                                const RayColumns& rays, const HitColumns& hits,
+                                                size_t n, const SurfelColumns& surfels) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
@@ -173,6 +173,7 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
   const bool transmission = (effects.bits() & kTransmission) != 0;
   const bool absorption = (effects.bits() & kAbsorption) != 0;
   const VF one = hn::Set(d, 1.0f);
+  VU flags = hn::Zero(du);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU hit = hn::Load(du, hits.triangle + i);
     const MF valid = hn::RebindMask(d, hn::Ne(hit, hn::Set(du, kMiss)));
@@ -242,6 +243,7 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
         hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
     hn::Store(materialOrMiss, du, surfels.material + i);
     const V4 lobe = material.Columns4(12);
+    flags = hn::Or(flags, hn::BitCast(du, hn::IfThenElseZero(valid, lobe.z)));
     if (glossy) {
       const V4 specular = material.Columns4(4);
       V3 reflectance{specular.x, specular.y, specular.z};
@@ -254,13 +256,19 @@ HWY_NOINLINE void InterpolateSurfelsVariant(const ShadingTables& tables, EffectS
     }
     if (transmission) StoreMedia(tables, rays, lobe.y, entering, i, surfels);
   }
+  HWY_ALIGN uint32_t lanes[16];
+  hn::Store(flags, du, lanes);
+  uint32_t any = 0;
+  for (size_t lane = 0; lane < hn::Lanes(du); ++lane) any |= lanes[lane];
+  return any;
 }
 
-void InterpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
-                        const HitColumns& hits, size_t n, const SurfelColumns& surfels) {
+uint32_t InterpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
+                            const HitColumns& hits, size_t n, const SurfelColumns& surfels) {
   static constexpr auto kVariants = variantTable<kInterpolateSurfels>(
       []<uint32_t kBits>() { return &InterpolateSurfelsVariant<kBits>; });
-  kVariants[kInterpolateSurfels.variantFor(effects)](tables, effects, rays, hits, n, surfels);
+  return kVariants[kInterpolateSurfels.variantFor(effects)](tables, effects, rays, hits, n,
+                                                            surfels);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE
@@ -269,10 +277,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whit::simd {
 HWY_EXPORT(InterpolateSurfels);
-void interpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
-                        const HitColumns& hits, std::size_t n,
-                        const SurfelColumns& surfels) noexcept {
-  HWY_DYNAMIC_DISPATCH(InterpolateSurfels)(tables, effects, rays, hits, n, surfels);
+std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
+                                 const RayColumns& rays, const HitColumns& hits, std::size_t n,
+                                 const SurfelColumns& surfels) noexcept {
+  return HWY_DYNAMIC_DISPATCH(InterpolateSurfels)(tables, effects, rays, hits, n, surfels);
 }
 }  // namespace whit::simd
 #endif

@@ -79,7 +79,7 @@ constexpr auto variantTable(Make make) {
   return variantTable<kKernel>(make, std::make_index_sequence<kKernel.variantCount()>());
 }
 
-// "smoothNormals+textures", "plain" for none.
+// "textures+smoothNormals", "plain" for none.
 std::string variantName(EffectSet variant);
 
 // Names, as in --simd, of the targets that the kernels were compiled for, best first.

@@ -32,10 +32,11 @@ void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::si
                   const RayColumns& rays) noexcept;
 
 // Second half of findIntersections: surfels from hits. Absorption in the medium that a ray came
-// through is multiplied into its weight and throughput.
-void interpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
-                        const HitColumns& hits, std::size_t n,
-                        const SurfelColumns& surfels) noexcept;
+// through is multiplied into its weight and throughput. Returns the kMaterial flags that the
+// material of some surfel has: what none has, the stages that follow can leave out.
+std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
+                                 const RayColumns& rays, const HitColumns& hits, std::size_t n,
+                                 const SurfelColumns& surfels) noexcept;
 
 void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
                                       const RayColumns& rays, const SurfelColumns& surfels,

@@ -26,6 +26,13 @@ RayTally& tallyOf(FrameStats& stats, RayKind kind) {
 // frustums. Paths that have met more than two surfaces no longer are.
 bool isCoherent(std::size_t depth) { return depth <= 2; }
 
+// A chunk whose surfels do not emit, or do not shine, needs less code for the same bits.
+EffectSet neededBy(std::uint32_t materialFlags, EffectSet effects) {
+  if ((materialFlags & kMaterialEmits) == 0) effects = effects.without(Effect::emission);
+  if ((materialFlags & kMaterialGlossy) == 0) effects = effects.without(Effect::glossy);
+  return effects;
+}
+
 simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample) {
   return {Vec3f(camera.eye),
           Vec3f(camera.forward),
@@ -131,8 +138,8 @@ void TileTracer::shadeChunk(Pass& pass, std::size_t depth) {
   Level& level = levels_[depth];
   const RayColumns rays = advanced(*level.rays, level.cursor);
   findIntersections(pass, depth, rays);
-  simd::writeEmittedAndReflectiveAmbient(*pass.job.tables, plan_.effects, rays, *surfels_,
-                                         level.chunk, *level.radiance);
+  simd::writeEmittedAndReflectiveAmbient(*pass.job.tables, neededBy(materialFlags_, plan_.effects),
+                                         rays, *surfels_, level.chunk, *level.radiance);
   endStage(pass, Stage::writeEmittedAndReflectiveAmbient, depth);
   if (plan_.effects.has(Effect::lights)) shadeLights(pass, depth, rays);
   pass.children = 0;
@@ -157,14 +164,16 @@ void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColum
   }
   pass.stats.embreeWorkerMs += meter.embreeMs;
   std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
-  simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_, level.chunk, *surfels_);
+  materialFlags_ = simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_,
+                                            level.chunk, *surfels_);
   endStage(pass, Stage::findIntersections, depth);
 }
 
 void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays) {
   const Level& level = levels_[depth];
+  const EffectSet effects = neededBy(materialFlags_, plan_.effects);
   for (const PointLight& light : pass.job.tables->lights) {
-    shadowCount_ = simd::findRadianceAndShadowRays(*pass.job.tables, plan_.effects, light, rays,
+    shadowCount_ = simd::findRadianceAndShadowRays(*pass.job.tables, effects, light, rays,
                                                    *surfels_, level.chunk, *unshadowed_, *shadows_);
     endStage(pass, Stage::findRadianceAndShadowRays, depth, &light);
     if (plan_.traceShadows) {
@@ -186,13 +195,13 @@ void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& ra
   reserveLevel(depth + 1, kinds * roundUpToBlock(level.chunk));
   Level& next = levels_[depth + 1];
   next.count = 0;
-  if (plan_.traceReflections) {
+  if (plan_.traceReflections && (materialFlags_ & kMaterialReflects) != 0) {
     next.count = simd::addReflections(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
                                       *surfels_, level.chunk, *next.rays, 0);
     ++pass.stats.reflectionCalls;
   }
   next.reflections = next.count;
-  if (plan_.traceRefractions) {
+  if (plan_.traceRefractions && (materialFlags_ & kMaterialTransmits) != 0) {
     next.count += simd::addRefractions(*pass.job.tables, plan_.effects, pass.job.cutoff, rays,
                                        *surfels_, level.chunk, *next.rays, next.count);
     ++pass.stats.refractionCalls;

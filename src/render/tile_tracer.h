@@ -105,6 +105,7 @@ class TileTracer {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
   std::size_t shadowCount_ = 0;
+  std::uint32_t materialFlags_ = 0;   // kMaterial flags of the chunk's surfels, all together
   std::vector<double> sums_;          // 3 a pixel, when there are several samples
   std::vector<std::uint32_t> codes_;  // display codes
 };
