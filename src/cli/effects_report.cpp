@@ -53,15 +53,17 @@ struct Bars {
 
 constexpr double kRowHeight = 22, kTop = 74, kLabelWidth = 150, kBarsWidth = 150, kGap = 85;
 
-void appendBar(std::string& svg, const Bars& bars, double y, double value, const char* kind) {
+// In the row whose text stands on the line `y`.
+void appendBar(std::string& svg, const Bars& bars, double y, double value, const char* kind,
+               double height = 14) {
   const double from = bars.at(std::min(value, 0.0)), to = bars.at(std::max(value, 0.0));
-  svg += formatted("<rect class=\"%s\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"14\"/>\n",
-                   kind, from, y - 11, std::max(to - from, 0.5));
+  svg += formatted("<rect class=\"%s\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.0f\"/>\n",
+                   kind, from, y - 4 - height / 2, std::max(to - from, 0.5), height);
 }
 
-void appendNumber(std::string& svg, const Bars& bars, double y, double value) {
-  svg +=
-      formatted("<text class=\"n\" x=\"%.1f\" y=\"%.1f\">", bars.at(std::max(value, 0.0)) + 5, y);
+// Behind a bar that ends at `end`.
+void appendNumber(std::string& svg, const Bars& bars, double y, double end, double value) {
+  svg += formatted("<text class=\"n\" x=\"%.1f\" y=\"%.1f\">", bars.at(std::max(end, 0.0)) + 5, y);
   svg += formatted(bars.format, value) + "</text>\n";
 }
 
@@ -149,14 +151,15 @@ std::string effectsCsv(const std::vector<EffectStep>& steps) {
 std::string effectsSvg(const std::vector<EffectStep>& steps) {
   const std::vector<EffectCost> costs = effectCosts(steps);
   const double next = kBarsWidth + kGap;
-  Bars time{kLabelWidth, kBarsWidth, "ms (dark: outside Embree)", "%+.2f"};
+  Bars time{kLabelWidth, kBarsWidth, "ms (thin: outside Embree)", "%+.2f"};
   Bars rays{kLabelWidth + next, kBarsWidth, "thousand rays", "%+.0f"};
   Bars memory{kLabelWidth + 2 * next, kBarsWidth, "megabytes", "%+.2f"};
-  for (const EffectCost& c : costs) {
-    time.include(c.addedMs);
-    time.include(c.outsideMs);
-    rays.include(c.addedRays / 1e3);
-    memory.include(c.addedMb);
+  // What the scene starts with is a number, not a bar: next to it the others would vanish.
+  for (std::size_t i = 1; i < costs.size(); ++i) {
+    time.include(costs[i].addedMs);
+    time.include(costs[i].outsideMs);
+    rays.include(costs[i].addedRays / 1e3);
+    memory.include(costs[i].addedMb);
   }
   const double bottom = kTop + kRowHeight * static_cast<double>(steps.size());
   std::string svg = svgHead(steps.at(0), kLabelWidth + 3 * next, bottom + 8);
@@ -169,13 +172,16 @@ std::string effectsSvg(const std::vector<EffectStep>& steps) {
     const EffectCost& c = costs[i];
     const double y = kTop + 14 + kRowHeight * static_cast<double>(i);
     svg += formatted("<text x=\"14\" y=\"%.1f\">%s</text>\n", y, label(steps[i], i).c_str());
-    appendBar(svg, time, y, c.addedMs, "time");
-    appendBar(svg, time, y, c.outsideMs, "own");
-    appendNumber(svg, time, y, std::max(c.addedMs, c.outsideMs));
-    appendBar(svg, rays, y, c.addedRays / 1e3, "rays");
-    appendNumber(svg, rays, y, c.addedRays / 1e3);
-    appendBar(svg, memory, y, c.addedMb, "memory");
-    appendNumber(svg, memory, y, c.addedMb);
+    if (i > 0) {
+      appendBar(svg, time, y, c.addedMs, "time");
+      appendBar(svg, time, y, c.outsideMs, "own", 4);
+      appendBar(svg, rays, y, c.addedRays / 1e3, "rays");
+      appendBar(svg, memory, y, c.addedMb, "memory");
+    }
+    const double end = i > 0 ? 1 : 0;
+    appendNumber(svg, time, y, end * std::max(c.addedMs, c.outsideMs), c.addedMs);
+    appendNumber(svg, rays, y, end * c.addedRays / 1e3, c.addedRays / 1e3);
+    appendNumber(svg, memory, y, end * c.addedMb, c.addedMb);
   }
   return svg + "</svg>\n";
 }

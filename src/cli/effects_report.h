@@ -29,8 +29,8 @@ std::string effectsTable(const std::vector<EffectStep>& steps);
 // effect, frame_ms, added_ms, added_outside_embree_ms, rays by kind, added_rays, memory_mb,
 // added_memory_mb; a line a step.
 std::string effectsCsv(const std::vector<EffectStep>& steps);
-// Three columns of bars: milliseconds (the part outside Embree darker), rays, megabytes. Follows
-// the reader's light or dark scheme.
+// Three columns, milliseconds, rays and megabytes, with a bar for each effect that is added; time
+// outside Embree is a thin bar within the other. Follows the reader's light or dark scheme.
 std::string effectsSvg(const std::vector<EffectStep>& steps);
 
 }  // namespace whit::cli

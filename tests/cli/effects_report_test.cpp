@@ -82,18 +82,20 @@ TEST(EffectsSvg, ShowsEveryStepInLightAndDark) {
   for (const char* text : {">matte<", ">+ mirror<", ">+5.00<", ">+3<", ">+0.25<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text << "\n" << svg;
   }
-  // Bars of the added time: the first is as long as the column, the second half of it.
-  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"77.0\" width=\"150.0\""), std::string::npos);
-  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"75.0\""), std::string::npos);
+  // The longest bar is as long as the column: 5 ms; 3 of them are outside Embree. No bar for matte.
+  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"150.0\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"own\" x=\"150.0\" y=\"104.0\" width=\"90.0\""), std::string::npos);
+  EXPECT_EQ(svg.find("y=\"77.0\""), std::string::npos);
 }
 
 TEST(EffectsSvg, SavingsReachToTheLeftOfZero) {
   std::vector<EffectStep> steps = madeUpSteps();
-  steps[1].run = madeUpRun({5, 15, 5, 5, 15}, 0);  // 5 ms less
+  steps.push_back({"textures", madeUpRun({5, 15, 5, 5, 15}, 0), 1.75});  // 10 ms less
   const std::string svg = effectsSvg(steps);
-  // Zero is a third of the way, five of fifteen milliseconds.
-  EXPECT_NE(svg.find("class=\"axis\" x1=\"200.0\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"50.0\""), std::string::npos);
+  // Zero is two thirds of the way: from 10 ms less to 5 ms more.
+  EXPECT_NE(svg.find("class=\"axis\" x1=\"250.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("class=\"time\" x=\"250.0\" y=\"99.0\" width=\"50.0\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"121.0\" width=\"100.0\""), std::string::npos);
   EXPECT_EQ(svg.find("width=\"-"), std::string::npos);
 }
 
