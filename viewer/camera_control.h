@@ -1,0 +1,50 @@
+// Flying, looking around and orbiting. Pure: knows neither window nor clock.
+#pragma once
+
+#include "scene/camera.h"
+
+namespace whit::view {
+
+// What the user wants of the camera in one step. Directions are -1, 0 or 1.
+struct CameraMotion {
+  double forward = 0, right = 0, up = 0;  // moves
+  bool fast = false;
+  double turnRight = 0, turnUp = 0;  // arrow keys
+  double lookX = 0, lookY = 0;       // pixels dragged; y grows downwards
+  double orbitX = 0, orbitY = 0;     // pixels dragged
+  double wheel = 0;                  // notches
+};
+
+inline constexpr double kFastFactor = 4;
+inline constexpr double kWheelFactor = 1.25;           // of speed, a notch
+inline constexpr double kRadiansPerPixel = 0.004;      // mouse
+inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
+inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
+
+class CameraControl {
+ public:
+  // `speed` in scene units a second.
+  CameraControl(const Camera& camera, double speed) : speed_(speed) { set(camera); }
+
+  void set(const Camera& camera);
+  // The camera of the last set(), bit for bit, until something moves it.
+  const Camera& camera() const { return camera_; }
+  double speed() const { return speed_; }
+
+  // Turns first, then moves. Whether the camera changed.
+  bool step(const CameraMotion& motion, double seconds);
+
+ private:
+  Vec3d forward() const;
+  void turn(double rightwards, double upwards);
+  void writeCamera();
+
+  Camera camera_;
+  double speed_;
+  // In double, so that slow motion far from the origin does not stall.
+  Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length
+  double elevation_ = 0;    // of the view over the plane perpendicular to up_, radians
+  double distance_ = 1;     // to the point that is orbited
+};
+
+}  // namespace whit::view

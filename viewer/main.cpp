@@ -1,0 +1,85 @@
+// whit-view: the viewer.
+#include "cli/open_scene.h"
+#include "cli/program.h"
+#include "cli/progress_bar.h"
+#include "core/error.h"
+#include "io/paths.h"
+#include "viewer/app.h"
+#include "viewer/path_run.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr const char* kUsage = "whit-view SCENE [options] [--record DIR] [--benchmark]";
+constexpr const char* kSummary = "Shows a scene in a window, to fly through. H shows the keys.";
+constexpr std::uint64_t kScriptBytesLimit = 1u << 20;
+
+cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scenes) {
+  cli::OptionList list;
+  list.group("Viewing");
+  list.value({"rate", "N", kLeastRate, kLargestRate},
+             "frames a second to hold while something moves", options.rate);
+  list.flag("benchmark", "fly the camera path and print what tracing and displaying took",
+            options.benchmark);
+  list.value({"record", "DIR"}, "write the frames of the camera path into a folder",
+             options.record);
+  list.value({"script", "FILE"}, "keys, mouse and screenshots from a file instead of the user",
+             options.script);
+  cli::listCommonOptions(list, options.common);
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+  return list;
+}
+
+void check(const ViewOptions& options) {
+  if (options.common.given.contains("crop")) {
+    throwUsage("--crop: the viewer shows whole images; use whit render");
+  }
+  if (options.common.render.mode == Mode::reference) {
+    throwUsage("--mode reference is too slow to look around with; use whit render");
+  }
+  const int modes = options.benchmark + !options.record.empty() + !options.script.empty();
+  if (modes > 1) throwUsage("--benchmark, --record and --script: give one of them");
+}
+
+std::optional<ScriptPlayer> readScript(const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  return ScriptPlayer(parseScript(readTextFile(file, kScriptBytesLimit), file));
+}
+
+int run(const std::vector<std::string>& words) {
+  ViewOptions options;
+  std::vector<std::string> scenes;
+  const cli::OptionList list = listOptions(options, scenes);
+  if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;
+  options.scene = scenes[0];
+  cli::settleOptions(options.common);
+  check(options);
+  std::optional<ScriptPlayer> script = readScript(options.script);
+
+  const Display display;  // before a scene is loaded in vain
+  const cli::CommonOptions& common = options.common;
+  auto progress = cli::makeProgressBar(!common.quiet && common.progress == "auto");
+  const std::shared_ptr<const cli::OpenScene> scene =
+      cli::openScene(options.scene, common, progress.get());
+  progress.reset();
+  const ImageSize own{scene->scene.width, scene->scene.height};
+  Window window("whit: " + scene->scene.name, common.render.size.value_or(own));
+  if (options.benchmark) {
+    runBenchmark(options, *scene, window);
+  } else if (!options.record.empty()) {
+    recordPath(options, *scene, window);
+  } else {
+    App(options, scene, std::move(script), window).run();
+  }
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace whit::view
+
+int main(int argc, char** argv) {
+  return whit::cli::runProgram("whit-view",
+                               [&] { return whit::view::run(whit::cli::wordsOf(argc, argv)); });
+}

@@ -1,0 +1,166 @@
+#include "viewer/panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/frame_summary.h"
+#include "viewer/keys.h"
+#include "viewer/resolution_control.h"
+
+namespace whit::view {
+
+namespace {
+
+void drawStages(const FrameStats& stats) {
+  const double frame = std::max(stats.frameMs, 1e-9);
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    const double ms = stats.stageMs(static_cast<Stage>(i));
+    char text[80];
+    std::snprintf(text, sizeof text, "%s %.2f ms", kStageNames[i].data(), ms);
+    // The text stands beside the bar's fill, so that both stay legible.
+    const ImVec2 corner = ImGui::GetCursorPos();
+    ImGui::ProgressBar(static_cast<float>(ms / frame), ImVec2(-1, 0), "");
+    const ImVec2 below = ImGui::GetCursorPos();
+    ImGui::SetCursorPos(ImVec2(corner.x + 6, corner.y + ImGui::GetStyle().FramePadding.y));
+    ImGui::TextUnformatted(text);
+    ImGui::SetCursorPos(below);
+  }
+}
+
+void drawRays(const FrameStats& stats) {
+  if (!ImGui::BeginTable("rays", 4)) return;
+  for (const char* heading : {"rays", "thousands", "Mray/s", "lanes %"}) {
+    ImGui::TableSetupColumn(heading);
+  }
+  ImGui::TableHeadersRow();
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    const RayTally& tally = stats.tally[i];
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(kRayKindNames[i].data());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.1f", static_cast<double>(tally.rays) / 1e3);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
+    ImGui::TableNextColumn();
+    ImGui::Text("%.1f", 100 * cli::lanesFilled(tally));
+  }
+  ImGui::EndTable();
+}
+
+// A box for each effect that the scene calls for; the others greyed, with the reason.
+void drawEffects(const Scene& scene, EffectSet& disable) {
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto effect = static_cast<Effect>(i);
+    const EffectReason& reason = scene.reasons[static_cast<std::size_t>(i)];
+    const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
+    if (reason.on) {
+      bool on = !disable.has(effect);
+      if (ImGui::Checkbox(name.c_str(), &on)) {
+        disable = on ? disable.without(effect) : disable.with(effect);
+      }
+    } else {
+      ImGui::TextDisabled("      %s", name.c_str());
+    }
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", reason.because.c_str());
+  }
+}
+
+void drawPicture(PanelSettings& settings) {
+  auto rate = static_cast<float>(settings.rate);
+  if (ImGui::SliderFloat("frames/s", &rate, kLeastRate, kLargestRate, "%.0f")) {
+    settings.rate = rate;
+  }
+  ImGui::SliderFloat("exposure", &settings.exposure, -10, 10, "%.2f EV");
+  int curve = static_cast<int>(settings.toneCurve);
+  if (ImGui::Combo("tone curve", &curve, "none\0filmic\0reinhard\0")) {
+    settings.toneCurve = static_cast<ToneCurve>(curve);
+  }
+}
+
+void drawKeys() {
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+  for (const KeyHelp& help : keyHelp()) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(help.keys);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(help.text);
+  }
+  ImGui::EndTable();
+}
+
+constexpr ImGuiWindowFlags kLine = ImGuiWindowFlags_NoDecoration |
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+
+void placeAtBottom() {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
+}
+
+}  // namespace
+
+void Panel::remember(const FrameStats& stats) {
+  times_[next_] = static_cast<float>(stats.frameMs);
+  next_ = (next_ + 1) % times_.size();
+}
+
+void Panel::drawTimes(const TracedFrame& frame) const {
+  const FrameStats& stats = frame.stats;
+  ImGui::Text("%s, %llu triangles", frame.scene->scene.name.c_str(),
+              static_cast<unsigned long long>(frame.triangles));
+  ImGui::Text("%d x %d, %d sample%s a pixel", frame.request.size.width, frame.request.size.height,
+              frame.request.spp, frame.request.spp == 1 ? "" : "s");
+  ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
+              frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f ms traced, %.2f in Embree", stats.frameMs,
+                stats.embreeMs());
+  const float highest = *std::max_element(times_.begin(), times_.end());
+  ImGui::PlotLines("##times", times_.data(), static_cast<int>(times_.size()),
+                   static_cast<int>(next_), text, 0, highest * 1.1f,
+                   ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4));
+}
+
+void Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings) const {
+  ImGui::SetNextWindowPos(ImVec2(10, 10), ImGuiCond_FirstUseEver);
+  const float height = ImGui::GetIO().DisplaySize.y - 20;
+  ImGui::SetNextWindowSize(ImVec2(ImGui::GetFontSize() * 26, height), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowBgAlpha(0.75f);
+  if (ImGui::Begin("whit")) {
+    drawTimes(frame);
+    ImGui::Text("speed %.3g units a second", speed);
+    if (ImGui::CollapsingHeader("stages", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(frame.stats);
+    if (ImGui::CollapsingHeader("rays", ImGuiTreeNodeFlags_DefaultOpen)) drawRays(frame.stats);
+    if (ImGui::CollapsingHeader("picture", ImGuiTreeNodeFlags_DefaultOpen)) drawPicture(settings);
+    if (ImGui::CollapsingHeader("effects")) drawEffects(frame.scene->scene, settings.disable);
+    if (ImGui::CollapsingHeader("keys")) drawKeys();
+  }
+  ImGui::End();
+}
+
+void Panel::drawMessage(const std::string& message) {
+  placeAtBottom();
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  if (ImGui::Begin("message", nullptr, kLine | ImGuiWindowFlags_NoInputs)) {
+    ImGui::TextUnformatted(message.c_str());
+  }
+  ImGui::End();
+}
+
+bool Panel::drawError(const std::string& error) {
+  bool open = true;
+  placeAtBottom();
+  if (ImGui::Begin("error", nullptr, kLine)) {
+    ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x * 0.9f);
+    ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
+    ImGui::PopTextWrapPos();
+    open = !ImGui::Button("dismiss");
+  }
+  ImGui::End();
+  return open;
+}
+
+}  // namespace whit::view

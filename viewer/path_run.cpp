@@ -1,0 +1,94 @@
+#include "viewer/path_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/frame_summary.h"
+#include "cli/image_output.h"
+#include "cli/open_scene.h"
+#include "core/error.h"
+
+namespace whit::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kFramesPerSecond = 24;
+
+// Once around the point looked at, about the camera's own `up` (Rodrigues' rotation).
+Camera orbit(const Camera& camera, double share) {
+  const Vec3d axis = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
+  const Vec3d arm = Vec3d(camera.eye) - Vec3d(camera.at);
+  const double angle = 2 * kPi * share, c = std::cos(angle), s = std::sin(angle);
+  Camera turned = camera;
+  turned.eye =
+      Vec3f(Vec3d(camera.at) + arm * c + cross(axis, arm) * s + axis * (dot(axis, arm) * (1 - c)));
+  return turned;
+}
+
+Camera cameraOf(const Scene& scene, const RenderOptions& options, double share) {
+  if (scene.cameraPath.empty()) return orbit(chooseCamera(scene, options), share);
+  const double begin = scene.cameraPath.front().time, end = scene.cameraPath.back().time;
+  return cameraAt(scene.cameraPath, begin + share * (end - begin));
+}
+
+void show(Window& window, const DisplayImage& image) {
+  window.upload(image);
+  window.begin();
+  window.end();
+  window.present();
+  window.finish();
+}
+
+}  // namespace
+
+void runBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
+  window.setVsync(false);
+  Renderer renderer(open.scene, options.common.render);
+  Film film = cli::openFilm(open.scene, options.common);
+  std::vector<double> traced, displayed;
+  for (int frame = 0; frame < kBenchmarkFrames && !window.closing(); ++frame) {
+    window.poll(0);
+    const double share = static_cast<double>(frame) / kBenchmarkFrames;
+    const Camera camera = cameraOf(open.scene, options.common.render, share);
+    traced.push_back(renderer.render(camera, film).frameMs);
+    const Clock::time_point start = Clock::now();
+    show(window, film.display);
+    displayed.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  std::printf("%s  %dx%d  %zu frames\n", open.scene.name.c_str(), film.image.width,
+              film.image.height, traced.size());
+  const auto print = [](const char* what, const std::vector<double>& ms) {
+    std::printf("  %-10s median %8.2f ms, 95 %% within %8.2f ms\n", what, cli::quantile(ms, 0.5),
+                cli::quantile(ms, 0.95));
+  };
+  print("tracing", traced);
+  print("display", displayed);
+}
+
+void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
+  const std::vector<Keyframe>& path = open.scene.cameraPath;
+  if (path.empty()) throwUsage("--record: scene '" + open.scene.name + "' has no camera path");
+  std::error_code error;
+  std::filesystem::create_directories(options.record, error);
+  const std::string pattern = (std::filesystem::path(options.record) / "frame-####.png").string();
+  cli::requireWritable(pattern, {".png"});
+  Renderer renderer(open.scene, options.common.render);
+  Film film = cli::openFilm(open.scene, options.common);
+  const double seconds = static_cast<double>(path.back().time) - path.front().time;
+  const int frames = static_cast<int>(std::floor(seconds * kFramesPerSecond)) + 1;
+  for (int frame = 0; frame < frames && !window.closing(); ++frame) {
+    window.poll(0);
+    const Camera camera = cameraAt(path, path.front().time + frame / kFramesPerSecond);
+    renderer.render(camera, film);
+    show(window, film.display);
+    cli::writeImage(cli::frameName(pattern, frame), film, options.common.render,
+                    cli::describeImage(open.scene, camera, renderer, film, options.common.render));
+  }
+}
+
+}  // namespace whit::view

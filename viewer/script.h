@@ -1,0 +1,51 @@
+// A scripted user: lines of a text file, one command each, '#' begins a comment.
+//
+//   key NAME [SECONDS]            held for so long; without SECONDS for one frame
+//   mouse left|right DX DY        dragged by so many pixels
+//   wheel NOTCHES
+//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
+//   screenshot FILE.png           what the window shows
+//   quit
+//
+// Time is that of the frames: 1/60 s each, however long they take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viewer/input.h"
+
+namespace whit::view {
+
+inline constexpr double kScriptSecondsPerFrame = 1.0 / 60;
+
+struct ScriptCommand {
+  enum class Kind { key, look, orbit, wheel, wait, waitSharp, screenshot, quit };
+  Kind kind = Kind::quit;
+  int key = 0;          // GLFW code
+  int frames = 1;       // that it takes: key, wait
+  double x = 0, y = 0;  // look, orbit: pixels; wheel: notches in x
+  std::string file{};
+};
+
+// Throws Error(badScene) with "file:line" and what was expected.
+std::vector<ScriptCommand> parseScript(const std::string& text, const std::string& file);
+
+class ScriptPlayer {
+ public:
+  explicit ScriptPlayer(std::vector<ScriptCommand> commands) : commands_(std::move(commands)) {}
+
+  struct Step {
+    std::string screenshot;  // of this frame, after drawing; empty: none
+    bool quit = false;       // the end of the script quits too
+  };
+  // The next frame's input. `sharp`: nothing moves and the picture gets no finer.
+  Step next(bool sharp, Input& input);
+
+ private:
+  std::vector<ScriptCommand> commands_;
+  std::size_t at_ = 0;
+  int frame_ = 0;  // of the current command
+};
+
+}  // namespace whit::view

@@ -1,0 +1,113 @@
+#include "viewer/view_files.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/image_output.h"
+#include "cli/interrupt.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/json_text.h"
+#include "io/paths.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr int kPictureLimit = 9999;
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string freeName(const std::string& scene) {
+  for (int i = 1; i <= kPictureLimit; ++i) {
+    char number[8];
+    std::snprintf(number, sizeof number, "%04d", i);
+    const std::string name = scene + "-" + number;
+    const auto taken = [&](const char* extension) {
+      return std::filesystem::exists(name + extension);
+    };
+    if (!taken(".png") && !taken(".exr") && !taken(".json")) return name;
+  }
+  throwIo("'" + scene + "-9999' is taken: there are too many saved pictures in this folder");
+}
+
+Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+Vec3f readVector(const Json& json, const std::string& key, const std::string& file) {
+  const auto found = json.find(key);
+  const bool good = found != json.end() && found->is_array() && found->size() == 3 &&
+                    (*found)[0].is_number() && (*found)[1].is_number() && (*found)[2].is_number();
+  if (!good) throwBadScene(file + "#/" + key, "expected three numbers");
+  const Vec3f v{(*found)[0].get<float>(), (*found)[1].get<float>(), (*found)[2].get<float>()};
+  if (!isFinite(v)) throwBadScene(file + "#/" + key, "expected numbers of single precision");
+  return v;
+}
+
+}  // namespace
+
+std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
+                          const TracedFrame& frame) {
+  // Not the metadata's options: those have "auto" resolved, which can choose other instructions.
+  RenderOptions options = frame.options;
+  options.camera.clear();
+  options.eye = frame.request.camera.eye;
+  options.at = frame.request.camera.at;
+  options.up = frame.request.camera.up;
+  options.fov = frame.request.camera.fov;
+  std::string text = "whit render " + quoted(scene);
+  for (const auto& [name, value] : cli::pictureOptions(options)) {
+    if (name == "strict") {
+      text += options.strict ? " --strict" : "";
+    } else {
+      text += " " + quoted("--" + name + "=" + value);
+    }
+  }
+  if (common.load.allowOutside) text += " --allow-outside";
+  return text;
+}
+
+std::string savePicture(const TracedFrame& frame) {
+  const cli::WriteScope scope;
+  const std::string name = freeName(frame.scene->scene.name);
+  cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
+  cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
+  writeCamera(name + ".json", frame.request.camera);
+  return name;
+}
+
+void writeCamera(const std::string& file, const Camera& camera) {
+  const Json json{{"eye", vectorJson(camera.eye)},
+                  {"at", vectorJson(camera.at)},
+                  {"up", vectorJson(camera.up)},
+                  {"fov", camera.fov}};
+  const cli::WriteScope scope;
+  writeTextFile(file, json.dump(2) + "\n");
+}
+
+Camera readCamera(const std::string& file) {
+  constexpr float kLeastFov = 0.01f, kLargestFov = 179;
+  const Json json = parseJson(readTextFile(file, kJsonBytesLimit), file);
+  if (!json.is_object()) throwBadScene(file, "expected an object with eye, at, up and fov");
+  Camera camera;
+  camera.name = "saved";
+  camera.eye = readVector(json, "eye", file);
+  camera.at = readVector(json, "at", file);
+  camera.up = readVector(json, "up", file);
+  const auto fov = json.find("fov");
+  if (fov == json.end() || !fov->is_number()) throwBadScene(file + "#/fov", "expected degrees");
+  camera.fov = fov->get<float>();
+  if (!(camera.fov >= kLeastFov && camera.fov <= kLargestFov)) {
+    throwBadScene(file + "#/fov", "expected degrees from 0.01 to 179");
+  }
+  if (camera.eye == camera.at) throwBadScene(file + "#/at", "expected eye and at to differ");
+  return camera;
+}
+
+}  // namespace whit::view

@@ -1,0 +1,25 @@
+// What the viewer writes and reads: saved pictures, cameras, and the command that makes a picture
+// again.
+#pragma once
+
+#include <string>
+
+#include "viewer/traced_frame.h"
+
+namespace whit::view {
+
+// "whit render SCENE --size ..." whose output is the frame, bit for bit. Words are quoted for a
+// POSIX shell where needed.
+std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
+                          const TracedFrame& frame);
+
+// Writes NAME-NNNN.png, .exr and .json (the camera) into the current folder, with the first number
+// that is free; returns "NAME-NNNN". Throws Error(io).
+std::string savePicture(const TracedFrame& frame);
+
+// A camera as scene files have it: {"eye": [x,y,z], "at": ..., "up": ..., "fov": degrees}.
+void writeCamera(const std::string& file, const Camera& camera);
+// Throws Error: io when it cannot be read, badScene with the place and what was expected.
+Camera readCamera(const std::string& file);
+
+}  // namespace whit::view

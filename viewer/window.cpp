@@ -1,0 +1,213 @@
+#include "viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl2.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace whit::view {
+
+namespace {
+
+std::string glfwReason() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? std::string(" (") + text + ")" : std::string();
+}
+
+Window& windowOf(GLFWwindow* window) {
+  return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+}  // namespace
+
+Display::Display() {
+  if (!glfwInit()) throwUsage("there is no display to open a window on" + glfwReason());
+}
+
+Display::~Display() { glfwTerminate(); }
+
+Window::Window(const std::string& title, const ImageSize& size) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+  window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  if (!window_) throwUsage("no window with OpenGL 2.1 can be opened here" + glfwReason());
+  glfwSetWindowUserPointer(window_, this);
+  glfwMakeContextCurrent(window_);
+  setVsync(true);
+  glfwSetKeyCallback(window_, onKey);
+  glfwSetMouseButtonCallback(window_, onButton);
+  glfwSetCursorPosCallback(window_, onCursor);
+  glfwSetScrollCallback(window_, onScroll);
+  glfwSetWindowFocusCallback(window_, onFocus);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leave no file behind
+  const float scale = static_cast<float>(contentScale());
+  ImGui::GetIO().FontGlobalScale = scale;
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the handlers above, too
+  ImGui_ImplOpenGL2_Init();
+  glGenTextures(1, &texture_);
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL2_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glDeleteTextures(1, &texture_);
+  glfwDestroyWindow(window_);
+}
+
+bool Window::closing() const { return glfwWindowShouldClose(window_) != 0; }
+
+void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
+ImageSize Window::pixels() const {
+  ImageSize size;
+  glfwGetFramebufferSize(window_, &size.width, &size.height);
+  return size;
+}
+
+double Window::contentScale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::max(1.0f, y);
+}
+
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::setVsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
+
+void Window::toggleFullScreen() {
+  if (glfwGetWindowMonitor(window_)) {
+    glfwSetWindowMonitor(window_, nullptr, windowedX_, windowedY_, windowed_.width,
+                         windowed_.height, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return;
+  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+  glfwGetWindowPos(window_, &windowedX_, &windowedY_);
+  glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Window::poll(double waitSeconds) {
+  if (waitSeconds > 0) {
+    glfwWaitEventsTimeout(waitSeconds);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+
+void Window::upload(const DisplayImage& image) {
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  if (textureSize_ != ImageSize{image.width, image.height}) {
+    textureSize_ = {image.width, image.height};
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                  image.rgba.data());
+}
+
+void Window::drawImage() const {
+  const ImageSize size = pixels();
+  glViewport(0, 0, size.width, size.height);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (textureSize_ == ImageSize{}) return;
+  // One texel a pixel has to come through unchanged; fewer are blended.
+  const GLint filter = textureSize_ == size ? GL_NEAREST : GL_LINEAR;
+  glEnable(GL_TEXTURE_2D);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+  glBegin(GL_TRIANGLE_STRIP);  // the image's first row is at the top
+  glTexCoord2f(0, 0), glVertex2f(-1, 1);
+  glTexCoord2f(0, 1), glVertex2f(-1, -1);
+  glTexCoord2f(1, 0), glVertex2f(1, 1);
+  glTexCoord2f(1, 1), glVertex2f(1, -1);
+  glEnd();
+  glDisable(GL_TEXTURE_2D);
+}
+
+void Window::begin() {
+  drawImage();
+  ImGui_ImplOpenGL2_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Window::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL2_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Window::present() { glfwSwapBuffers(window_); }
+
+void Window::finish() const { glFinish(); }
+
+DisplayImage Window::readPixels() const {
+  const ImageSize size = pixels();
+  DisplayImage image{size.width, size.height, {}};
+  const std::size_t row = static_cast<std::size_t>(size.width) * 4;
+  std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(size.height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
+  image.rgba.reserve(upwards.size());
+  for (std::size_t end = upwards.size(); end >= row && row > 0; end -= row) {
+    const auto last = upwards.begin() + static_cast<std::ptrdiff_t>(end);
+    image.rgba.insert(image.rgba.end(), last - static_cast<std::ptrdiff_t>(row), last);
+  }
+  return image;
+}
+
+void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
+  Input& input = windowOf(window).input;
+  if (action == GLFW_RELEASE) {
+    input.held.erase(key);
+  } else if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureKeyboard) {
+    input.held.insert(key);
+    input.pressed.push_back(key);
+  }
+}
+
+void Window::onButton(GLFWwindow* window, int button, int action, int) {
+  Window& self = windowOf(window);
+  const bool drag = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
+  if (button == GLFW_MOUSE_BUTTON_LEFT) self.looking_ = drag;
+  if (button == GLFW_MOUSE_BUTTON_RIGHT) self.orbiting_ = drag;
+}
+
+void Window::onCursor(GLFWwindow* window, double x, double y) {
+  Window& self = windowOf(window);
+  const double dx = x - self.cursorX_, dy = y - self.cursorY_;
+  self.cursorX_ = x;
+  self.cursorY_ = y;
+  if (self.looking_) self.input.lookX += dx, self.input.lookY += dy;
+  if (self.orbiting_) self.input.orbitX += dx, self.input.orbitY += dy;
+}
+
+void Window::onScroll(GLFWwindow* window, double, double y) {
+  if (!ImGui::GetIO().WantCaptureMouse) windowOf(window).input.wheel += y;
+}
+
+void Window::onFocus(GLFWwindow* window, int focused) {
+  if (!focused) windowOf(window).input.held.clear();  // their release would go unseen
+}
+
+}  // namespace whit::view
