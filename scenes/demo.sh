@@ -8,6 +8,7 @@ build=$root/build
 out=$build/demo
 
 "$root/scenes/install_packages.sh" build
+"$root/scenes/install_packages.sh" view || echo "Going on without the viewer." >&2
 
 if [ -f "$build/CMakeCache.txt" ]; then
   cmake -DCMAKE_BUILD_TYPE=Release "$build" >/dev/null  # whatever generator it was made with

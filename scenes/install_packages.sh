@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the packages of packages.txt that are missing: install_packages.sh build|check...
+# Installs the packages of packages.txt that are missing: install_packages.sh build|view|check...
 # Touches neither network nor apt when all are there. Elsewhere than on Debian and Ubuntu it says
 # what is needed and succeeds: the build then finds it, or says what it misses.
 set -eu

@@ -165,10 +165,11 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
     const VF height = Dot(r, lanes.ng);
-    // Under the geometric normal the ray would leave this steeply; normals that agree change
-    // nothing.
-    const VF g2 = hn::Max(hn::MulAdd(lanes.facing, lanes.facing, interface.k), hn::Zero(d));
-    const VF lift = LeastElevation(hn::Div(hn::Sqrt(g2), interface.eta));
+    // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
+    // change nothing.
+    const VF g2 = hn::MulAdd(lanes.facing, lanes.facing, interface.k);
+    const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
+    const VF lift = LeastElevation(hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
     const MF high = hn::Gt(height, hn::Neg(lift));
     const V3 pressed =
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);

@@ -67,7 +67,7 @@ checkThreads() {
     build-tsan/tests/worker_pool_test
 }
 
-groups=(build)
+groups=(build view)
 if ! $quick; then groups+=(check); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 if ! $quick; then

@@ -20,9 +20,11 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c) {
   const Vec3d d = -s.view;
   if (interface.k == 0) return {refractedOrigin(s), d};
   const Vec3d bent = refract(interface, d, s.shadingNormal, c);
-  // Under the geometric normal the ray would leave this steeply; normals that agree change nothing.
+  // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
+  // change nothing.
   const double facing = dot(s.view, s.geometricNormal);
-  const double steepness = std::sqrt(std::max(interface.k + facing * facing, 0.0)) / interface.eta;
+  const double g2 = interface.k + facing * facing;
+  const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
   return {refractedOrigin(s), lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01))};
 }
 

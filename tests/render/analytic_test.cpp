@@ -1,0 +1,174 @@
+// The vector pipeline against closed forms: pictures whose every pixel is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/generate_ray.h"
+#include "reference/small_scenes.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Twenty roundings of a float, for formulas of about that many operations.
+constexpr double kFloatFormula = 20 * 0x1p-24;
+
+Camera lookingDown() {
+  Camera camera;
+  camera.eye = {0, 3, 0};
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 50;
+  return camera;
+}
+
+Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  renderer.render(camera, film);
+  return film.image;
+}
+
+// I kd / pi cos / d^2 at the point of the floor that each pixel's centre sees.
+TEST(Analytic, lightFallsOffOverAPlane) {
+  SceneBuilder builder;
+  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  const PointLight light = lightAt({0.5f, 2, -0.25f}, 10);
+  builder.description.lights.push_back(light);
+  const Scene scene = builder.build();
+  const RenderOptions o = smallOptions();
+  const Image image = pictureOf(scene, lookingDown(), o);
+  const CameraFrame frame = makeCameraFrame(lookingDown(), image.width, image.height);
+  double worst = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
+      const Vec3d l = Vec3d(light.position) - point;
+      const double wanted = 10 * 0.5 / kPi * (l.y / length(l)) / dot(l, l);
+      const double got = static_cast<double>(image.at(x, y).x);
+      worst = std::max(worst, std::fabs(got / wanted - 1));
+    }
+  }
+  // Where the ray meets the floor carries the rounding of the direction, times distance over
+  // height.
+  constexpr double kBound = 4 * kFloatFormula;
+  std::printf("light falloff: worst relative error %.3g, bound %.3g\n", worst, kBound);
+  EXPECT_LE(worst, kBound);
+}
+
+// A mirror of reflectance R under a sky of radiance 1, and nothing else.
+TEST(Analytic, mirrorShowsTheSky) {
+  SceneBuilder builder;
+  builder.add(floorAt(0, 8, builder.add(mirrorMaterial(0.75f))));
+  builder.sky(1);
+  const Image image = pictureOf(builder.build(), lookingDown(), smallOptions());
+  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(0.75f));
+}
+
+// H43: white light on both sides of a slab of glass. What is lost is what is still inside at the
+// deepest impulse; at normal incidence R^d (1 - R).
+TEST(Analytic, H43_whiteFurnaceThroughAGlassSlab) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 50);
+  builder.sky(1);
+  const Scene scene = builder.build();
+  for (const int inside : {1, 2, 3, 4}) {
+    RenderOptions o = smallOptions();
+    o.size = ImageSize{1, 1};
+    o.depth = inside + 1;
+    o.cutoff = 0;
+    const double got = static_cast<double>(pictureOf(scene, lookingDown(), o).pixels[0].x);
+    const double wanted = 1 - std::pow(0.04, inside) * 0.96;
+    std::printf("furnace, %d inside: %.9f, exactly %.9f\n", inside, got, wanted);
+    EXPECT_NEAR(got, wanted, 1e-6) << inside;
+  }
+  RenderOptions deep = smallOptions();
+  deep.depth = 12;
+  deep.cutoff = 0;
+  for (const Rgb& pixel : pictureOf(scene, lookingDown(), deep).pixels) {
+    EXPECT_NEAR(static_cast<double>(pixel.x), 1.0, 1e-6);
+  }
+}
+
+// H62: between two mirrors of reflectance R that emit 1, each pixel is the sum of R^k, k = 0 ..
+// depth.
+TEST(Analytic, H62_hallOfMirrorsIsAGeometricSeries) {
+  for (const float reflectance : {0.5f, 0.9f, 1.0f}) {
+    Material mirror = mirrorMaterial(reflectance);
+    mirror.emission = Rgb(1.0f);
+    SceneBuilder builder;
+    const std::uint32_t material = builder.add(mirror);
+    builder.add(floorAt(0, 4000, material));
+    builder.add(ceilingAt(4, 4000, material));
+    const Scene scene = builder.build();
+    for (const int depth : {0, 1, 8, 32}) {
+      RenderOptions o = smallOptions();
+      o.depth = depth;
+      o.cutoff = 0;
+      double wanted = 0;
+      for (int k = 0; k <= depth; ++k) wanted += std::pow(static_cast<double>(reflectance), k);
+      for (const Rgb& pixel : pictureOf(scene, lookingDown(), o).pixels) {
+        ASSERT_NEAR(static_cast<double>(pixel.x) / wanted, 1.0, (depth + 1) * 0x1p-23)
+            << reflectance << " depth " << depth;
+      }
+    }
+  }
+}
+
+// H44, H38: an ior of exactly 1 is not there, whatever the angle.
+TEST(Analytic, H38_glassOfIorOneIsInvisible) {
+  const auto picture = [](bool withGlass) {
+    SceneBuilder builder;
+    builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+    builder.description.lights.push_back(lightAt({0.5f, 2.5f, 0}, 10));
+    Material air = glassMaterial(1);
+    air.castsShadow = false;
+    const std::uint32_t material = builder.add(air);
+    if (withGlass) builder.add(box({-0.5f, 0.5f, -0.5f}, {0.5f, 1, 0.5f}, material));
+    return pictureOf(builder.build(), lookingDown(), smallOptions());
+  };
+  const Image with = picture(true), without = picture(false);
+  for (std::size_t i = 0; i < with.pixels.size(); ++i) {
+    // The ray starts anew twice, each time off by the offset of its origin.
+    EXPECT_NEAR(static_cast<double>(with.pixels[i].x), static_cast<double>(without.pixels[i].x),
+                1e-5 * static_cast<double>(without.pixels[i].x));
+  }
+}
+
+// H63: both impulses of twenty plates; memory and bits do not depend on how deep the tree of paths
+// is or how small the queues are.
+TEST(Analytic, H63_aStackOfPlatesNeedsNoMoreThanItsQueues) {
+  SceneBuilder builder;
+  const std::uint32_t glass = builder.add(glassMaterial(1.5f));
+  for (int i = 0; i < 10; ++i) {
+    addSlab(builder, 1.0f - 0.2f * static_cast<float>(i), 0.9f - 0.2f * static_cast<float>(i),
+            glass, 50);
+  }
+  builder.sky(1);
+  const Scene scene = builder.build();
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{24, 16};
+  o.depth = 20;
+  o.cutoff = 1e-4f;
+  const Image expected = pictureOf(scene, lookingDown(), o);
+  o.queue = 16;
+  o.threads = 1;  // a worker takes memory with its first tile
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.render(lookingDown(), film);
+  EXPECT_EQ(firstDifference(film.image, expected), "");
+  const std::uint64_t once = renderer.memoryBytes();
+  renderer.render(lookingDown(), film);
+  EXPECT_EQ(renderer.memoryBytes(), once);
+  o.depth = 64;
+  Renderer deeper(scene, o);
+  deeper.render(lookingDown(), film);
+  // At most a queue for each further depth.
+  constexpr std::uint64_t kBytesADepth = 16 * 1024;
+  EXPECT_LE(deeper.memoryBytes(), once + 44 * kBytesADepth);
+}
+
+}  // namespace
+}  // namespace whit::test

@@ -1,0 +1,85 @@
+// Scripts: their syntax, and the input they make.
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "viewer/script.h"
+
+namespace whit::view {
+namespace {
+
+std::string errorOf(const std::string& text) {
+  try {
+    parseScript(text, "walk.txt");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::badScene);
+    return error.what();
+  }
+  return "no error";
+}
+
+// Frames until the script says quit, at most 1000.
+int framesOf(const std::string& text, bool sharp = true) {
+  ScriptPlayer player(parseScript(text, "walk.txt"));
+  for (int frame = 0; frame < 1000; ++frame) {
+    Input input;
+    if (player.next(sharp, input).quit) return frame;
+  }
+  return 1000;
+}
+
+TEST(Script, ErrorsNameTheLine) {
+  EXPECT_EQ(errorOf("quit\n\n# all is well\nkey Lft\n"),
+            "walk.txt:4: there is no key 'Lft'; nearest: 'Left'");
+  EXPECT_EQ(errorOf("wait 3"), "walk.txt:1: expected wait N frames, wait N seconds or wait sharp");
+  EXPECT_EQ(errorOf("mouse middle 1 2"), "walk.txt:1: expected mouse left|right DX DY");
+  EXPECT_EQ(errorOf("wheel x"), "walk.txt:1: expected a number of at most 1e6, got 'x'");
+  EXPECT_EQ(errorOf("wheel 1e9"), "walk.txt:1: expected a number of at most 1e6, got '1e9'");
+  EXPECT_EQ(errorOf("wheel nan"), "walk.txt:1: expected a number of at most 1e6, got 'nan'");
+  EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
+  EXPECT_EQ(errorOf("jump"),
+            "walk.txt:1: expected key, mouse, wheel, wait, screenshot or quit, got 'jump'");
+}
+
+TEST(Script, KeysAreHeldForTheirTime) {
+  ScriptPlayer player(parseScript("key W 0.5\nkey F12", "walk.txt"));
+  for (int frame = 0; frame < 30; ++frame) {  // half a second
+    Input input;
+    player.next(true, input);
+    EXPECT_TRUE(input.isHeld('W'));
+    EXPECT_EQ(input.pressed.size(), frame == 0 ? 1u : 0u);
+  }
+  Input input;
+  player.next(true, input);
+  EXPECT_FALSE(input.isHeld('W'));
+  EXPECT_EQ(input.pressed.size(), 1u);
+}
+
+TEST(Script, MouseAndWheel) {
+  ScriptPlayer player(parseScript("mouse left 3 -4\nmouse right 5 6\nwheel -2", "walk.txt"));
+  Input input;
+  for (int frame = 0; frame < 3; ++frame) player.next(true, input);
+  EXPECT_EQ(input.lookX, 3);
+  EXPECT_EQ(input.lookY, -4);
+  EXPECT_EQ(input.orbitX, 5);
+  EXPECT_EQ(input.orbitY, 6);
+  EXPECT_EQ(input.wheel, -2);
+}
+
+TEST(Script, WaitsAndQuits) {
+  EXPECT_EQ(framesOf(""), 0);
+  EXPECT_EQ(framesOf("wait 7 frames"), 7);
+  EXPECT_EQ(framesOf("wait 2 seconds"), 120);
+  EXPECT_EQ(framesOf("wait 2 frames\nquit\nwait 9 frames"), 2);
+  EXPECT_EQ(framesOf("wait sharp", true), 1);
+  EXPECT_EQ(framesOf("wait sharp", false), 1000);  // for as long as it takes
+}
+
+TEST(Script, ScreenshotsOnce) {
+  ScriptPlayer player(parseScript("screenshot a.png # the hall\nwait 1 frames", "walk.txt"));
+  Input input;
+  EXPECT_EQ(player.next(true, input).screenshot, "a.png");
+  EXPECT_EQ(player.next(true, input).screenshot, "");
+}
+
+}  // namespace
+}  // namespace whit::view

@@ -1,0 +1,197 @@
+// whit-view itself, with a scripted user on a virtual display.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "io/image_file.h"
+#include "viewer/view_files.h"
+#include "virtual_display.h"
+
+namespace whit::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Viewer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (display_.name().empty()) {
+      GTEST_SKIP() << "Xvfb is not installed: the viewer's window is NOT tested (xvfb)";
+    }
+    cli::writeTinyScene(folder_);
+  }
+
+  cli::Outcome view(std::vector<std::string> words) {
+    words.insert(words.begin(), {WHIT_VIEW_PROGRAM, "tiny.json", "--quiet"});
+    return runOn(display_.name(), folder_.path().string(), words);
+  }
+  cli::Outcome play(const std::string& script, std::vector<std::string> words = {}) {
+    std::ofstream(folder_ / "script.txt") << script;
+    words.insert(words.end(), {"--script", "script.txt"});
+    const cli::Outcome outcome = view(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome;
+  }
+  // Runs a command that the viewer has printed, as a shell would.
+  void render(const std::string& command, const std::string& file) {
+    ASSERT_EQ(command.rfind("whit render ", 0), 0u) << command;
+    const std::string line = WHIT_PROGRAM + command.substr(4) + " --quiet -o " + file;
+    const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
+    ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
+  }
+  RawImage codes(const std::string& file) {
+    Warnings warnings;
+    return readRawImage(folder_ / file, ImageLimits(), warnings);
+  }
+  void expectSameCodes(const std::string& a, const std::string& b) {
+    const RawImage x = codes(a), y = codes(b);
+    ASSERT_EQ(x.width, y.width);
+    ASSERT_EQ(x.height, y.height);
+    EXPECT_EQ(x.codes, y.codes);
+  }
+
+  VirtualDisplay display_;
+  cli::TemporaryFolder folder_;
+};
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
+  const cli::Outcome outcome = play(
+      "key H\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
+      "screenshot shown.png\nkey C\n",
+      {"--size", "240x160"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_EQ(lines[0].find("--eye=0,2,6"), std::string::npos) << "it has not moved: " << lines[0];
+  EXPECT_NE(lines[0].find("--exposure=0.25"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+TEST_F(Viewer, SavesThePictureAndItsCamera) {
+  const cli::Outcome outcome =
+      play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  render(lines[0], "again.png");
+  render(lines[0], "again.exr");
+  expectSameCodes("tiny-0001.png", "again.png");
+  EXPECT_EQ(cli::readFile(folder_ / "tiny-0001.exr"), cli::readFile(folder_ / "tiny-0002.exr"));
+  Warnings warnings;
+  const Image saved = readImage(folder_ / "tiny-0001.exr", ImageLimits(), warnings);
+  const Image again = readImage(folder_ / "again.exr", ImageLimits(), warnings);
+  ASSERT_EQ(saved.pixels.size(), again.pixels.size());
+  EXPECT_EQ(
+      std::memcmp(saved.pixels.data(), again.pixels.data(), saved.pixels.size() * sizeof(Rgb)), 0);
+  const Camera camera = readCamera(folder_ / "tiny-0001.json");
+  EXPECT_NE(lines[0].find("--fov=40"), std::string::npos) << lines[0];
+  EXPECT_EQ(camera.fov, 40);
+  EXPECT_LT(camera.eye.x, 0);  // it flew to the left
+}
+
+TEST_F(Viewer, KeysChooseCameras) {
+  const cli::Outcome outcome = play(
+      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey F5\nkey S 0.3\nwait 3 frames\nwait sharp\n"
+      "key C\nkey F9\nwait 3 frames\nwait sharp\nkey C\n");
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_NE(lines[0].find("--eye=6,2,0 --at=0,1,0"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1], lines[0]);
+  EXPECT_EQ(lines[2], lines[0]);
+}
+
+TEST_F(Viewer, ThePanelCoversThePicture) {
+  play("wait sharp\nscreenshot with.png\nkey H\nwait 2 frames\nscreenshot without.png\n",
+       {"--size", "400x300"});
+  EXPECT_NE(codes("with.png").codes, codes("without.png").codes);
+}
+
+TEST_F(Viewer, RecordsThePath) {
+  const cli::Outcome outcome = view({"--record", "frames"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  // One second, 24 frames each, both ends.
+  EXPECT_TRUE(fs::exists(folder_ / "frames/frame-0000.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "frames/frame-0024.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "frames/frame-0025.png"));
+}
+
+TEST_F(Viewer, BenchmarkTellsTracingFromDisplay) {
+  const cli::Outcome outcome = view({"--benchmark"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("tracing"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("display"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Viewer, ErrorsEndAScript) {
+  std::ofstream(folder_ / "script.txt") << "key F9\n";  // nothing was saved
+  const cli::Outcome outcome = view({"--script", "script.txt"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("tiny-camera.json"), std::string::npos) << outcome.err;
+  std::ofstream(folder_ / "script.txt") << "wait\n";
+  EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
+}
+
+TEST(ViewerAlone, SaysThatThereIsNoDisplay) {
+  const cli::TemporaryFolder folder;
+  const cli::Outcome outcome =
+      runOn("", folder.path().string(), {WHIT_VIEW_PROGRAM, "whitted", "--quiet"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("no display"), std::string::npos) << outcome.err;
+}
+
+TEST(ViewerAlone, RefusesWhatItCannotShow) {
+  const cli::TemporaryFolder folder;
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--crop", "0,0,1,1"},
+                                                {"--mode", "reference"},
+                                                {"--rate", "5"},
+                                                {"--benchmark", "--record", "x"}}) {
+    std::vector<std::string> all{WHIT_VIEW_PROGRAM, "whitted"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(runOn("", folder.path().string(), all).status, 2) << words[0];
+  }
+}
+
+TEST(ViewFiles, CamerasComeBackBitForBit) {
+  const cli::TemporaryFolder folder;
+  Camera camera;
+  camera.eye = {0.1f, -1e-20f, 3.3333333e7f};
+  camera.at = {1.0f / 3, 2, -0.0f};
+  camera.up = {0.7f, 0.1f, 0};
+  camera.fov = 33.3f;
+  writeCamera(folder / "camera.json", camera);
+  const Camera read = readCamera(folder / "camera.json");
+  EXPECT_EQ(read.eye, camera.eye);
+  EXPECT_EQ(read.at, camera.at);
+  EXPECT_EQ(read.up, camera.up);
+  EXPECT_EQ(read.fov, camera.fov);
+}
+
+TEST(ViewFiles, BadCamerasSayWhere) {
+  const cli::TemporaryFolder folder;
+  const auto errorOf = [&](const std::string& text) {
+    std::ofstream(folder / "camera.json") << text;
+    try {
+      readCamera(folder / "camera.json");
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(folder.path().string().size() + 1);
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(errorOf("[]"), "camera.json: expected an object with eye, at, up and fov");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0]})"), "camera.json#/eye: expected three numbers");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1e99], "at": [0, 0, 0], "up": [0, 1, 0], "fov": 40})"),
+            "camera.json#/eye: expected numbers of single precision");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 1], "up": [0, 1, 0], "fov": 40})"),
+            "camera.json#/at: expected eye and at to differ");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 0], "up": [0, 1, 0], "fov": 0})"),
+            "camera.json#/fov: expected degrees from 0.01 to 179");
+}
+
+}  // namespace
+}  // namespace whit::view

@@ -1,0 +1,76 @@
+// A display without a screen, and the viewer run on it.
+#pragma once
+
+#include <unistd.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/run_program.h"
+
+namespace whit::view {
+
+// Xvfb, for as long as it lives. `name` is empty when there is no Xvfb on this machine.
+class VirtualDisplay {
+ public:
+  VirtualDisplay() {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    child_ = fork();
+    if (child_ == 0) {
+      close(ends[0]);
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDERR_FILENO);
+      const std::string number = std::to_string(ends[1]);
+      execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
+             "-nolisten", "tcp", static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    close(ends[1]);
+    // Xvfb writes its number once it listens; without Xvfb the pipe just closes.
+    std::string number;
+    for (char c; read(ends[0], &c, 1) == 1 && c != '\n';) number += c;
+    close(ends[0]);
+    if (!number.empty()) name_ = ":" + number;
+  }
+  ~VirtualDisplay() {
+    kill(child_, SIGTERM);
+    cli::waitFor(child_);
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+  const std::string& name() const { return name_; }
+
+ private:
+  pid_t child_ = -1;
+  std::string name_;
+};
+
+// Runs a program in `folder` with DISPLAY set, or unset when `display` is empty. Three minutes at
+// most, after which it is ended: status -14.
+inline cli::Outcome runOn(const std::string& display, const std::string& folder,
+                          std::vector<std::string> words) {
+  const cli::TemporaryFolder output;
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const std::string out = output / "stdout", err = output / "stderr";
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(180);
+    dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    unsetenv("WAYLAND_DISPLAY");
+    unsetenv("DISPLAY");
+    if (!display.empty()) setenv("DISPLAY", display.c_str(), 1);
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  const int status = cli::waitFor(child);
+  return {status, cli::readFile(out), cli::readFile(err)};
+}
+
+}  // namespace whit::view
