@@ -6,16 +6,11 @@
 #define WHIT_SIMD_TEXTURE_INL_H_
 #endif
 
+#include "hwy/cache_control.h"
 #include "simd/records-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
-
-// The four texels around a point and their weights.
-struct Footprint {
-  VU t00, t10, t01, t11;
-  VF w00, w10, w01, w11;
-};
 
 // Texel coordinates along one axis: lower and upper index, and the fraction between them.
 struct AxisTexels {
@@ -75,11 +70,28 @@ HWY_INLINE VF TameCoordinate(VF s) {
   return hn::IfThenElseZero(hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f)), s);
 }
 
-// `texture` is an index into `records` in the lanes of `live`; dead lanes read texel 0.
-HWY_INLINE Footprint FindFootprint(const void* records, const uint32_t* texels, VI texture, MF live,
-                                   VF u, VF v) {
+// Where a block of rays looks textures up. Texels are asked for when they are queued and read when
+// the whole block has been: so the cache misses of many rays overlap.
+struct TexelQueue {
+  static constexpr size_t kRays = 64;
+  HWY_ALIGN int32_t texel00[kRays], texel10[kRays], texel01[kRays], texel11[kRays];
+  HWY_ALIGN float fractionX[kRays], fractionY[kRays];  // X below 0: no texture
+  bool any[kRays];                                     // by the first lane of a vector
+};
+
+HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
+  const FloatTag d;
+  return hn::Ge(hn::Load(d, queue.fractionX + slot), hn::Zero(d));
+}
+
+// Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
+// into `records`.
+HWY_INLINE void QueueTexels(const void* records, const uint32_t* texels, VI texture, MF live, VF u,
+                            VF v, size_t slot, TexelQueue& queue) {
   const FloatTag d;
   const IntTag di;
+  queue.any[slot] = !hn::AllFalse(d, live);
+  if (!queue.any[slot]) return;
   const TableReader reader(records, 4, texture, live);
   const V4 record = reader.Columns4(0);
   const VI first = hn::BitCast(di, record.x);
@@ -94,17 +106,41 @@ HWY_INLINE Footprint FindFootprint(const void* records, const uint32_t* texels, 
   const AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), heightF, wrapV);
   const VI row0 = hn::Add(first, hn::Mul(y.lower, width));
   const VI row1 = hn::Add(first, hn::Mul(y.upper, width));
-  const auto gather = [&](VI row, VI column) HWY_ATTR {
-    const VI index = hn::IfThenElseZero(hn::RebindMask(di, live), hn::Add(row, column));
-    return hn::BitCast(UintTag(),
-                       hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels), index));
+  const auto liveInt = hn::RebindMask(di, live);
+  const auto store = [&](VI row, VI column, int32_t* to) HWY_ATTR {
+    hn::Store(hn::IfThenElseZero(liveInt, hn::Add(row, column)), di, to + slot);
+  };
+  store(row0, x.lower, queue.texel00);
+  store(row0, x.upper, queue.texel10);
+  store(row1, x.lower, queue.texel01);
+  store(row1, x.upper, queue.texel11);
+  hn::Store(hn::IfThenElse(live, x.fraction, hn::Set(d, -1.0f)), d, queue.fractionX + slot);
+  hn::Store(y.fraction, d, queue.fractionY + slot);
+  for (size_t lane = slot; lane < slot + hn::Lanes(d); ++lane) {
+    hwy::Prefetch(texels + queue.texel00[lane]);
+    hwy::Prefetch(texels + queue.texel01[lane]);
+  }
+}
+
+// Four texels and their weights.
+struct Footprint {
+  VU t00, t10, t01, t11;
+  VF w00, w10, w01, w11;
+};
+
+HWY_INLINE Footprint FetchTexels(const uint32_t* texels, const TexelQueue& queue, size_t slot) {
+  const FloatTag d;
+  const IntTag di;
+  const auto gather = [&](const int32_t* index) HWY_ATTR {
+    return hn::BitCast(UintTag(), hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels),
+                                                  hn::Load(di, index + slot)));
   };
   const VF one = hn::Set(d, 1.0f);
-  const VF gx = hn::Sub(one, x.fraction), gy = hn::Sub(one, y.fraction);
-  return {gather(row0, x.lower),   gather(row0, x.upper),
-          gather(row1, x.lower),   gather(row1, x.upper),
-          hn::Mul(gx, gy),         hn::Mul(x.fraction, gy),
-          hn::Mul(gx, y.fraction), hn::Mul(x.fraction, y.fraction)};
+  const VF fx = hn::Load(d, queue.fractionX + slot), fy = hn::Load(d, queue.fractionY + slot);
+  const VF gx = hn::Sub(one, fx), gy = hn::Sub(one, fy);
+  return {gather(queue.texel00), gather(queue.texel10), gather(queue.texel01),
+          gather(queue.texel11), hn::Mul(gx, gy),       hn::Mul(fx, gy),
+          hn::Mul(gx, fy),       hn::Mul(fx, fy)};
 }
 
 // (code / 1023)^2: linear light of a 10-bit channel (TexelFormat::colour).

@@ -39,6 +39,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   device_ = rtcNewDevice(deviceConfiguration(options).c_str());
   if (!device_) throwUsage("Embree has no device for '" + deviceConfiguration(options) + "'");
   rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
+  if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
   triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
     scenes_.push_back(rtcNewScene(device_));
@@ -76,8 +77,8 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const Accel
                                sizeof(source.index[0]), end - first);
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
     if ((c & kMaskedBit) != 0 && options.alphaMasks) {
-      masked_.push_back(
-          std::make_unique<MaskedGeometry>(MaskedGeometry{&scene, source.firstTriangle + first}));
+      masked_.push_back(std::make_unique<MaskedGeometry>(
+          MaskedGeometry{&scene, &alphaMaps_, source.firstTriangle + first}));
       rtcSetGeometryUserData(geometry, masked_.back().get());
       rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
       rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);

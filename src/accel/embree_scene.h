@@ -45,6 +45,7 @@ class EmbreeScene {
 
   RTCDevice device_ = nullptr;
   std::vector<RTCScene> scenes_;  // one a Scene::geometries
+  AlphaMaps alphaMaps_;
   std::vector<std::unique_ptr<MaskedGeometry>> masked_;
   std::vector<std::uint32_t> triangleBase_;
   std::atomic<std::uint64_t> bytes_{0};
