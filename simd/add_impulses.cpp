@@ -6,6 +6,7 @@
 #include "simd/compact-inl.h"
 #include "simd/fresnel-inl.h"
 #include "simd/media-inl.h"
+#include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -70,7 +71,7 @@ HWY_INLINE Interface InterfaceOf(const ShadingTables& tables, const ImpulseLanes
     const float* table = reinterpret_cast<const float*>(tables.media.data());
     return hn::GatherIndex(d, table, hn::Mul(medium, hn::Set(di, kMediumStride)));
   };
-  return DielectricInterface(ior(hn::Load(du, rays.media + i)),
+  return DielectricInterface(tables.shading.fresnel, ior(hn::Load(du, rays.media + i)),
                              ior(hn::Load(du, surfels.mediaBehind + i)), lanes.cosine);
 }
 
@@ -99,12 +100,12 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
   return compactor.Count();
 }
 
-HWY_INLINE V3 ChildOrigin(const SurfelColumns& surfels, const ImpulseLanes& lanes, size_t i,
-                          float side) {
+HWY_INLINE V3 ChildOrigin(const ShadingTables& tables, const SurfelColumns& surfels,
+                          const ImpulseLanes& lanes, size_t i, float side) {
   const FloatTag d;
   const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-  const VF offset = hn::Mul(hn::Load(d, surfels.offset + i), hn::Set(d, side));
-  return MulAdd3(lanes.ng, offset, position);
+  return RayOrigin(tables.shading.offset, position, lanes.ng, hn::Load(d, surfels.offset + i),
+                   side);
 }
 
 size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
@@ -139,7 +140,7 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
       r = Select3(low, lifted, r);
     }
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
-    const Child child{ChildOrigin(surfels, lanes, i, 1.0f), r, weight, media};
+    const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f), r, weight, media};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }
   return count - first;
@@ -175,7 +176,7 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
-    const Child child{ChildOrigin(surfels, lanes, i, -1.0f), r, weight,
+    const Child child{ChildOrigin(tables, surfels, lanes, i, -1.0f), r, weight,
                       hn::Load(du, surfels.mediaBehind + i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }

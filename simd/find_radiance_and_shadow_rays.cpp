@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
+#include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -42,7 +43,8 @@ HWY_INLINE float LightBound(const PointLight& light) {
 }
 
 template <uint32_t kBits>
-HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const PointLight& light,
+HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choices,
+                                                     EffectSet effects, const PointLight& light,
                                                      const RayColumns& rays,
                                                      const SurfelColumns& surfels, size_t n,
                                                      const UnshadowedColumns& unshadowed,
@@ -94,14 +96,20 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const Po
     }
     const VF falloff = hn::Div(nl, hn::Max(distanceSquared, radiusSquared));
     const V3 radiance = Scale3(Mul3(bsdf, intensity), falloff);
-    live = hn::And(live, hn::Gt(MaxComponent(radiance), zero));
+    const VF largest = MaxComponent(radiance);
+    live = hn::And(live, hn::Gt(largest, zero));
+    if (choices.lightCutoff > 0) {
+      const VF contribution = hn::Mul(hn::Load(d, rays.throughput + i), largest);
+      live = hn::And(live, hn::Ge(contribution, hn::Set(d, choices.lightCutoff)));
+    }
     Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
     if (!traced) {
       hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
       continue;
     }
     hn::Store(zero, d, unshadowed.visible + i);
-    const V3 origin = MulAdd3(ng, hn::Load(d, surfels.offset + i), position);
+    const V3 origin =
+        RayOrigin(choices.offset, position, ng, hn::Load(d, surfels.offset + i), 1.0f);
     const V3 direction = Sub3(lightPosition, origin);
     const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);
     const Compactor lit(live);
@@ -114,14 +122,15 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(EffectSet effects, const Po
   return count;
 }
 
-size_t FindRadianceAndShadowRays(const ShadingTables&, EffectSet effects, const PointLight& light,
-                                 const RayColumns& rays, const SurfelColumns& surfels, size_t n,
+size_t FindRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
+                                 const PointLight& light, const RayColumns& rays,
+                                 const SurfelColumns& surfels, size_t n,
                                  const UnshadowedColumns& unshadowed,
                                  const ShadowColumns& shadows) {
   static constexpr auto kVariants = variantTable<kFindRadianceAndShadowRays>(
       []<uint32_t kBits>() { return &FindRadianceAndShadowRaysVariant<kBits>; });
-  return kVariants[kFindRadianceAndShadowRays.variantFor(effects)](effects, light, rays, surfels, n,
-                                                                   unshadowed, shadows);
+  return kVariants[kFindRadianceAndShadowRays.variantFor(effects)](
+      tables.shading, effects, light, rays, surfels, n, unshadowed, shadows);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

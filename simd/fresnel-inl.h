@@ -7,6 +7,7 @@
 #define WHIT_SIMD_FRESNEL_INL_H_
 #endif
 
+#include "core/shading_choices.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,8 +21,25 @@ struct Interface {
   MF straight;     // same ior on both sides: the direction does not change at all
 };
 
+// (1 - c)^5 (Schlick 1994).
+HWY_INLINE VF SchlickTerm(VF c) {
+  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
+  const VF m2 = hn::Mul(m, m);
+  return hn::Mul(hn::Mul(m2, m2), m);
+}
+
+// Schlick's polynomial, of the refracted ray's cosine g / eta where that is the smaller one.
+HWY_INLINE VF SchlickReflectance(VF iorBefore, VF iorBehind, VF c, VF g) {
+  const FloatTag d;
+  const VF normal = hn::Div(hn::Sub(iorBehind, iorBefore), hn::Add(iorBehind, iorBefore));
+  const VF f0 = hn::Mul(normal, normal);
+  const VF refracted = hn::Mul(g, hn::Div(iorBefore, iorBehind));
+  const VF cosine = hn::IfThenElse(hn::Lt(iorBehind, iorBefore), refracted, c);
+  return hn::MulAdd(hn::Sub(hn::Set(d, 1.0f), f0), SchlickTerm(cosine), f0);
+}
+
 // c: cosine between the viewer and the normal, in [0, 1].
-HWY_INLINE Interface DielectricInterface(VF iorBefore, VF iorBehind, VF c) {
+HWY_INLINE Interface DielectricInterface(FresnelModel model, VF iorBefore, VF iorBehind, VF c) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const VF eta = hn::Div(iorBehind, iorBefore);
@@ -39,16 +57,10 @@ HWY_INLINE Interface DielectricInterface(VF iorBefore, VF iorBehind, VF c) {
   const VF rp = hn::Div(hn::Mul(k, hn::Sub(c, hn::Div(one, sum))),
                         hn::Max(hn::Add(etaSquaredC, g), hn::Set(d, 1e-30f)));
   VF f = hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(rs, rs, hn::Mul(rp, rp)));
+  if (model == FresnelModel::schlick) f = SchlickReflectance(iorBefore, iorBehind, c, g);
   f = hn::IfThenElse(total, one, hn::Min(f, one));
   f = hn::IfThenElse(straight, zero, f);
   return {f, eta, k, bend, straight};
-}
-
-// (1 - c)^5 (Schlick 1994).
-HWY_INLINE VF SchlickTerm(VF c) {
-  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
-  const VF m2 = hn::Mul(m, m);
-  return hn::Mul(hn::Mul(m2, m2), m);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/options.h"
 #include "core/progress.h"
 #include "scene/scene.h"
 #include "stages/columns.h"
@@ -15,7 +16,8 @@
 namespace whit {
 
 struct AccelOptions {
-  bool robust = true;      // watertight traversal
+  bool robust = true;  // watertight traversal
+  BvhQuality quality = BvhQuality::medium;
   bool alphaMasks = true;  // respect them (a filter on masked triangles only)
   int threads = 0;         // for building; 0: all
   int packet = 0;          // 0: the widest the CPU runs natively

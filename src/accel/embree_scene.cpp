@@ -27,6 +27,18 @@ void filterByAlpha(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+RTCBuildQuality buildQuality(BvhQuality quality) {
+  switch (quality) {
+    case BvhQuality::low:
+      return RTC_BUILD_QUALITY_LOW;
+    case BvhQuality::high:
+      return RTC_BUILD_QUALITY_HIGH;
+    case BvhQuality::medium:
+      break;
+  }
+  return RTC_BUILD_QUALITY_MEDIUM;
+}
+
 std::string deviceConfiguration(const AccelOptions& options) {
   std::string text = "threads=" + std::to_string(options.threads);
   if (!options.isa.empty()) text += ",max_isa=" + options.isa;
@@ -44,6 +56,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
     scenes_.push_back(rtcNewScene(device_));
     rtcSetSceneFlags(scenes_[i], options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneBuildQuality(scenes_[i], buildQuality(options.quality));
     addGeometry(i, scene, options);
     if (i != 0) commit(scenes_[i], progress);
   }

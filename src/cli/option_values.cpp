@@ -79,6 +79,7 @@ OptionSpec renderOptionSpec(const std::string& name, const std::string& placehol
   limit("spp", 1, kSppLimit);
   limit("depth", 0, kDepthLimit);
   limit("cutoff", 0, 1);
+  limit("light-cutoff", 0, 1e6);
   limit("threads", 0, kThreadLimit);
   limit("fov", 0.001, 179);
   limit("exposure", -64, 64);

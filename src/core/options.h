@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/effects.h"
+#include "core/shading_choices.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -17,6 +18,7 @@ enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
 enum class Quality { draft, standard, fine, reference };
+enum class BvhQuality { low, medium, high };
 
 struct ImageSize {
   int width = 0, height = 0;
@@ -42,7 +44,9 @@ struct RenderOptions {
   std::string simd = "auto";
   Mode mode = Mode::packets;
   Batch batch = Batch::tile;
+  ShadingChoices shading;
   bool robust = true;
+  BvhQuality bvh = BvhQuality::medium;
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
   EffectSet disable;
@@ -71,15 +75,28 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("spp", "N", "samples per pixel", o.spp);
   visit("depth", "N", "deepest impulse", o.depth);
   visit("cutoff", "X", "smallest contribution of an impulse that is still traced", o.cutoff);
+  visit("light-cutoff", "X",
+        "smallest contribution of a light to the pixel that is still added, and its shadow traced",
+        o.shading.lightCutoff);
+  visit("fresnel", "exact|schlick",
+        "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
+        o.shading.fresnel);
+  visit("offset", "bound|fixed|wachter-binder",
+        "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and more",
+        o.shading.offset);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);
   visit("simd", "auto|avx3|avx2|sse4|neon|scalar", "kernel target, and the Embree ISA with it",
         o.simd);
-  visit("mode", "packets|reference", "vector pipeline, or the scalar recursive reference", o.mode);
+  visit("mode", "packets|reference",
+        "vector pipeline in float, or the scalar recursive reference in double", o.mode);
   visit("batch", "tile|frame", "stages run over a tile at a time, or over the whole frame",
         o.batch);
   visit("robust", "on|off", "Embree's watertight traversal", o.robust);
+  visit("bvh", "low|medium|high",
+        "Embree's build quality; high, for spatial splits, is ignored by Embree when robust",
+        o.bvh);
   visit("effects", "auto|all", "kernels for what the scene calls for, or every effect", o.effects);
   visit("quality", "draft|standard|fine|reference", "presets of the other options", o.quality);
   visit("disable", "a,b", "effects left out (the names that whit info prints)", o.disable);

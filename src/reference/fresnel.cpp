@@ -4,7 +4,7 @@
 
 namespace whit::reference {
 
-Interface makeInterface(double n1, double n2, double c) {
+Interface makeInterface(double n1, double n2, double c, FresnelModel model) {
   Interface interface;
   interface.eta = n2 / n1;
   interface.k = (n2 - n1) * (n2 + n1) / (n1 * n1);
@@ -18,6 +18,13 @@ Interface makeInterface(double n1, double n2, double c) {
     return interface;
   }
   const double g = interface.g = std::sqrt(g2);
+  if (model == FresnelModel::schlick) {
+    const double normal = (n2 - n1) / (n2 + n1), f0 = normal * normal;
+    // The refracted ray's cosine where that is the smaller one, or total reflection would not be
+    // reached at the critical angle.
+    interface.reflectance = f0 + (1 - f0) * schlickTerm(n2 < n1 ? g / interface.eta : c);
+    return interface;
+  }
   const double perpendicular = -interface.k / ((c + g) * (c + g));
   const double parallel = interface.k * (c - 1 / (c + g)) / (interface.eta * interface.eta * c + g);
   interface.reflectance = (perpendicular * perpendicular + parallel * parallel) / 2;

@@ -2,6 +2,7 @@
 // keeps its precision where the two refractive indices are close or equal.
 #pragma once
 
+#include "core/shading_choices.h"
 #include "core/vec3.h"
 
 namespace whit::reference {
@@ -18,8 +19,8 @@ struct Interface {
 };
 
 // c in [0, 1]. Equal indices reflect nothing at any angle; at or beyond the critical angle, and
-// along the surface (c = 0), everything is reflected.
-Interface makeInterface(double n1, double n2, double c);
+// along the surface (c = 0), everything is reflected. `model` is about the reflectance alone.
+Interface makeInterface(double n1, double n2, double c, FresnelModel model = FresnelModel::exact);
 
 // Unit direction behind the interface of a ray along the unit direction `d`, which meets the unit
 // normal `n` (on the ray's side) at cosine c. Not for total reflection. Exactly `d` where k = 0.

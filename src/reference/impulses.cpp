@@ -3,29 +3,27 @@
 #include <algorithm>
 
 #include "reference/fresnel.h"
+#include "reference/ray_origin.h"
 
 namespace whit::reference {
 
 namespace {
 
-Vec3d reflectedOrigin(const Surfel& s) { return s.position + s.geometricNormal * s.offset; }
-Vec3d refractedOrigin(const Surfel& s) { return s.position - s.geometricNormal * s.offset; }
-
-Ray reflectedRay(const Surfel& s) {
+Ray reflectedRay(const Surfel& s, OffsetMethod offset) {
   const Vec3d mirrored = reflect(-s.view, s.shadingNormal);
-  return {reflectedOrigin(s), lifted(mirrored, s.geometricNormal, smallestElevation(s))};
+  return {rayOrigin(offset, s, 1), lifted(mirrored, s.geometricNormal, smallestElevation(s))};
 }
 
-Ray refractedRay(const Surfel& s, const Interface& interface, double c) {
-  const Vec3d d = -s.view;
-  if (interface.k == 0) return {refractedOrigin(s), d};
+Ray refractedRay(const Surfel& s, const Interface& interface, double c, OffsetMethod offset) {
+  const Vec3d d = -s.view, origin = rayOrigin(offset, s, -1);
+  if (interface.k == 0) return {origin, d};
   const Vec3d bent = refract(interface, d, s.shadingNormal, c);
   // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
   // change nothing.
   const double facing = dot(s.view, s.geometricNormal);
   const double g2 = interface.k + facing * facing;
   const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
-  return {refractedOrigin(s), lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01))};
+  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01))};
 }
 
 // The mirror coat's reflectance.
@@ -46,10 +44,11 @@ Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation) {
 }
 
 Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
-                      const Crossing& crossing, MediaStack stack) {
+                      const Crossing& crossing, MediaStack stack, const ShadingChoices& choices) {
   Impulses result;
   if (crossing.hidden) {
-    result.refracted = {RgbD(1.0), {refractedOrigin(surfel), -surfel.view}, crossing.stackBehind};
+    result.refracted = {
+        RgbD(1.0), {rayOrigin(choices.offset, surfel, -1), -surfel.view}, crossing.stackBehind};
     return result;
   }
   const Material& material = scene.materials[surfel.material];
@@ -57,14 +56,16 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   RgbD reflectance;
   if (effects.has(Effect::mirror)) reflectance = coatReflectance(material, c);
   if (crossing.dielectric) {
-    const Interface interface = makeInterface(crossing.n1, crossing.n2, c);
+    const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
     if (effects.has(Effect::mirror)) reflectance += RgbD(interface.reflectance);
     if (interface.reflectance < 1) {
       result.refracted = {RgbD(material.transmission) * (1 - interface.reflectance),
-                          refractedRay(surfel, interface, c), crossing.stackBehind};
+                          refractedRay(surfel, interface, c, choices.offset), crossing.stackBehind};
     }
   }
-  if (maxComponent(reflectance) > 0) result.reflected = {reflectance, reflectedRay(surfel), stack};
+  if (maxComponent(reflectance) > 0) {
+    result.reflected = {reflectance, reflectedRay(surfel, choices.offset), stack};
+  }
   return result;
 }
 

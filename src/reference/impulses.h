@@ -2,6 +2,7 @@
 // illumination model for shaded display").
 #pragma once
 
+#include "core/shading_choices.h"
 #include "reference/media.h"
 #include "reference/surfel.h"
 
@@ -21,7 +22,8 @@ struct Impulses {
 // `stack` is that of the incoming ray, `crossing` what it makes of the surfel. A hidden surface
 // lets the ray pass as it is.
 Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
-                      const Crossing& crossing, MediaStack stack);
+                      const Crossing& crossing, MediaStack stack,
+                      const ShadingChoices& choices = {});
 
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
 // below: shading normals would send some through to the wrong side (numerics: H32). Less than the

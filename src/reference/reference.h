@@ -17,6 +17,7 @@ struct Settings {
   int spp = 1;
   int depth = 8;
   double cutoff = 3.0e-4;
+  ShadingChoices shading;
   EffectSet effects = EffectSet::all();  // effects the scene has and that are not disabled
   int threads = 1;
 };
@@ -45,7 +46,7 @@ class Tracer {
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
 
  private:
-  RgbD radianceFromLights(const Surfel& surfel, RayCounts& counts) const;
+  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
               RayCounts& counts) const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/fresnel.h"
+#include "reference/ray_origin.h"
 
 namespace whit::reference {
 
@@ -53,7 +54,8 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   return fresnel * (distribution * visibility);
 }
 
-LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light) {
+LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
+                               OffsetMethod offset) {
   LightArrival arrival;
   const Vec3d toLight = Vec3d(light.position) - surfel.position;
   const double squaredDistance = dot(toLight, toLight);
@@ -70,7 +72,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Po
     reflected += glossyLobe(surfel, l);
   }
   arrival.radiance = reflected * biradiance * cosine;
-  const Vec3d origin = surfel.position + surfel.geometricNormal * surfel.offset;
+  const Vec3d origin = rayOrigin(offset, surfel, 1);
   arrival.shadowRay = {origin, Vec3d(light.position) - origin};
   arrival.tFar = shadowReach(light, distance);
   return arrival;

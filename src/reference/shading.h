@@ -1,6 +1,7 @@
 // What a surfel sends to the viewer by itself and from the lights.
 #pragma once
 
+#include "core/shading_choices.h"
 #include "reference/surfel.h"
 
 namespace whit::reference {
@@ -23,6 +24,7 @@ struct LightArrival {
   Ray shadowRay;    // from the surfel to the light, not normalised
   double tFar = 0;  // a little before the light
 };
-LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light);
+LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
+                               OffsetMethod offset = OffsetMethod::bound);
 
 }  // namespace whit::reference

@@ -32,14 +32,17 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const Crossing crossing =
       crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
 
+  const double left = throughput * maxComponent(arrives);
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, settings_.effects, surfel);
-    if (settings_.effects.has(Effect::lights)) radiance += radianceFromLights(surfel, counts);
+    if (settings_.effects.has(Effect::lights)) {
+      radiance += radianceFromLights(surfel, left, counts);
+    }
   }
   if (depth < settings_.depth) {
-    const Impulses children = findImpulses(scene_, settings_.effects, surfel, crossing, media);
-    const double left = throughput * maxComponent(arrives);
+    const Impulses children =
+        findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
     radiance += follow(children.reflected, depth + 1, left, counts.reflection, counts);
     radiance += follow(children.refracted, depth + 1, left, counts.refraction, counts);
   }
@@ -56,11 +59,13 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
   return impulse.weight * traceImpulse(impulse.ray, depth, contribution, impulse.media, counts);
 }
 
-RgbD Tracer::radianceFromLights(const Surfel& surfel, RayCounts& counts) const {
+RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const {
   RgbD sum;
   for (const PointLight& light : scene_.lights) {
-    const LightArrival arrival = radianceFromLight(settings_.effects, surfel, light);
-    if (arrival.radiance == RgbD{}) continue;
+    const LightArrival arrival =
+        radianceFromLight(settings_.effects, surfel, light, settings_.shading.offset);
+    const double largest = maxComponent(arrival.radiance);
+    if (!(largest > 0 && throughput * largest >= settings_.shading.lightCutoff)) continue;
     if (settings_.effects.has(Effect::shadows)) {
       ++counts.shadow;
       if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;

@@ -95,11 +95,7 @@ std::uint64_t countPathFlips(Renderer& renderer, const Camera& camera, const Fil
   SignatureObserver observer(film.image.window, p.plan.traceShadows, p.plan.groups.instances);
   p.renderObserved(job, observer);
 
-  reference::Settings settings;
-  settings.spp = p.options.spp;
-  settings.depth = p.options.depth;
-  settings.cutoff = static_cast<double>(p.options.cutoff);
-  settings.effects = p.plan.effects;
+  const reference::Settings settings = p.referenceSettings();
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
   std::atomic<std::uint64_t> flips{0};

@@ -22,18 +22,23 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
   return accel_.occluded(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(tFar));
 }
 
+reference::Settings Renderer::Parts::referenceSettings() const {
+  reference::Settings settings;
+  settings.spp = options.spp;
+  settings.depth = options.depth;
+  settings.cutoff = static_cast<double>(options.cutoff);
+  settings.shading = options.shading;
+  settings.effects = plan.effects;
+  settings.threads = machine.threads;
+  return settings;
+}
+
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
   Parts& p = *parts_;
   const auto start = std::chrono::steady_clock::now();
-  reference::Settings settings;
-  settings.spp = p.options.spp;
-  settings.depth = p.options.depth;
-  settings.cutoff = static_cast<double>(p.options.cutoff);
-  settings.effects = p.plan.effects;
-  settings.threads = p.machine.threads;
   const EmbreeIntersector intersector(*p.accel);
   const reference::RayCounts counts =
-      reference::render(p.scene, intersector, camera, settings, film.image, progress);
+      reference::render(p.scene, intersector, camera, p.referenceSettings(), film.image, progress);
   if (film.wantDisplay) {
     film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve);
   }

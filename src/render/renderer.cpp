@@ -47,12 +47,14 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   p.machine.threads = options.threads > 0 ? options.threads : usableThreads();
   AccelOptions accel;
   accel.robust = options.robust;
+  accel.quality = options.bvh;
   accel.alphaMasks = p.plan.effects.has(Effect::alphaMasks);
   accel.threads = p.machine.threads;
   accel.packet = options.packet;
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
   p.tables = buildTables(scene, p.plan.effects);
+  p.tables.shading = options.shading;
   p.pool.emplace(p.machine.threads);
   p.machine.simd = simd::chosenTarget();
   p.machine.embree = p.accel->description();
@@ -182,6 +184,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   p.options.spp = options.spp;
   p.options.depth = options.depth;
   p.options.cutoff = options.cutoff;
+  p.options.shading = p.tables.shading = options.shading;
   p.options.exposure = options.exposure;
   p.options.toneCurve = options.toneCurve;
   p.options.effects = options.effects;

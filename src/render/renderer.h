@@ -49,10 +49,10 @@ class Renderer {
   // change.
   FrameStats render(const Camera& camera, Film& film);
 
-  // For frames to come: spp, depth, cutoff, exposure, tone curve, effects and disable are taken
-  // from `options`, the others stay. Plans anew where needed and keeps the acceleration structure.
-  // Throws Error(usage) when alpha masks would come or go, which are built into it. Not while
-  // rendering.
+  // For frames to come: spp, depth, cutoff, shading, exposure, tone curve, effects and disable are
+  // taken from `options`, the others stay. Plans anew where needed and keeps the acceleration
+  // structure. Throws Error(usage) when alpha masks would come or go, which are built into it. Not
+  // while rendering.
   void setOptions(const RenderOptions& options);
 
   // The same image by the scalar reference, its candidates from this renderer's Embree scene.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/worker_pool.h"
+#include "reference/reference.h"
 #include "render/renderer.h"
 #include "render/tile_tracer.h"
 #include "scene/sample_pattern.h"
@@ -15,6 +16,7 @@ struct Renderer::Parts {
   Parts(const Scene& s, const RenderOptions& o) : scene(s), options(o) {}
 
   FrameJob makeJob(const Camera& camera, Film& film);
+  reference::Settings referenceSettings() const;
   void layOut(const Film& film);  // tiles and tracers, when the window has changed
   FrameStats renderTiles(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats renderBatches(FrameJob& job);

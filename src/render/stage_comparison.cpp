@@ -45,7 +45,7 @@ double ulpOf(double magnitude) {
 class StageComparer : public StageObserver {
  public:
   StageComparer(const Scene& scene, const Plan& plan, const FrameJob& job)
-      : scene_(scene), plan_(plan), job_(job) {}
+      : scene_(scene), plan_(plan), shading_(job.tables->shading), job_(job) {}
 
   void after(Stage stage, const ChunkView& chunk) override {
     tracker_.follow(stage, chunk);
@@ -204,7 +204,7 @@ class StageComparer : public StageObserver {
     for (std::size_t k = 0; k < c.shadowCount; ++k) {
       const std::size_t i = c.shadows.slot[k];
       const reference::LightArrival twin =
-          reference::radianceFromLight(plan_.effects, surfelOf(c, i), *c.light);
+          reference::radianceFromLight(plan_.effects, surfelOf(c, i), *c.light, shading_.offset);
       const RgbD got{c.unshadowed.r[i], c.unshadowed.g[i], c.unshadowed.b[i]};
       constexpr Stage stage = Stage::findRadianceAndShadowRays;
       if (maxComponent(abs(twin.radiance)) == 0) continue;  // the light lies in the surface's plane
@@ -265,7 +265,7 @@ class StageComparer : public StageObserver {
       const reference::Crossing crossing =
           reference::crossMedia(scene_, plan_.effects, surfel.material, surfel.entering, stack);
       const reference::Impulses twins =
-          reference::findImpulses(scene_, plan_.effects, surfel, crossing, stack);
+          reference::findImpulses(scene_, plan_.effects, surfel, crossing, stack, shading_);
       const reference::Impulse& twin = k < c.reflections ? twins.reflected : twins.refracted;
       constexpr Stage stage = Stage::addImpulses;
       const Vec3d weight{c.children.weightR[k], c.children.weightG[k], c.children.weightB[k]};
@@ -289,6 +289,7 @@ class StageComparer : public StageObserver {
 
   const Scene& scene_;
   const Plan& plan_;
+  const ShadingChoices& shading_;
   const FrameJob& job_;
   PixelTracker tracker_;
   std::vector<RgbD> before_;

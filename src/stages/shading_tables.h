@@ -1,11 +1,12 @@
 // The scene as kernels read it: flat tables without pointers to follow. Built once a scene by
-// render/build_tables.cpp and read-only afterwards.
+// render/build_tables.cpp; read-only while a frame is rendered.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "core/effects.h"
+#include "core/shading_choices.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -81,6 +82,7 @@ struct ShadingTables {
   std::vector<PointLight> lights;
   SkyTable sky;
   Ambient ambient;
+  ShadingChoices shading;
   bool samePriority = true;  // no medium outranks another
 };
 

@@ -141,5 +141,38 @@ TEST(Reflection, KeepsUnitLength) {
   EXPECT_NEAR(length(d), 1, 4e-16);
 }
 
+// Schlick's polynomial at normal incidence, at an angle worked out by hand, and beyond the critical
+// one.
+TEST(Schlick, H40_knownValues) {
+  const auto schlick = [](double n1, double n2, double c) {
+    return makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
+  };
+  EXPECT_NEAR(schlick(1, 1.5, 1), 0.04, 1e-15);
+  EXPECT_NEAR(schlick(1, 1.5, 0.5), 0.04 + 0.96 / 32, 1e-15);
+  // Out of the dense side at a cosine whose refracted ray has the cosine 1/2: the same value.
+  const double inside = std::sqrt(1 - 0.75 / 2.25);
+  EXPECT_NEAR(schlick(1.5, 1, inside), 0.04 + 0.96 / 32, 1e-12);
+  const double critical = std::sqrt(1 - 1 / 2.25);
+  EXPECT_NEAR(schlick(1.5, 1, critical + 1e-9), 1, 1e-3);
+  EXPECT_EQ(schlick(1.5, 1, critical - 1e-9), 1);
+  EXPECT_EQ(schlick(1, 1.5, 0), 1);
+  for (const double c : {0.0, 0.3, 1.0}) EXPECT_EQ(schlick(1.33, 1.33, c), 0);
+}
+
+// How far it is from Fresnel's equations: for glass at most 0.04, on either side.
+TEST(Schlick, staysNearFresnel) {
+  double worst = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    const double c = i / 1000.0;
+    for (const auto& [n1, n2] : {std::pair(1.0, 1.5), std::pair(1.5, 1.0)}) {
+      const double approximate = makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
+      worst = std::max(worst, std::fabs(approximate - reflectance(n1, n2, c)));
+    }
+  }
+  std::printf("Schlick against Fresnel at ior 1.5: largest difference %.4f (at most 0.04)\n",
+              worst);
+  EXPECT_LE(worst, 0.04);
+}
+
 }  // namespace
 }  // namespace whit::reference

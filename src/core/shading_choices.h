@@ -1,0 +1,35 @@
+// Choices of a frame that change a formula, in the kernels and in the reference alike. The defaults
+// are the accurate ones.
+#pragma once
+
+namespace whit {
+
+// Reflectance of a dielectric: Fresnel's equations, or Schlick's polynomial in the cosine on the
+// side of the lower refractive index (Schlick 1994, "An inexpensive BRDF model for physically-based
+// rendering"). Where reflection is total, both are 1.
+enum class FresnelModel { exact, schlick };
+
+// How far from its surface a ray starts, along the geometric normal on the side that it goes to.
+enum class OffsetMethod {
+  // The surfel's own bound on the rounding error of its position (numerics of makeSurfel).
+  bound,
+  // kFixedOffset, whatever the size of the scene.
+  fixed,
+  // 256 units in the last place of each coordinate, times the normal's component, and near the
+  // origin 1/65536 (Waechter and Binder 2019, "A fast and robust method for avoiding
+  // self-intersection", Ray Tracing Gems, chapter 6).
+  wachterBinder,
+};
+inline constexpr float kFixedOffset = 1e-3f;
+
+struct ShadingChoices {
+  // A light that adds less than this to the pixel, at most, is left out, shadow ray and all. The
+  // pixel's error is at most this times the number of such lights and surfels.
+  float lightCutoff = 0;
+  FresnelModel fresnel = FresnelModel::exact;
+  OffsetMethod offset = OffsetMethod::bound;
+
+  bool operator==(const ShadingChoices&) const = default;
+};
+
+}  // namespace whit

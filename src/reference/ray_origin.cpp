@@ -1,0 +1,35 @@
+#include "reference/ray_origin.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace whit::reference {
+
+namespace {
+
+// One coordinate, moved towards `direction`.
+double moved(double coordinate, double direction) {
+  constexpr float kNearOrigin = 1.0f / 32, kStepThere = 1.0f / 65536, kUlps = 256;
+  const auto p = static_cast<float>(coordinate), n = static_cast<float>(direction);
+  if (std::fabs(p) < kNearOrigin) return p + kStepThere * n;
+  const auto ulps = static_cast<std::int32_t>(kUlps * n);
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (p < 0 ? -ulps : ulps));
+}
+
+}  // namespace
+
+Vec3d rayOrigin(OffsetMethod method, const Surfel& surfel, double side) {
+  const Vec3d n = surfel.geometricNormal * side, p = surfel.position;
+  switch (method) {
+    case OffsetMethod::wachterBinder:
+      return {moved(p.x, n.x), moved(p.y, n.y), moved(p.z, n.z)};
+    case OffsetMethod::fixed:
+      return p + n * double{kFixedOffset};
+    case OffsetMethod::bound:
+      break;
+  }
+  return p + n * surfel.offset;
+}
+
+}  // namespace whit::reference
