@@ -7,7 +7,7 @@
 #include "cli/interrupt.h"
 #include "core/error.h"
 #include "io/image_file.h"
-#include "io/paths.h"
+#include "viewer/comparison_panel.h"
 #include "viewer/motion.h"
 
 namespace whit::view {
@@ -15,58 +15,58 @@ namespace whit::view {
 namespace {
 
 constexpr double kIdleSeconds = 0.25;    // between looks at the scene file
-constexpr double kWatchSeconds = 0.5;    // the same, at least
 constexpr double kLongestSeconds = 0.1;  // of one step: a stall does not make the camera leap
 constexpr double kMessageSeconds = 4;
 
-std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
-  std::error_code error;  // a file that is just being replaced is not an error
-  return std::filesystem::last_write_time(file, error);
-}
-
-bool sameSettings(const PanelSettings& a, const PanelSettings& b) {
-  return a.exposure == b.exposure && a.toneCurve == b.toneCurve && a.disable == b.disable;
+double samplesOf(const FrameRequest& request) {
+  const ImageSize size = request.options.size.value();
+  return static_cast<double>(size.width) * size.height * request.spp;
 }
 
 }  // namespace
 
-App::App(const ViewOptions& options, std::shared_ptr<const cli::OpenScene> scene,
+App::App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
          std::optional<ScriptPlayer> script, Window& window)
     : options_(options),
       scene_(scene),
       script_(std::move(script)),
+      surviveErrors_(!script_),
       window_(window),
       thread_(scene, options.common, &Window::wake),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
-      sceneFile_(findScene(parseSceneName(options.scene).file)),
-      sceneFileTime_(timeOf(sceneFile_)),
+      edit_{scene, scene->scene.materials, scene->scene.lights},
       lastTick_(std::chrono::steady_clock::now()) {
+  watch(options.scene);
   settings_.rate = resolution_.rate();
-  settings_.exposure = options.common.render.exposure;
-  settings_.toneCurve = options.common.render.toneCurve;
-  settings_.disable = options.common.render.disable;
+  settings_.options = options.common.render;
+  settings_.view = options.view;
 }
 
 void App::run() {
-  while (!window_.closing()) {
-    window_.poll(waitSeconds());
-    const double seconds = tick();
-    ScriptPlayer::Step step;
-    if (script_) {
-      window_.input = Input();  // a script is the only user
-      step = script_->next(sharp_, window_.input);
-      if (step.quit) return;
-    }
-    handleKeys();
-    restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
-    watchSceneFile(seconds);
-    fetchFrame();
-    askForFrame();
-    draw(step.screenshot);
-    window_.input.endFrame();
-    messageSeconds_ -= seconds;
+  while (!window_.closing() && step()) {
   }
+}
+
+bool App::step() {
+  window_.poll(waitSeconds());
+  const double seconds = tick();
+  ScriptPlayer::Step step;
+  if (script_) {
+    window_.input = Input();  // a script is the only user
+    step = script_->next(sharp_, window_.input);
+    if (step.quit) return false;
+    if (step.command) obey(*step.command);
+  }
+  handleInput();
+  restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
+  watchSceneFile(seconds);
+  fetchFrame();
+  askForFrame();
+  draw(step.screenshot);
+  window_.input.endFrame();
+  messageSeconds_ -= seconds;
+  return true;
 }
 
 double App::waitSeconds() const {
@@ -88,7 +88,9 @@ bool App::moveCamera(double seconds) {
     flyPath(seconds);
     return true;
   }
-  return control_.step(motionOf(window_.input), seconds);
+  const bool moved = control_.step(motionOf(window_.input), seconds);
+  if (moved) latency_.changed(serial_ + 1);
+  return moved;
 }
 
 void App::flyPath(double seconds) {
@@ -98,38 +100,39 @@ void App::flyPath(double seconds) {
   control_.set(cameraAt(path, *pathTime_));
 }
 
-void App::watchSceneFile(double seconds) {
-  watchSeconds_ += seconds;
-  if (watchSeconds_ < kWatchSeconds) return;
-  watchSeconds_ = 0;
-  const auto time = timeOf(sceneFile_);
-  if (time == sceneFileTime_ || time == std::filesystem::file_time_type::min()) return;
-  sceneFileTime_ = time;
-  reload();
-}
-
-void App::reload() {
-  ++reloads_;
-  restSeconds_ = 0;
-  error_.clear();
-  thread_.reload(options_.scene);
-  say("reading the scene again");
-}
-
 void App::fetchFrame() {
   const std::string error = thread_.takeError();
-  if (!error.empty()) fail(error);
+  if (!error.empty()) {
+    opening_.clear();
+    if (shown_.scene) settings_.options = shown_.request.options;  // that are known to work
+    fail(error);
+  }
   if (!thread_.take(shown_)) return;
+  latency_.fetched(shown_.request.serial);
   if (shown_.scene != scene_) {
-    scene_ = shown_.scene;
-    if (scene().cameraPath.empty()) pathTime_.reset();
-    say("the scene was read again");
+    const bool elsewhere = !opening_.empty();
+    takeScene();
+    if (elsewhere) return;  // seen from where the camera was in the other scene
   }
   const FrameRequest& request = shown_.request;
-  resolution_.learn(shown_.stats.frameMs,
-                    static_cast<double>(request.size.width) * request.size.height * request.spp);
-  if (!request.interruptible) panel_.remember(shown_.stats);
-  window_.upload(shown_.film.display);
+  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
+  panel_.remember(shown_);
+  showPicture();
+}
+
+// What the window is filled with: the frame, or how it compares.
+void App::showPicture() {
+  if (!shown_.scene) return;
+  const DisplayImage& frame = shown_.film.display;
+  const std::optional<Comparison>& comparison = shown_.comparison;
+  if (!comparison || settings_.compare == CompareMode::off) {
+    window_.upload(frame);
+  } else if (settings_.compare == CompareMode::heatMap && comparison->complete()) {
+    window_.upload(comparison->heatMap);
+  } else {
+    const int split = static_cast<int>(std::lround(split_ * frame.width));
+    window_.upload(splitPicture(frame, *comparison, split));
+  }
 }
 
 FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
@@ -139,12 +142,13 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   const ImageSize window = window_.pixels();
   FrameRequest request;
   request.camera = control_.camera();
-  request.size = {side(window.width), side(window.height)};
+  request.options = settings_.options;
+  request.options.size = ImageSize{side(window.width), side(window.height)};
   request.spp = sharpness.spp;
-  request.exposure = settings_.exposure;
-  request.toneCurve = settings_.toneCurve;
-  request.disable = settings_.disable;
+  request.view = settings_.view;
+  request.withReference = still && settings_.compare != CompareMode::off;
   request.reloads = reloads_;
+  request.edits = edits_;
   request.interruptible = still;
   return request;
 }
@@ -154,28 +158,47 @@ void App::askForFrame() {
   const ImageSize window = window_.pixels();
   if (window.width < 1 || window.height < 1) return;
   resolution_.setRate(settings_.rate);
+  resolution_.setSpp(settings_.options.spp);
   const bool still = restSeconds_ >= kSettleSeconds;
-  if (!still) resolution_.restartSharpening();
+  // More samples would only blur what is to be compared or looked into.
+  const bool refine = settings_.compare == CompareMode::off && settings_.view == DebugView::none;
+  if (!still || !refine) resolution_.restartSharpening();
   const double pixels = static_cast<double>(window.width) * window.height;
   FrameRequest request =
       requestFor(still ? resolution_.still() : resolution_.moving(pixels), still);
   while (still && shown_.scene && samePicture(request, shown_.request)) {
-    if (!resolution_.sharpen()) {
+    if (!refine || !resolution_.sharpen()) {
       sharp_ = !thread_.busy();
       break;
     }
     request = requestFor(resolution_.still(), true);
   }
   if (asked_ && samePicture(request, *asked_)) return;
+  request.serial = ++serial_;
   asked_ = request;
   thread_.ask(request);
 }
 
+void App::drawPanel() {
+  if (!settings_.shown || !shown_.scene) return;
+  const PanelSettings before = settings_;
+  const bool edited = panel_.draw(shown_, control_.speed(), settings_, edit_);
+  if (edited) {
+    ++edits_;
+    thread_.edit(edit_);
+  }
+  if (edited || settings_.options != before.options || settings_.view != before.view) {
+    restSeconds_ = 0;
+  }
+  if (settings_.compare != before.compare) showPicture();
+}
+
 void App::draw(const std::string& screenshot) {
   window_.begin();
-  const PanelSettings before = settings_;
-  if (settings_.shown && shown_.scene) panel_.draw(shown_, control_.speed(), settings_);
-  if (!sameSettings(before, settings_)) restSeconds_ = 0;
+  if (settings_.compare != CompareMode::off && shown_.scene) {
+    drawComparison(shown_, settings_.compare, split_);
+  }
+  drawPanel();
   if (!error_.empty()) {
     if (!Panel::drawError(error_)) error_.clear();
   } else if (settings_.shown && messageSeconds_ > 0) {
@@ -187,6 +210,7 @@ void App::draw(const std::string& screenshot) {
     writePng(screenshot, window_.readPixels(), {});
   }
   window_.present();
+  latency_.presented();
 }
 
 void App::say(const std::string& message) {
@@ -195,7 +219,7 @@ void App::say(const std::string& message) {
 }
 
 void App::fail(const std::string& error) {
-  if (script_) throw Error(ExitStatus::checkFailed, error);
+  if (!surviveErrors_) throw Error(ExitStatus::checkFailed, error);
   std::fprintf(stderr, "whit-view: %s\n", error.c_str());
   error_ = error;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "viewer/camera_control.h"
+#include "viewer/latency.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
@@ -17,44 +18,67 @@ namespace whit::view {
 
 class App {
  public:
-  App(const ViewOptions& options, std::shared_ptr<const cli::OpenScene> scene,
+  App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
       std::optional<ScriptPlayer> script, Window& window);
 
-  // Until the user or the script quits. Errors are shown and survived; with a script they end it:
-  // throws Error(checkFailed).
+  // Until the user or the script quits. Errors are shown and survived; with a script that does not
+  // say otherwise they end it: throws Error(checkFailed).
   void run();
 
+  const LatencyMeter& latency() const { return latency_; }
+
  private:
+  // app.cpp: the loop
+  bool step();  // false: the script has come to its end
   double waitSeconds() const;
   double tick();
-  void handleKeys();
-  void handleKey(int key);
-  void handleViewKey(int key);
-  void attempt(const std::function<void()>& action);
   bool moveCamera(double seconds);
   void flyPath(double seconds);
-  void watchSceneFile(double seconds);
-  void reload();
   void fetchFrame();
   void askForFrame();
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
+  void showPicture();
+  void drawPanel();
   void draw(const std::string& screenshot);
   void say(const std::string& message);
   void fail(const std::string& error);
   const Scene& scene() const { return scene_->scene; }
 
+  // app_keys.cpp
+  void handleInput();
+  void handleKey(int key);
+  void handleViewKey(int key);
+  void handlePictureKey(int key);
+  void obey(const ScriptCommand& command);
+  void attempt(const std::function<void()>& action);
+  void jump(const Camera& camera);
+
+  // app_scene.cpp
+  void watchSceneFile(double seconds);
+  void watch(const std::string& scene);
+  void reload();
+  void open(const std::string& name);
+  void takeScene();
+
   const ViewOptions& options_;
   std::shared_ptr<const cli::OpenScene> scene_;  // of the frame shown
+  std::string sceneName_;                        // as given
+  std::string opening_;                          // another one's, while it is being read
   std::optional<ScriptPlayer> script_;
+  bool surviveErrors_;
   Window& window_;
   RenderThread thread_;
   CameraControl control_;
   ResolutionControl resolution_;
+  LatencyMeter latency_;
   Panel panel_;
   PanelSettings settings_;
+  double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
   std::optional<FrameRequest> asked_;
-  int reloads_ = 0;
+  int serial_ = 0;  // of the last request
+  ShadingEdit edit_;
+  int reloads_ = 0, edits_ = 0;
   double restSeconds_ = 0;  // since something changed
   bool sharp_ = false;      // the frame shown gets no finer
   std::optional<double> pathTime_;

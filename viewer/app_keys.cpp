@@ -2,6 +2,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/error.h"
@@ -33,32 +34,47 @@ void App::attempt(const std::function<void()>& action) {
   }
 }
 
-void App::handleKeys() {
-  const Input& input = window_.input;
+void App::handleInput() {
+  Input& input = window_.input;
+  if (settings_.compare == CompareMode::split && shown_.comparison && input.lookX != 0) {
+    split_ = std::clamp(split_ + input.lookX / std::max(window_.pixels().width, 1), 0.0, 1.0);
+    input.lookX = input.lookY = 0;
+    showPicture();
+  }
   const bool dragged =
       input.lookX != 0 || input.lookY != 0 || input.orbitX != 0 || input.orbitY != 0;
   if (dragged) pathTime_.reset();
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
     attempt([&] { handleKey(key); });
+    attempt([&] { handlePictureKey(key); });
     attempt([&] { handleViewKey(key); });
+  }
+  if (!input.dropped.empty()) open(input.dropped.front());
+}
+
+void App::obey(const ScriptCommand& command) {
+  using Kind = ScriptCommand::Kind;
+  if (command.kind == Kind::resize) {
+    window_.resize({static_cast<int>(command.x), static_cast<int>(command.y)});
+  } else if (command.kind == Kind::minimise) {
+    window_.minimise();
+  } else if (command.kind == Kind::restore) {
+    window_.restore();
+  } else {
+    surviveErrors_ = command.kind == Kind::showErrors;
   }
 }
 
-// Keys about window, picture and files.
+void App::jump(const Camera& camera) {
+  control_.set(camera);
+  pathTime_.reset();
+  restSeconds_ = 0;
+  latency_.changed(serial_ + 1);
+}
+
+// Keys about window and files.
 void App::handleKey(int key) {
-  const auto expose = [&](float step) {
-    settings_.exposure = std::clamp(settings_.exposure + step, -kExposureLimit, kExposureLimit);
-    restSeconds_ = 0;
-    char text[32];
-    std::snprintf(text, sizeof text, "exposure %+.2f EV", static_cast<double>(settings_.exposure));
-    say(text);
-  };
-  const auto scale = [&](int step) {
-    resolution_.stepLargestScale(step);
-    restSeconds_ = 0;
-    say("largest scale " + std::to_string(std::lround(100 * resolution_.largestScale())) + " %");
-  };
   switch (key) {
     case GLFW_KEY_ESCAPE:
       window_.close();
@@ -72,6 +88,37 @@ void App::handleKey(int key) {
     case GLFW_KEY_R:
       reload();
       break;
+    case GLFW_KEY_F12:
+      if (shown_.scene) say("saved " + savePicture(shown_) + " (.png, .exr, .json)");
+      break;
+    case GLFW_KEY_C:
+      if (!shown_.scene) break;
+      std::printf("%s\n", renderCommand(sceneName_, options_.common, shown_).c_str());
+      std::fflush(stdout);
+      say(edits_ == 0 ? "printed the view as options of whit render"
+                      : "printed the view; materials and lights are those of the scene's file");
+      break;
+    default:
+      break;
+  }
+}
+
+// Keys about how the picture is made and shown.
+void App::handlePictureKey(int key) {
+  const auto expose = [&](float step) {
+    float& exposure = settings_.options.exposure;
+    exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
+    restSeconds_ = 0;
+    char text[32];
+    std::snprintf(text, sizeof text, "exposure %+.2f EV", static_cast<double>(exposure));
+    say(text);
+  };
+  const auto scale = [&](int step) {
+    resolution_.stepLargestScale(step);
+    restSeconds_ = 0;
+    say("largest scale " + std::to_string(std::lround(100 * resolution_.largestScale())) + " %");
+  };
+  switch (key) {
     case GLFW_KEY_LEFT_BRACKET:
       expose(-kExposureStep);
       break;
@@ -86,14 +133,18 @@ void App::handleKey(int key) {
     case GLFW_KEY_KP_SUBTRACT:
       scale(-1);
       break;
-    case GLFW_KEY_F12:
-      if (shown_.scene) say("saved " + savePicture(shown_) + " (.png, .exr, .json)");
+    case GLFW_KEY_V: {
+      const std::size_t next = static_cast<std::size_t>(settings_.view) + 1;
+      settings_.view = static_cast<DebugView>(next % kDebugViewNames.size());
+      restSeconds_ = 0;
+      say(std::string("view: ") + kDebugViewNames[static_cast<std::size_t>(settings_.view)]);
       break;
-    case GLFW_KEY_C:
-      if (!shown_.scene) break;
-      std::printf("%s\n", renderCommand(options_.scene, options_.common, shown_).c_str());
-      std::fflush(stdout);
-      say("printed the view as options of whit render");
+    }
+    case GLFW_KEY_X:
+      settings_.compare = settings_.compare == CompareMode::off     ? CompareMode::split
+                          : settings_.compare == CompareMode::split ? CompareMode::heatMap
+                                                                    : CompareMode::off;
+      showPicture();
       break;
     default:
       break;
@@ -102,11 +153,6 @@ void App::handleKey(int key) {
 
 // Keys that choose the viewpoint.
 void App::handleViewKey(int key) {
-  const auto jump = [&](const Camera& camera) {
-    control_.set(camera);
-    pathTime_.reset();
-    restSeconds_ = 0;
-  };
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
     const auto number = static_cast<std::size_t>(key - GLFW_KEY_1);
     if (number >= scene().cameras.size()) {

@@ -1,22 +1,32 @@
 // What keys and mouse did since the last frame. Filled by the window or by a script.
 #pragma once
 
+#include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace whit::view {
 
 struct Input {
-  std::set<int> held;             // keys that are down, by their GLFW codes
-  std::vector<int> pressed;       // keys that went down since the last frame
-  double lookX = 0, lookY = 0;    // pixels dragged with the left button; y grows downwards
-  double orbitX = 0, orbitY = 0;  // with the right button
-  double wheel = 0;               // notches
+  std::set<int> held;                // keys that are down, by their GLFW codes
+  std::vector<int> pressed;          // keys that went down since the last frame
+  double lookX = 0, lookY = 0;       // pixels dragged with the left button; y grows downwards
+  double orbitX = 0, orbitY = 0;     // with the right button
+  double wheel = 0;                  // notches
+  std::vector<std::string> dropped;  // files
+  // A script's pointer on the panel, in pixels of the window; a user's goes to the panel by itself.
+  struct Pointer {
+    double x = 0, y = 0;
+    bool down = false;
+  };
+  std::optional<Pointer> pointer;
 
   bool isHeld(int key) const { return held.count(key) != 0; }
   // Forgets what happened, keeps what is held.
   void endFrame() {
     pressed.clear();
+    dropped.clear();
     lookX = lookY = orbitX = orbitY = wheel = 0;
   }
 };

@@ -20,6 +20,8 @@ cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scen
   list.group("Viewing");
   list.value({"rate", "N", kLeastRate, kLargestRate},
              "frames a second to hold while something moves", options.rate);
+  list.value({"view", "none|depth|normals|albedo|rays|cost|effects|occupancy"},
+             "what to show instead of the picture", options.view);
   list.flag("benchmark", "fly the camera path and print what tracing and displaying took",
             options.benchmark);
   list.value({"record", "DIR"}, "write the frames of the camera path into a folder",
@@ -60,13 +62,13 @@ int run(const std::vector<std::string>& words) {
   const Display display;  // before a scene is loaded in vain
   const cli::CommonOptions& common = options.common;
   auto progress = cli::makeProgressBar(!common.quiet && common.progress == "auto");
-  const std::shared_ptr<const cli::OpenScene> scene =
+  const std::shared_ptr<cli::OpenScene> scene =
       cli::openScene(options.scene, common, progress.get());
   progress.reset();
   const ImageSize own{scene->scene.width, scene->scene.height};
   Window window("whit: " + scene->scene.name, common.render.size.value_or(own));
   if (options.benchmark) {
-    runBenchmark(options, *scene, window);
+    runBenchmark(options, scene, window);
   } else if (!options.record.empty()) {
     recordPath(options, *scene, window);
   } else {

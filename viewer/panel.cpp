@@ -7,7 +7,9 @@
 
 #include "cli/frame_summary.h"
 #include "viewer/keys.h"
+#include "viewer/knobs.h"
 #include "viewer/resolution_control.h"
+#include "viewer/scene_panel.h"
 
 namespace whit::view {
 
@@ -50,10 +52,10 @@ void drawRays(const FrameStats& stats) {
 }
 
 // A box for each effect that the scene calls for; the others greyed, with the reason.
-void drawEffects(const Scene& scene, EffectSet& disable) {
+void drawEffects(const TracedFrame& frame, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
-    const EffectReason& reason = scene.reasons[static_cast<std::size_t>(i)];
+    const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
     const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
     if (reason.on) {
       bool on = !disable.has(effect);
@@ -69,14 +71,38 @@ void drawEffects(const Scene& scene, EffectSet& disable) {
 }
 
 void drawPicture(PanelSettings& settings) {
+  drawDisplay(settings.options);
   auto rate = static_cast<float>(settings.rate);
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::SliderFloat("frames/s", &rate, kLeastRate, kLargestRate, "%.0f")) {
-    settings.rate = rate;
+    settings.rate = static_cast<double>(rate);
   }
-  ImGui::SliderFloat("exposure", &settings.exposure, -10, 10, "%.2f EV");
-  int curve = static_cast<int>(settings.toneCurve);
-  if (ImGui::Combo("tone curve", &curve, "none\0filmic\0reinhard\0")) {
-    settings.toneCurve = static_cast<ToneCurve>(curve);
+}
+
+void drawEffectColours() {
+  for (const EffectColour& c : effectColours()) {
+    const auto& name = kEffectNames[static_cast<std::size_t>(c.effect)].name;
+    const ImVec4 colour(c.colour[0], c.colour[1], c.colour[2], 1);
+    ImGui::ColorButton(name.data(), colour, ImGuiColorEditFlags_NoTooltip,
+                       ImVec2(ImGui::GetFontSize(), ImGui::GetFontSize()));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(name.data());
+  }
+}
+
+// What is shown in the picture's stead.
+void drawView(const TracedFrame& frame, PanelSettings& settings) {
+  int view = static_cast<int>(settings.view), compare = static_cast<int>(settings.compare);
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
+  if (ImGui::Combo("view (V)", &view, kDebugViewNames.data(),
+                   static_cast<int>(kDebugViewNames.size()))) {
+    settings.view = static_cast<DebugView>(view);
+  }
+  if (!frame.legend.empty()) ImGui::TextDisabled("%s", frame.legend.c_str());
+  if (settings.view == DebugView::effects) drawEffectColours();
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
+  if (ImGui::Combo("reference (X)", &compare, "not compared\0side by side\0differences\0")) {
+    settings.compare = static_cast<CompareMode>(compare);
   }
 }
 
@@ -102,8 +128,10 @@ void placeAtBottom() {
 
 }  // namespace
 
-void Panel::remember(const FrameStats& stats) {
-  times_[next_] = static_cast<float>(stats.frameMs);
+void Panel::remember(const TracedFrame& frame) {
+  costs_.learn(frame);
+  if (frame.request.interruptible) return;
+  times_[next_] = static_cast<float>(frame.stats.frameMs);
   next_ = (next_ + 1) % times_.size();
 }
 
@@ -111,8 +139,9 @@ void Panel::drawTimes(const TracedFrame& frame) const {
   const FrameStats& stats = frame.stats;
   ImGui::Text("%s, %llu triangles", frame.scene->scene.name.c_str(),
               static_cast<unsigned long long>(frame.triangles));
-  ImGui::Text("%d x %d, %d sample%s a pixel", frame.request.size.width, frame.request.size.height,
-              frame.request.spp, frame.request.spp == 1 ? "" : "s");
+  const Image& image = frame.film.image;
+  ImGui::Text("%d x %d, %d sample%s a pixel", image.width, image.height, frame.request.spp,
+              frame.request.spp == 1 ? "" : "s");
   ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
               frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
   char text[64];
@@ -124,21 +153,35 @@ void Panel::drawTimes(const TracedFrame& frame) const {
                    ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4));
 }
 
-void Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings) const {
+bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings,
+                 ShadingEdit& scene) const {
+  bool edited = false;
   ImGui::SetNextWindowPos(ImVec2(10, 10), ImGuiCond_FirstUseEver);
   const float height = ImGui::GetIO().DisplaySize.y - 20;
   ImGui::SetNextWindowSize(ImVec2(ImGui::GetFontSize() * 26, height), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowBgAlpha(0.75f);
+  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
   if (ImGui::Begin("whit")) {
     drawTimes(frame);
     ImGui::Text("speed %.3g units a second", speed);
     if (ImGui::CollapsingHeader("stages", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(frame.stats);
     if (ImGui::CollapsingHeader("rays", ImGuiTreeNodeFlags_DefaultOpen)) drawRays(frame.stats);
-    if (ImGui::CollapsingHeader("picture", ImGuiTreeNodeFlags_DefaultOpen)) drawPicture(settings);
-    if (ImGui::CollapsingHeader("effects")) drawEffects(frame.scene->scene, settings.disable);
+    if (ImGui::CollapsingHeader("picture", ImGuiTreeNodeFlags_DefaultOpen)) {
+      drawPicture(settings);
+      drawView(frame, settings);
+    }
+    if (ImGui::CollapsingHeader("knobs", ImGuiTreeNodeFlags_DefaultOpen)) {
+      drawKnobs(settings.options, costs_);
+      drawLastChange(costs_);
+    }
+    if (ImGui::CollapsingHeader("effects")) {
+      drawEffects(frame, settings.options.disable);
+    }
+    if (ImGui::CollapsingHeader("lights")) edited |= drawLights(scene.lights);
+    if (ImGui::CollapsingHeader("materials")) edited |= drawMaterials(scene.materials);
     if (ImGui::CollapsingHeader("keys")) drawKeys();
   }
   ImGui::End();
+  return edited;
 }
 
 void Panel::drawMessage(const std::string& message) {

@@ -4,24 +4,31 @@
 #include <array>
 #include <string>
 
-#include "viewer/traced_frame.h"
+#include "viewer/knob_costs.h"
 
 namespace whit::view {
+
+// Against the reference: not at all, side by side, or as a map of the differences.
+enum class CompareMode { off, split, heatMap };
+
+inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
 
 // What the user can change here.
 struct PanelSettings {
   bool shown = true;
   double rate = 60;  // frames a second to hold
-  float exposure = 0;
-  ToneCurve toneCurve = ToneCurve::none;
-  EffectSet disable;
+  RenderOptions options;
+  DebugView view = DebugView::none;
+  CompareMode compare = CompareMode::off;
 };
 
 class Panel {
  public:
-  void remember(const FrameStats& stats);  // a frame in motion, for the graph
-  // Between ImGui's NewFrame and Render. `frame` must hold a picture.
-  void draw(const TracedFrame& frame, double speed, PanelSettings& settings) const;
+  void remember(const TracedFrame& frame);
+  // Between ImGui's NewFrame and Render. `frame` must hold a picture. Returns whether the scene was
+  // edited.
+  bool draw(const TracedFrame& frame, double speed, PanelSettings& settings,
+            ShadingEdit& scene) const;
   // Lines at the bottom of the window: an error stays until it is clicked away.
   static void drawMessage(const std::string& message);
   // Returns false when it was clicked away.
@@ -30,6 +37,8 @@ class Panel {
  private:
   void drawTimes(const TracedFrame& frame) const;
 
+  KnobCosts costs_;
+  // Milliseconds of frames in motion, for the graph.
   std::array<float, 120> times_{};
   std::size_t next_ = 0;
 };

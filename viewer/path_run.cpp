@@ -9,6 +9,7 @@
 #include "cli/image_output.h"
 #include "cli/open_scene.h"
 #include "core/error.h"
+#include "viewer/app.h"
 
 namespace whit::view {
 
@@ -44,10 +45,44 @@ void show(Window& window, const DisplayImage& image) {
   window.finish();
 }
 
-}  // namespace
+// Keys struck while the picture rests, while it becomes sharper, and while others are held.
+constexpr const char* kLatencyScript = R"(
+  wait 30 frames
+  key W
+  wait 30 frames
+  key A 0.1
+  wait 3 frames
+  key D 0.1
+  wait 20 frames
+  key Right
+  wait 14 frames
+  mouse left 5 2
+  wait 17 frames
+)";
+constexpr int kLatencyRounds = 6;
 
-void runBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
-  window.setVsync(false);
+void printLatency(const LatencyMeter& meter) {
+  std::vector<double> frames, ms;
+  for (const LatencyMeter::Sample& sample : meter.samples()) {
+    frames.push_back(sample.frames);
+    ms.push_back(sample.ms);
+  }
+  if (frames.empty()) return;
+  std::printf("  latency    median %8.2f ms, largest %8.2f ms; %.0f and %.0f frames, %zu keys\n",
+              cli::quantile(ms, 0.5), cli::quantile(ms, 1), cli::quantile(frames, 0.5),
+              cli::quantile(frames, 1), frames.size());
+}
+
+void measureLatency(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+                    Window& window) {
+  std::string text;
+  for (int round = 0; round < kLatencyRounds; ++round) text += kLatencyScript;
+  App app(options, std::move(scene), ScriptPlayer(parseScript(text, "benchmark")), window);
+  app.run();
+  printLatency(app.latency());
+}
+
+void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
   Renderer renderer(open.scene, options.common.render);
   Film film = cli::openFilm(open.scene, options.common);
   std::vector<double> traced, displayed;
@@ -63,11 +98,22 @@ void runBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window
   std::printf("%s  %dx%d  %zu frames\n", open.scene.name.c_str(), film.image.width,
               film.image.height, traced.size());
   const auto print = [](const char* what, const std::vector<double>& ms) {
-    std::printf("  %-10s median %8.2f ms, 95 %% within %8.2f ms\n", what, cli::quantile(ms, 0.5),
-                cli::quantile(ms, 0.95));
+    const double median = cli::quantile(ms, 0.5);
+    std::printf("  %-10s median %8.2f ms, 95 %% within %8.2f ms; %.1f frames/s\n", what, median,
+                cli::quantile(ms, 0.95), 1000 / median);
   };
   print("tracing", traced);
   print("display", displayed);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void runBenchmark(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+                  Window& window) {
+  window.setVsync(false);
+  flyBenchmark(options, *scene, window);
+  measureLatency(options, std::move(scene), window);
 }
 
 void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& window) {

@@ -1,6 +1,8 @@
 // Flies the scene's camera path frame by frame: --benchmark and --record.
 #pragma once
 
+#include <memory>
+
 #include "viewer/view_options.h"
 #include "viewer/window.h"
 
@@ -11,8 +13,10 @@ struct OpenScene;
 namespace whit::view {
 
 // Shows kBenchmarkFrames frames along the path (around the point looked at, if there is none) as
-// fast as they come, and prints to standard output what tracing and displaying took.
-void runBenchmark(const ViewOptions& options, const cli::OpenScene& scene, Window& window);
+// fast as they come, and prints to standard output what tracing and displaying took. Then presses
+// keys at rest and in motion, and prints how soon the picture changed.
+void runBenchmark(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+                  Window& window);
 inline constexpr int kBenchmarkFrames = 120;
 
 // Writes the path's frames as NAME/frame-NNNN.png, 24 a second, while showing them. Throws

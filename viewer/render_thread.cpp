@@ -1,44 +1,14 @@
 #include "viewer/render_thread.h"
 
-#include <algorithm>
 #include <exception>
-
-#include "cli/image_output.h"
+#include <utility>
 
 namespace whit::view {
 
-namespace {
-
-// Bands of interruptible frames are meant to take so long: what a new request waits at most.
-constexpr double kBandMs = 30;
-constexpr int kBandRows = 32;  // at least: a row of tiles
-
-ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
-
-void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
-  if (filmSizeOf(film) == size && film.image.window == window) return;
-  film.image = Image(size.width, size.height, window);
-}
-
-// Copies a band of whole rows to its place.
-void copyBand(const Film& band, Film& film) {
-  const auto row = static_cast<std::ptrdiff_t>(band.image.window.y0);
-  const std::ptrdiff_t width = film.image.width;
-  std::copy(band.image.pixels.begin(), band.image.pixels.end(),
-            film.image.pixels.begin() + row * width);
-  std::copy(band.display.rgba.begin(), band.display.rgba.end(),
-            film.display.rgba.begin() + row * width * 4);
-}
-
-}  // namespace
-
-RenderThread::RenderThread(std::shared_ptr<const cli::OpenScene> scene,
-                           const cli::CommonOptions& common, std::function<void()> onChange)
-    : common_(common),
-      onChange_(std::move(onChange)),
-      scene_(std::move(scene)),
-      options_(common.render),
-      renderer_(std::make_unique<Renderer>(scene_->scene, options_)),
+RenderThread::RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
+                           std::function<void()> onChange)
+    : onChange_(std::move(onChange)),
+      tracer_(std::move(scene), common),
       thread_([this] { loop(); }) {}
 
 RenderThread::~RenderThread() {
@@ -59,10 +29,19 @@ void RenderThread::ask(const FrameRequest& request) {
   wake_.notify_one();
 }
 
-void RenderThread::reload(const std::string& name) {
+void RenderThread::load(const std::string& name) {
   {
     const std::lock_guard lock(mutex_);
     sceneToLoad_ = name;
+    busy_ = true;
+  }
+  wake_.notify_one();
+}
+
+void RenderThread::edit(ShadingEdit edit) {
+  {
+    const std::lock_guard lock(mutex_);
+    edit_ = std::move(edit);
     busy_ = true;
   }
   wake_.notify_one();
@@ -88,14 +67,16 @@ bool RenderThread::busy() const {
 
 bool RenderThread::superseded() const {
   const std::lock_guard lock(mutex_);
-  return asked_.has_value() || sceneToLoad_.has_value() || quit_;
+  return waiting() || quit_;
 }
+
+bool RenderThread::waiting() const { return asked_ || sceneToLoad_ || edit_; }
 
 void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    busy_ = asked_.has_value() || sceneToLoad_.has_value();
-    wake_.wait(lock, [this] { return asked_ || sceneToLoad_ || quit_; });
+    busy_ = waiting();
+    wake_.wait(lock, [this] { return waiting() || quit_; });
     if (quit_) return;
     try {
       serve(lock);
@@ -110,88 +91,41 @@ void RenderThread::loop() {
 }
 
 void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
+  const auto unlocked = [&](auto&& work) {
+    lock.unlock();
+    work();
+    lock.lock();
+  };
   if (sceneToLoad_) {
     const std::string name = *std::exchange(sceneToLoad_, std::nullopt);
-    lock.unlock();
-    loadScene(name);
-    lock.lock();
-    return;
+    unlocked([&] { tracer_.load(name); });
+  } else if (edit_) {
+    ShadingEdit edit = *std::exchange(edit_, std::nullopt);
+    unlocked([&] { tracer_.edit(std::move(edit)); });
+  } else {
+    const FrameRequest request = *std::exchange(asked_, std::nullopt);
+    unlocked([&] { trace(request); });
   }
-  const FrameRequest request = *std::exchange(asked_, std::nullopt);
-  lock.unlock();
-  const bool complete = trace(request);
-  lock.lock();
+}
+
+void RenderThread::trace(const FrameRequest& request) {
+  const bool complete = tracer_.trace(
+      request, back_, [this] { return superseded(); },
+      [this](const TracedFrame& frame) { publish(frame); });
   if (!complete) return;
+  const std::lock_guard lock(mutex_);
   std::swap(back_, ready_);
   fresh_ = true;
 }
 
-void RenderThread::loadScene(const std::string& name) {
-  std::shared_ptr<const cli::OpenScene> scene = cli::openScene(name, common_, nullptr);
-  auto renderer = std::make_unique<Renderer>(scene->scene, options_);
-  renderer_ = std::move(renderer);  // before the scene that the old one reads goes
-  scene_ = std::move(scene);
-}
-
-void RenderThread::applyOptions(const FrameRequest& request) {
-  RenderOptions next = options_;
-  next.size = request.size;
-  next.spp = request.spp;
-  next.exposure = request.exposure;
-  next.toneCurve = request.toneCurve;
-  next.disable = request.disable;
-  const bool masks = makePlan(scene_->scene, next).effects.has(Effect::alphaMasks);
-  if (masks != renderer_->plan().effects.has(Effect::alphaMasks)) {
-    renderer_ = std::make_unique<Renderer>(scene_->scene, next);
-  } else {
-    renderer_->setOptions(next);
+void RenderThread::publish(const TracedFrame& frame) {
+  TracedFrame copy = frame;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(ready_, copy);
+    fresh_ = true;
   }
-  options_ = next;
-}
-
-bool RenderThread::trace(const FrameRequest& request) {
-  applyOptions(request);
-  const ImageSize size = request.size;
-  sizeFilm(back_.film, size, Crop{0, 0, size.width, size.height});
-  const double samples =
-      static_cast<double>(size.width) * static_cast<double>(size.height) * request.spp;
-  if (request.interruptible && msPerSample_ * samples > kBandMs) {
-    if (!traceInBands(request.camera, back_.stats)) return false;
-  } else {
-    back_.stats = renderer_->render(request.camera, back_.film);
-  }
-  msPerSample_ = back_.stats.frameMs / samples;
-  back_.scene = scene_;
-  back_.request = request;
-  back_.options = options_;
-  back_.metadata =
-      cli::describeImage(scene_->scene, request.camera, *renderer_, back_.film, options_);
-  back_.effects = renderer_->plan().effects;
-  back_.machine = renderer_->machine();
-  back_.triangles = scene_->scene.instancedTriangles;
-  return true;
-}
-
-bool RenderThread::traceInBands(const Camera& camera, FrameStats& sum) {
-  Film& film = back_.film;
-  const ImageSize size = filmSizeOf(film);
-  film.display.width = size.width;
-  film.display.height = size.height;
-  film.display.rgba.resize(film.image.pixels.size() * 4);
-  const double msPerRow = msPerSample_ * size.width * options_.spp;
-  const int rows =
-      std::max(static_cast<int>(kBandMs / msPerRow) / kBandRows * kBandRows, kBandRows);
-  sum = FrameStats();
-  for (int y = 0; y < size.height; y += rows) {
-    if (superseded()) return false;
-    sizeFilm(band_, size, Crop{0, y, size.width, std::min(y + rows, size.height)});
-    const FrameStats stats = renderer_->render(camera, band_);
-    copyBand(band_, film);
-    sum.add(stats);
-    sum.frameMs += stats.frameMs;
-    sum.workers = stats.workers;
-  }
-  return true;
+  onChange_();
 }
 
 }  // namespace whit::view

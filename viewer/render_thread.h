@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "viewer/traced_frame.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 
@@ -16,16 +16,18 @@ class RenderThread {
  public:
   // Builds the renderer on the calling thread; throws as Renderer does. `onChange` is called on the
   // tracing thread whenever a frame, a scene or an error is there to be fetched.
-  RenderThread(std::shared_ptr<const cli::OpenScene> scene, const cli::CommonOptions& common,
+  RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
                std::function<void()> onChange);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
 
   void ask(const FrameRequest& request);
-  // Reads the scene again, between frames; the old one stays when that fails.
-  void reload(const std::string& name);
-  // Exchanges `frame` for the newest one finished since the last call; false: there is none.
+  // Reads a scene, between frames; the old one stays when that fails.
+  void load(const std::string& name);
+  // Changes materials and lights, between frames; nothing when the scene is another one by then.
+  void edit(ShadingEdit edit);
+  // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
   std::string takeError();  // empty: none
   bool busy() const;        // tracing, or about to
@@ -33,27 +35,20 @@ class RenderThread {
  private:
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
-  void loadScene(const std::string& name);
-  bool trace(const FrameRequest& request);
-  void applyOptions(const FrameRequest& request);
-  bool traceInBands(const Camera& camera, FrameStats& sum);
+  void trace(const FrameRequest& request);
+  void publish(const TracedFrame& frame);
+  bool waiting() const;  // something is to be done; with the mutex held
   bool superseded() const;
 
-  const cli::CommonOptions common_;
   const std::function<void()> onChange_;
-
-  // The tracing thread's own.
-  std::shared_ptr<const cli::OpenScene> scene_;
-  RenderOptions options_;
-  std::unique_ptr<Renderer> renderer_;
+  FrameTracer tracer_;  // the tracing thread's own, as is the next
   TracedFrame back_;
-  Film band_;
-  double msPerSample_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;
   std::optional<FrameRequest> asked_;
   std::optional<std::string> sceneToLoad_;
+  std::optional<ShadingEdit> edit_;
   TracedFrame ready_;
   bool fresh_ = false, busy_ = false, quit_ = false;
   std::string error_;

@@ -27,6 +27,7 @@ class ResolutionControl {
 
   void setRate(double framesPerSecond);  // brought into [kLeastRate, kLargestRate]
   double rate() const { return rate_; }
+  void setSpp(int spp) { spp_ = spp; }
 
   // The largest scale, also at rest: `steps` towards finer (positive) or coarser pixels.
   void stepLargestScale(int steps);

@@ -62,6 +62,38 @@ ScriptCommand waitCommand(const Words& words) {
   return command;
 }
 
+constexpr int kClickFrames = 4;  // to the place, down, along, up
+
+ScriptCommand clickCommand(const Words& words) {
+  if (words.size() != 3 && words.size() != 5) expected("click X Y [X2 Y2]");
+  ScriptCommand command{Kind::click};
+  command.frames = kClickFrames;
+  command.x = command.toX = number(words[1]);
+  command.y = command.toY = number(words[2]);
+  if (words.size() == 5) command.toX = number(words[3]), command.toY = number(words[4]);
+  return command;
+}
+
+ScriptCommand resizeCommand(const Words& words) {
+  constexpr double kLargestSide = 16384;
+  ScriptCommand command{Kind::resize};
+  const bool three = words.size() == 3;
+  if (three) command.x = number(words[1]), command.y = number(words[2]);
+  const auto fits = [](double side) { return side >= 1 && side <= kLargestSide; };
+  if (!three || !fits(command.x) || !fits(command.y)) expected("resize W H, from 1 to 16384");
+  return command;
+}
+
+ScriptCommand errorsCommand(const Words& words) {
+  if (words.size() != 2 || (words[1] != "show" && words[1] != "end")) {
+    expected("errors show or errors end");
+  }
+  return {words[1] == "show" ? Kind::showErrors : Kind::endErrors};
+}
+
+constexpr std::pair<const char*, Kind> kPlainCommands[] = {
+    {"minimise", Kind::minimise}, {"restore", Kind::restore}, {"quit", Kind::quit}};
+
 ScriptCommand commandOf(const Words& words) {
   if (words[0] == "key") return keyCommand(words);
   if (words[0] == "mouse") return mouseCommand(words);
@@ -78,8 +110,28 @@ ScriptCommand commandOf(const Words& words) {
     command.file = words[1];
     return command;
   }
-  if (words[0] == "quit" && words.size() == 1) return {Kind::quit};
-  expected("key, mouse, wheel, wait, screenshot or quit, got '" + words[0] + "'");
+  if (words[0] == "click") return clickCommand(words);
+  if (words[0] == "drop") {
+    if (words.size() != 2) expected("drop FILE");
+    ScriptCommand command{Kind::drop};
+    command.file = words[1];
+    return command;
+  }
+  if (words[0] == "resize") return resizeCommand(words);
+  if (words[0] == "errors") return errorsCommand(words);
+  for (const auto& [name, kind] : kPlainCommands) {
+    if (words[0] == name && words.size() == 1) return {kind};
+  }
+  expected(
+      "key, mouse, wheel, wait, screenshot, click, drop, resize, minimise, restore, errors or "
+      "quit, "
+      "got '" +
+      words[0] + "'");
+}
+
+Input::Pointer pointerOf(const ScriptCommand& click, int frame) {
+  const bool begins = frame < 2;
+  return {begins ? click.x : click.toX, begins ? click.y : click.toY, frame == 1 || frame == 2};
 }
 
 }  // namespace
@@ -126,6 +178,19 @@ ScriptPlayer::Step ScriptPlayer::next(bool sharp, Input& input) {
       break;
     case Kind::screenshot:
       step.screenshot = c.file;
+      break;
+    case Kind::click:
+      input.pointer = pointerOf(c, frame_);
+      break;
+    case Kind::drop:
+      input.dropped.push_back(c.file);
+      break;
+    case Kind::resize:
+    case Kind::minimise:
+    case Kind::restore:
+    case Kind::showErrors:
+    case Kind::endErrors:
+      step.command = &c;
       break;
     case Kind::quit:
       step.quit = true;

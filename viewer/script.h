@@ -5,6 +5,9 @@
 //   wheel NOTCHES
 //   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
+//   click X Y [X2 Y2]             on the panel, in pixels of the window; from there dragged to X2
+//   Y2 drop FILE                     a file dropped on the window resize W H | minimise | restore
+//   errors show | errors end      errors are shown as to a user; by default they end the script
 //   quit
 //
 // Time is that of the frames: 1/60 s each, however long they take.
@@ -20,11 +23,28 @@ namespace whit::view {
 inline constexpr double kScriptSecondsPerFrame = 1.0 / 60;
 
 struct ScriptCommand {
-  enum class Kind { key, look, orbit, wheel, wait, waitSharp, screenshot, quit };
+  enum class Kind {
+    key,
+    look,
+    orbit,
+    wheel,
+    wait,
+    waitSharp,
+    screenshot,
+    click,
+    drop,
+    resize,
+    minimise,
+    restore,
+    showErrors,
+    endErrors,
+    quit
+  };
   Kind kind = Kind::quit;
-  int key = 0;          // GLFW code
-  int frames = 1;       // that it takes: key, wait
-  double x = 0, y = 0;  // look, orbit: pixels; wheel: notches in x
+  int key = 0;     // GLFW code
+  int frames = 1;  // that it takes: key, wait
+  // look, orbit, click: pixels; wheel: notches in x; resize: pixels a side; to: where a click ends
+  double x = 0, y = 0, toX = 0, toY = 0;
   std::string file{};
 };
 
@@ -36,8 +56,9 @@ class ScriptPlayer {
   explicit ScriptPlayer(std::vector<ScriptCommand> commands) : commands_(std::move(commands)) {}
 
   struct Step {
-    std::string screenshot;  // of this frame, after drawing; empty: none
-    bool quit = false;       // the end of the script quits too
+    std::string screenshot;                  // of this frame, after drawing; empty: none
+    bool quit = false;                       // the end of the script quits too
+    const ScriptCommand* command = nullptr;  // to the window or the viewer, in its first frame
   };
   // The next frame's input. `sharp`: nothing moves and the picture gets no finer.
   Step next(bool sharp, Input& input);

@@ -1,44 +1,56 @@
 // What is asked of the tracing thread, and what comes back.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "cli/open_scene.h"
 #include "io/image_file.h"
-#include "render/renderer.h"
+#include "render/debug_view.h"
+#include "viewer/comparison.h"
 
 namespace whit::view {
 
 struct FrameRequest {
   Camera camera;
-  ImageSize size;
-  int spp = 1;
-  float exposure = 0;
-  ToneCurve toneCurve = ToneCurve::none;
-  EffectSet disable;
-  int reloads = 0;             // of the scene before it
+  RenderOptions options;  // as the user set them; the size must be there
+  int spp = 1;            // that are traced: of the options, or more at rest
+  DebugView view = DebugView::none;
+  bool withReference = false;  // the reference's picture as well, and how far apart they are
+  int reloads = 0, edits = 0;  // of the scene before it
+  int serial = 0;              // tells requests apart
   bool interruptible = false;  // given up when another one is asked for
 };
 
 // Whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return a.camera.eye == b.camera.eye && a.camera.at == b.camera.at && a.camera.up == b.camera.up &&
-         a.camera.fov == b.camera.fov && a.size == b.size && a.spp == b.spp &&
-         a.exposure == b.exposure && a.toneCurve == b.toneCurve && a.disable == b.disable &&
-         a.reloads == b.reloads;
+         a.camera.fov == b.camera.fov && a.options == b.options && a.spp == b.spp &&
+         a.view == b.view && a.withReference == b.withReference && a.reloads == b.reloads &&
+         a.edits == b.edits;
 }
+
+// What a user makes of a scene's surfaces and lights; see scene/edit_shading.h.
+struct ShadingEdit {
+  std::shared_ptr<const cli::OpenScene> scene;  // that was edited
+  std::vector<Material> materials;
+  std::vector<PointLight> lights;
+};
 
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
-  RenderOptions options;  // the picture's, size and viewpoint included
+  RenderOptions options;  // the picture's
   Film film;
   FrameStats stats;
   ImageMetadata metadata;
-  EffectSet effects;  // that were traced
+  EffectSet effects;                               // that were traced
+  std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
   Machine machine;
+  std::string legend;                    // of a debug view
+  std::optional<Comparison> comparison;  // where the request is with the reference
   std::uint64_t triangles = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/parse_options.h"
+#include "render/debug_view.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -14,6 +15,7 @@ struct ViewOptions {
   std::string script;  // file; empty: none
   std::string record;  // folder; empty: none
   bool benchmark = false;
+  DebugView view = DebugView::none;
   double rate = kDefaultRate;  // frames a second to hold in motion
 };
 

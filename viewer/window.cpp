@@ -26,6 +26,26 @@ Window& windowOf(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
+void setStyle(float scale) {
+  ImGui::GetIO().FontGlobalScale = scale;
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 6;
+  style.FrameRounding = style.GrabRounding = style.PopupRounding = 3;
+  style.WindowPadding = ImVec2(10, 8);
+  style.FramePadding = ImVec2(6, 3);
+  style.ItemSpacing = ImVec2(8, 5);
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 1);
+  style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.19f, 0.24f, 1);
+  style.Colors[ImGuiCol_TitleBg] = style.Colors[ImGuiCol_TitleBgActive] =
+      ImVec4(0.11f, 0.15f, 0.22f, 1);
+  style.Colors[ImGuiCol_Header] = ImVec4(0.16f, 0.24f, 0.36f, 1);
+  style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.2f, 0.42f, 0.7f, 1);  // bars with text on them
+  style.Colors[ImGuiCol_PlotLines] = ImVec4(0.55f, 0.8f, 1, 1);
+  style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62f, 0.65f, 0.7f, 1);
+  style.ScaleAllSizes(scale);
+}
+
 }  // namespace
 
 Display::Display() {
@@ -47,12 +67,11 @@ Window::Window(const std::string& title, const ImageSize& size) {
   glfwSetCursorPosCallback(window_, onCursor);
   glfwSetScrollCallback(window_, onScroll);
   glfwSetWindowFocusCallback(window_, onFocus);
+  glfwSetDropCallback(window_, onDrop);
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leave no file behind
-  const float scale = static_cast<float>(contentScale());
-  ImGui::GetIO().FontGlobalScale = scale;
-  ImGui::GetStyle().ScaleAllSizes(scale);
+  setStyle(static_cast<float>(contentScale()));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the handlers above, too
   ImGui_ImplOpenGL2_Init();
   glGenTextures(1, &texture_);
@@ -99,6 +118,12 @@ void Window::toggleFullScreen() {
   glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
+
+void Window::resize(const ImageSize& size) { glfwSetWindowSize(window_, size.width, size.height); }
+
+void Window::minimise() { glfwIconifyWindow(window_); }
+
+void Window::restore() { glfwRestoreWindow(window_); }
 
 void Window::poll(double waitSeconds) {
   if (waitSeconds > 0) {
@@ -149,6 +174,12 @@ void Window::begin() {
   drawImage();
   ImGui_ImplOpenGL2_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (input.pointer) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos =
+        ImVec2(static_cast<float>(input.pointer->x), static_cast<float>(input.pointer->y));
+    io.MouseDown[0] = input.pointer->down;
+  }
   ImGui::NewFrame();
 }
 
@@ -204,6 +235,10 @@ void Window::onCursor(GLFWwindow* window, double x, double y) {
 
 void Window::onScroll(GLFWwindow* window, double, double y) {
   if (!ImGui::GetIO().WantCaptureMouse) windowOf(window).input.wheel += y;
+}
+
+void Window::onDrop(GLFWwindow* window, int count, const char** files) {
+  for (int i = 0; i < count; ++i) windowOf(window).input.dropped.emplace_back(files[i]);
 }
 
 void Window::onFocus(GLFWwindow* window, int focused) {

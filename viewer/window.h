@@ -36,6 +36,9 @@ class Window {
   void setTitle(const std::string& title);
   void setVsync(bool on);
   void toggleFullScreen();
+  void resize(const ImageSize& size);
+  void minimise();
+  void restore();
 
   // Handles what happened, after waiting for it so long at most.
   void poll(double waitSeconds);
@@ -57,6 +60,7 @@ class Window {
   static void onCursor(GLFWwindow* window, double x, double y);
   static void onScroll(GLFWwindow* window, double x, double y);
   static void onFocus(GLFWwindow* window, int focused);
+  static void onDrop(GLFWwindow* window, int count, const char** files);
   void drawImage() const;
 
   GLFWwindow* window_ = nullptr;

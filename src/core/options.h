@@ -55,6 +55,8 @@ struct RenderOptions {
   int tile = 32;  // pixels a side
   int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
   bool strict = false;
+
+  bool operator==(const RenderOptions&) const = default;
 };
 
 inline constexpr int kDepthLimit = 64;

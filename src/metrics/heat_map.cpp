@@ -5,6 +5,7 @@
 
 #include "core/display.h"
 #include "metrics/codes.h"
+#include "metrics/heat_colour.h"
 #include "metrics/metrics.h"
 
 namespace whit {
@@ -38,20 +39,6 @@ constexpr std::array<std::array<std::uint8_t, 5>, 10> kDigits{{{7, 5, 5, 5, 7},
 // Where a difference lies on the scale, 0 to 1.
 double position(int codes) {
   return std::log2(1.0 + std::min(codes, kLargest)) / std::log2(1.0 + kLargest);
-}
-
-// From black over violet and orange to a light yellow: lightness grows all the way.
-Colour colourAt(double t) {
-  constexpr std::array<std::array<double, 3>, 5> kStops{
-      {{0, 0, 0}, {70, 20, 120}, {180, 50, 100}, {245, 130, 40}, {255, 245, 170}}};
-  const double at = t * (kStops.size() - 1);
-  const std::size_t low = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  const double f = at - static_cast<double>(low);
-  Colour colour{};
-  for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = static_cast<std::uint8_t>(
-        std::lround(kStops[low][c] + f * (kStops[low + 1][c] - kStops[low][c])));
-  return colour;
 }
 
 // Draws in coarse pixels, `zoom` of the image's a side, below row `top`.
@@ -94,7 +81,7 @@ void drawScale(ScalePainter painter) {
   const int length = painter.columns() - 2 * kMargin - 1;
   for (int x = 0; x <= length; ++x)
     for (int y = 0; y < kBarRows; ++y)
-      painter.set(kMargin + x, kBarTop + y, colourAt(static_cast<double>(x) / length));
+      painter.set(kMargin + x, kBarTop + y, heatColour(static_cast<double>(x) / length));
   for (const int tick : kTicks) {
     const int x = kMargin + static_cast<int>(std::lround(position(tick) * length));
     for (int y = 0; y < kTickRows; ++y) painter.set(x, kBarTop + kBarRows + y, kInk);
@@ -103,6 +90,19 @@ void drawScale(ScalePainter painter) {
 }
 
 }  // namespace
+
+std::array<std::uint8_t, 3> heatColour(double t) {
+  constexpr std::array<std::array<double, 3>, 5> kStops{
+      {{0, 0, 0}, {70, 20, 120}, {180, 50, 100}, {245, 130, 40}, {255, 245, 170}}};
+  const double at = t * (kStops.size() - 1);
+  const std::size_t low = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double f = at - static_cast<double>(low);
+  std::array<std::uint8_t, 3> colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(
+        std::lround(kStops[low][c] + f * (kStops[low + 1][c] - kStops[low][c])));
+  return colour;
+}
 
 DisplayImage heatMap(const Image& a, const Image& b) {
   checkComparable(a, b);
@@ -119,7 +119,7 @@ DisplayImage heatMap(const Image& a, const Image& b) {
   for (std::size_t i = 3; i < map.rgba.size(); i += 4) map.rgba[i] = 255;
   std::array<Colour, 256> colours{};
   for (int code = 0; code < 256; ++code)
-    colours[static_cast<std::size_t>(code)] = colourAt(position(code));
+    colours[static_cast<std::size_t>(code)] = heatColour(position(code));
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const std::size_t x = i % static_cast<std::size_t>(width);
     const std::size_t y = i / static_cast<std::size_t>(width);

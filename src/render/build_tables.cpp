@@ -43,6 +43,27 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   return r;
 }
 
+void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
+  tables.materials.clear();
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    tables.materials.push_back(recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects));
+  }
+  if (tables.materials.empty()) tables.materials.push_back({});
+}
+
+void addMedia(const Scene& scene, ShadingTables& tables) {
+  tables.media.clear();
+  tables.samePriority = true;
+  for (const Medium& m : scene.media) {
+    MediumRecord record{};
+    record.ior = m.ior;
+    copy3(m.absorption, record.absorption);
+    record.priority = static_cast<float>(m.priority);
+    tables.media.push_back(record);
+    tables.samePriority = tables.samePriority && m.priority == scene.media[0].priority;
+  }
+}
+
 void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   const bool needed = effects.has(Effect::textures) || effects.has(Effect::normalMaps);
   std::vector<bool> used(scene.textures.size(), false);
@@ -122,24 +143,31 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects) {
   tables.triangles = scene.triangles.empty() ? &nowhere : scene.triangles.data();
   tables.normals = scene.normals.empty() ? &flat : scene.normals.data();
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    tables.materials.push_back(recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects));
-  }
-  if (tables.materials.empty()) tables.materials.push_back({});
+  addMaterials(scene, effects, tables);
   addTextures(scene, effects, tables);
   addInstances(scene, tables);
-  for (const Medium& m : scene.media) {
-    MediumRecord record{};
-    record.ior = m.ior;
-    copy3(m.absorption, record.absorption);
-    record.priority = static_cast<float>(m.priority);
-    tables.media.push_back(record);
-    tables.samePriority = tables.samePriority && m.priority == scene.media[0].priority;
-  }
+  addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
   tables.sky = skyTable(scene.sky, effects);
   tables.ambient = scene.ambient;
   return tables;
+}
+
+void refreshShading(const Scene& scene, EffectSet effects, ShadingTables& tables) {
+  const std::vector<MaterialRecord> before = tables.materials;
+  addMaterials(scene, effects, tables);
+  const bool sameTextures =
+      std::equal(before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
+                 [](const MaterialRecord& a, const MaterialRecord& b) {
+                   return a.diffuseMap == b.diffuseMap && a.specularMap == b.specularMap &&
+                          a.normalMap == b.normalMap;
+                 });
+  if (!sameTextures) {
+    tables = buildTables(scene, effects);
+    return;
+  }
+  addMedia(scene, tables);
+  if (effects.has(Effect::lights)) tables.lights = scene.lights;
 }
 
 }  // namespace whit

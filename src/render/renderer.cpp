@@ -29,6 +29,32 @@ std::string embreeIsa(const std::string& target) {
   return "";
 }
 
+// What Renderer::setOptions() takes over.
+void takeOver(const RenderOptions& from, RenderOptions& to) {
+  to.spp = from.spp;
+  to.depth = from.depth;
+  to.cutoff = from.cutoff;
+  to.shading = from.shading;
+  to.exposure = from.exposure;
+  to.toneCurve = from.toneCurve;
+  to.effects = from.effects;
+  to.disable = from.disable;
+}
+
+// What is said to each frame anew, or means nothing to a renderer.
+void takeOverFrame(const RenderOptions& from, RenderOptions& to) {
+  to.size = from.size;
+  to.crop = from.crop;
+  to.camera = from.camera;
+  to.eye = from.eye;
+  to.at = from.at;
+  to.up = from.up;
+  to.fov = from.fov;
+  to.mode = from.mode;
+  to.quality = from.quality;
+  to.strict = from.strict;
+}
+
 void chooseSimd(const std::string& name) {
   if (simd::chooseTarget(name)) return;
   std::string have;
@@ -79,7 +105,6 @@ void Renderer::Parts::layOut(const Film& film) {
   if (!tracers.empty() && laidOut == film.image.window) return;
   laidOut = film.image.window;
   tiles = makeTiles(laidOut, options.tile);
-  tracers.clear();
   batches.clear();
   const auto workers = static_cast<std::size_t>(machine.threads);
   std::size_t capacity = static_cast<std::size_t>(options.tile * options.tile);
@@ -94,8 +119,12 @@ void Renderer::Parts::layOut(const Film& film) {
     for (const auto& batch : batches) capacity = std::max(capacity, batch.size());
   }
   if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
-  tracers.reserve(workers);
-  for (std::size_t i = 0; i < workers; ++i) tracers.emplace_back(plan, capacity);
+  if (tracers.empty() || capacity != tracerCapacity) {
+    tracers.clear();
+    tracers.reserve(workers);
+    for (std::size_t i = 0; i < workers; ++i) tracers.emplace_back(plan, capacity);
+    tracerCapacity = capacity;
+  }
   // Kernels read whole vectors of pixels.
   for (auto& tile : tiles) tile.reserve(tile.size() + 2 * kBlock);
   for (auto& batch : batches) batch.reserve(batch.size() + 2 * kBlock);
@@ -162,13 +191,34 @@ FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs
   return stats;
 }
 
-void Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observer) {
+FrameStats Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observer) {
   job.observer = &observer;
+  FrameStats stats;
+  const Clock::time_point start = Clock::now();
   pool->run([&](int worker) {
     if (worker != 0) return;
-    FrameStats stats;
     for (const auto& tile : tiles) tracers[0].trace(job, tile, stats, nullptr);
   });
+  stats.frameMs = since(start);
+  return stats;
+}
+
+void Renderer::Parts::replan(const Plan& next) {
+  const bool otherQueues = next.effects != plan.effects || next.depth != plan.depth;
+  plan = next;
+  if (otherQueues) tracers.clear();  // laid out again by the next frame
+}
+
+void Renderer::shadingChanged() {
+  Parts& p = *parts_;
+  const Plan plan = makePlan(p.scene, p.options);
+  if (plan.effects == p.plan.effects) {
+    refreshShading(p.scene, plan.effects, p.tables);
+  } else {
+    p.tables = buildTables(p.scene, plan.effects);
+  }
+  p.tables.shading = p.options.shading;
+  p.replan(plan);
 }
 
 void Renderer::setOptions(const RenderOptions& options) {
@@ -178,17 +228,18 @@ void Renderer::setOptions(const RenderOptions& options) {
     throwUsage("alpha masks are part of the acceleration structure: it has to be built anew");
   }
   if (plan.effects != p.plan.effects) p.tables = buildTables(p.scene, plan.effects);
-  const bool otherQueues = plan.effects != p.plan.effects || plan.depth != p.plan.depth;
-  p.plan = plan;
-  if (otherQueues) p.tracers.clear();  // laid out again by the next frame
-  p.options.spp = options.spp;
-  p.options.depth = options.depth;
-  p.options.cutoff = options.cutoff;
-  p.options.shading = p.tables.shading = options.shading;
-  p.options.exposure = options.exposure;
-  p.options.toneCurve = options.toneCurve;
-  p.options.effects = options.effects;
-  p.options.disable = options.disable;
+  p.tables.shading = options.shading;
+  p.replan(plan);
+  takeOver(options, p.options);
+}
+
+bool Renderer::canSetOptions(const RenderOptions& options) const {
+  const Parts& p = *parts_;
+  RenderOptions reached = p.options;
+  takeOver(options, reached);
+  takeOverFrame(options, reached);
+  const bool masks = makePlan(p.scene, options).effects.has(Effect::alphaMasks);
+  return reached == options && masks == p.plan.effects.has(Effect::alphaMasks);
 }
 
 FrameStats Renderer::render(const Camera& camera, Film& film) {

@@ -54,6 +54,13 @@ class Renderer {
   // structure. Throws Error(usage) when alpha masks would come or go, which are built into it. Not
   // while rendering.
   void setOptions(const RenderOptions& options);
+  // Whether setOptions() is enough for frames with these options. Otherwise they need a renderer of
+  // their own: what differs is part of the acceleration structure or of the workers.
+  bool canSetOptions(const RenderOptions& options) const;
+
+  // For frames to come, after materials or lights of the scene were changed (editShading). Plans
+  // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
+  void shadingChanged();
 
   // The same image by the scalar reference, its candidates from this renderer's Embree scene.
   FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);

@@ -18,11 +18,12 @@ struct Renderer::Parts {
   FrameJob makeJob(const Camera& camera, Film& film);
   reference::Settings referenceSettings() const;
   void layOut(const Film& film);  // tiles and tracers, when the window has changed
+  void replan(const Plan& next);
   FrameStats renderTiles(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats renderBatches(FrameJob& job);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
   // One worker, tile by tile, with an observer looking on.
-  void renderObserved(FrameJob& job, StageObserver& observer);
+  FrameStats renderObserved(FrameJob& job, StageObserver& observer);
 
   const Scene& scene;
   RenderOptions options;
@@ -36,7 +37,8 @@ struct Renderer::Parts {
   Crop laidOut;  // window that the tiles below cover
   std::vector<std::vector<std::uint32_t>> tiles;
   std::vector<std::vector<std::uint32_t>> batches;  // --batch frame: one a worker
-  std::vector<TileTracer> tracers;                  // one a worker
+  std::vector<TileTracer> tracers;                  // one a worker; none after another plan
+  std::size_t tracerCapacity = 0;                   // rays, of each
 };
 
 }  // namespace whit

@@ -14,25 +14,6 @@ bool sameMedium(const Medium& a, const Medium& b) {
   return a.ior == b.ior && a.absorption == b.absorption && a.priority == b.priority;
 }
 
-// Materials that describe the same dielectric share its number, so that leaving one of them counts
-// as leaving the other.
-void numberMedia(Scene& scene) {
-  scene.media.assign(1, Medium{});
-  scene.mediumOfMaterial.assign(scene.materials.size(), 0);
-  const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& m = scene.materials[i];
-    if (!m.hasTransmission() || uses[i] == 0) continue;
-    const Medium medium{m.ior, m.absorption, m.priority};
-    const auto known = std::find_if(scene.media.begin() + 1, scene.media.end(),
-                                    [&](const Medium& other) { return sameMedium(medium, other); });
-    const auto number = static_cast<std::size_t>(known - scene.media.begin());
-    if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
-    scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);
-    if (known == scene.media.end()) scene.media.push_back(medium);
-  }
-}
-
 // From the front, a little to the right and above, far enough for all of the bounds' sphere.
 Camera framingCamera(const Scene& scene) {
   Camera camera;
@@ -54,6 +35,23 @@ std::uint64_t bytesOf(const Vector& v) {
 }
 
 }  // namespace
+
+void numberMedia(Scene& scene) {
+  scene.media.assign(1, Medium{});
+  scene.mediumOfMaterial.assign(scene.materials.size(), 0);
+  const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
+    if (!m.hasTransmission() || uses[i] == 0) continue;
+    const Medium medium{m.ior, m.absorption, m.priority};
+    const auto known = std::find_if(scene.media.begin() + 1, scene.media.end(),
+                                    [&](const Medium& other) { return sameMedium(medium, other); });
+    const auto number = static_cast<std::size_t>(known - scene.media.begin());
+    if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
+    scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);
+    if (known == scene.media.end()) scene.media.push_back(medium);
+  }
+}
 
 Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progress* progress) {
   SceneDescription d = std::move(description);

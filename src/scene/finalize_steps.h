@@ -20,6 +20,10 @@ void validate(SceneDescription& description, Warnings& warnings);
 void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
                   Progress* progress);
 
+// Gives each dielectric its number. Materials that describe the same one share it, so that leaving
+// one of them counts as leaving the other. Throws Error(limit) beyond 255.
+void numberMedia(Scene& scene);
+
 // The number of triangles that use each material, instances not multiplied out.
 std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
 

@@ -1,5 +1,5 @@
 if(TARGET whit-view)
-  foreach(name view_camera view_resolution view_script view_render_thread)
+  foreach(name view_camera view_resolution view_script view_render_thread view_knobs)
     whit_test(${name} whit_view)
   endforeach()
   # This runs the program itself, on a virtual display.

@@ -19,9 +19,11 @@ class RenderThreadTest : public testing::Test {
     common_.quiet = true;
     common_.render.threads = 2;
     name_ = cli::writeTinyScene(folder_);
-    scene_ = cli::openScene(name_, common_, nullptr);
+    opened_ = cli::openScene(name_, common_, nullptr);
+    scene_ = opened_;
     request_.camera = scene_->scene.cameras[0];
-    request_.size = {48, 200};  // several bands
+    request_.options = common_.render;
+    request_.options.size = {48, 200};  // several bands
   }
 
   // A minute at most: far longer than a frame of a few thousand pixels takes.
@@ -42,11 +44,8 @@ class RenderThreadTest : public testing::Test {
 
   // The picture of a renderer made for this request.
   Film expected() const {
-    RenderOptions options = common_.render;
-    options.size = request_.size;
+    RenderOptions options = request_.options;
     options.spp = request_.spp;
-    options.exposure = request_.exposure;
-    options.disable = request_.disable;
     Renderer renderer(scene_->scene, options);
     Film film = makeFilm(scene_->scene, options);
     renderer.render(request_.camera, film);
@@ -66,39 +65,40 @@ class RenderThreadTest : public testing::Test {
   cli::TemporaryFolder folder_;
   cli::CommonOptions common_;
   std::string name_;
-  std::shared_ptr<const cli::OpenScene> scene_;
+  std::shared_ptr<cli::OpenScene> opened_;
+  std::shared_ptr<const cli::OpenScene> scene_;  // that pictures are expected to show
   FrameRequest request_;
 };
 
 TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
-  RenderThread thread(scene_, common_, [] {});
+  RenderThread thread(opened_, common_, [] {});
   expectRightPicture(thread);
-  request_.disable = request_.disable.with(Effect::mirror);
+  request_.options.disable = request_.options.disable.with(Effect::mirror);
   expectRightPicture(thread);
-  request_.disable = EffectSet().with(Effect::lights);
+  request_.options.disable = EffectSet().with(Effect::lights);
   expectRightPicture(thread);
-  request_.disable = EffectSet();
-  request_.exposure = 1.5f;
+  request_.options.disable = EffectSet();
+  request_.options.exposure = 1.5f;
   expectRightPicture(thread);
   request_.spp = 4;
-  request_.size = {31, 17};
+  request_.options.size = {31, 17};
   request_.camera = scene_->scene.cameras[1];
   expectRightPicture(thread);
 }
 
 TEST_F(RenderThreadTest, BandsMakeTheSamePicture) {
-  RenderThread thread(scene_, common_, [] {});
+  RenderThread thread(opened_, common_, [] {});
   traced(thread);  // from which it learns how long bands take
   request_.interruptible = true;
   request_.spp = 256;  // long enough for more than one band on any machine of today
-  request_.size = {480, 200};
+  request_.options.size = {480, 200};
   expectRightPicture(thread);
 }
 
 TEST_F(RenderThreadTest, TheNewestRequestWins) {
-  RenderThread thread(scene_, common_, [] {});
+  RenderThread thread(opened_, common_, [] {});
   for (int i = 1; i <= 50; ++i) {
-    request_.exposure = static_cast<float>(i) / 8;
+    request_.options.exposure = static_cast<float>(i) / 8;
     thread.ask(request_);
   }
   ASSERT_TRUE(waitFor(thread));
@@ -108,13 +108,59 @@ TEST_F(RenderThreadTest, TheNewestRequestWins) {
   EXPECT_FALSE(thread.take(frame));
 }
 
+TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
+  RenderThread thread(opened_, common_, [] {});
+  expectRightPicture(thread);
+  request_.options.robust = false;
+  expectRightPicture(thread);
+  request_.options.packet = 4;
+  request_.options.tile = 8;
+  request_.options.batch = Batch::frame;
+  const TracedFrame frame = traced(thread);
+  EXPECT_EQ(frame.machine.packet, 4);
+  expectRightPicture(thread);
+}
+
+TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
+  RenderThread thread(opened_, common_, [] {});
+  expectRightPicture(thread);
+  const RenderOptions good = request_.options;
+  request_.options.packet = 5;
+  thread.ask(request_);
+  ASSERT_TRUE(waitFor(thread));
+  EXPECT_NE(thread.takeError(), "");
+  request_.options = good;
+  expectRightPicture(thread);
+}
+
+TEST_F(RenderThreadTest, EditsBetweenFrames) {
+  RenderThread thread(opened_, common_, [] {});
+  const TracedFrame before = traced(thread);
+  ShadingEdit edit{scene_, scene_->scene.materials, scene_->scene.lights};
+  for (Material& m : edit.materials) m.mirror = m.mirrorGrazing = {0, 0, 0};
+  for (Material& m : edit.materials) m.diffuse = {0.2f, 0.9f, 0.1f};
+  edit.lights[0].position.x = -2;
+  thread.edit(edit);
+  ++request_.edits;
+  const TracedFrame after = traced(thread);
+  EXPECT_NE(after.film.display.rgba, before.film.display.rgba);
+  EXPECT_TRUE(before.reasons[static_cast<std::size_t>(Effect::mirror)].on);
+  EXPECT_FALSE(after.reasons[static_cast<std::size_t>(Effect::mirror)].on);
+  expectRightPicture(thread);  // of a renderer made for the edited scene
+  edit.scene = nullptr;        // of a scene that is no longer there
+  edit.lights[0].position.x = 2;
+  thread.edit(edit);
+  ASSERT_TRUE(waitFor(thread));
+  EXPECT_EQ(scene_->scene.lights[0].position.x, -2);
+}
+
 TEST_F(RenderThreadTest, ReloadsTheScene) {
-  RenderThread thread(scene_, common_, [] {});
+  RenderThread thread(opened_, common_, [] {});
   EXPECT_EQ(traced(thread).scene, scene_);
   std::string text = cli::readFile(name_);
   text.replace(text.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.9");
   std::ofstream(name_) << text;
-  thread.reload(name_);
+  thread.load(name_);
   const TracedFrame frame = traced(thread);
   EXPECT_NE(frame.scene, scene_);
   scene_ = frame.scene;
@@ -122,9 +168,9 @@ TEST_F(RenderThreadTest, ReloadsTheScene) {
 }
 
 TEST_F(RenderThreadTest, ABrokenSceneLeavesTheOldOne) {
-  RenderThread thread(scene_, common_, [] {});
+  RenderThread thread(opened_, common_, [] {});
   std::ofstream(name_) << "{ \"whit\": 1, ";
-  thread.reload(name_);
+  thread.load(name_);
   ASSERT_TRUE(waitFor(thread));
   EXPECT_NE(thread.takeError().find("tiny.json:1"), std::string::npos);
   EXPECT_EQ(thread.takeError(), "");

@@ -37,7 +37,50 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("wheel nan"), "walk.txt:1: expected a number of at most 1e6, got 'nan'");
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
-            "walk.txt:1: expected key, mouse, wheel, wait, screenshot or quit, got 'jump'");
+            "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, drop, resize, "
+            "minimise, restore, errors or quit, got 'jump'");
+}
+
+TEST(Script, ErrorsOfCommandsToTheWindow) {
+  EXPECT_EQ(errorOf("click 3"), "walk.txt:1: expected click X Y [X2 Y2]");
+  EXPECT_EQ(errorOf("drop"), "walk.txt:1: expected drop FILE");
+  EXPECT_EQ(errorOf("resize 0 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
+  EXPECT_EQ(errorOf("resize 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
+  EXPECT_EQ(errorOf("errors hide"), "walk.txt:1: expected errors show or errors end");
+  EXPECT_EQ(errorOf("restore now").substr(0, 30), "walk.txt:1: expected key, mous");
+}
+
+TEST(Script, ClicksAndDragsOnThePanel) {
+  ScriptPlayer player(parseScript("click 10 20 30 40", "walk.txt"));
+  const auto expectPointer = [&](double x, double y, bool down) {
+    Input input;
+    player.next(true, input);
+    ASSERT_TRUE(input.pointer);
+    EXPECT_EQ(input.pointer->x, x);
+    EXPECT_EQ(input.pointer->y, y);
+    EXPECT_EQ(input.pointer->down, down);
+  };
+  expectPointer(10, 20, false);
+  expectPointer(10, 20, true);
+  expectPointer(30, 40, true);
+  expectPointer(30, 40, false);
+  Input input;
+  EXPECT_TRUE(player.next(true, input).quit);
+}
+
+TEST(Script, CommandsToTheWindowComeOnce) {
+  ScriptPlayer player(
+      parseScript("resize 320 200\nminimise\nerrors show\ndrop a.json\n", "walk.txt"));
+  Input input;
+  const ScriptCommand* command = player.next(true, input).command;
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->kind, ScriptCommand::Kind::resize);
+  EXPECT_EQ(command->x, 320);
+  EXPECT_EQ(command->y, 200);
+  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::minimise);
+  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::showErrors);
+  EXPECT_FALSE(player.next(true, input).command);
+  EXPECT_EQ(input.dropped, std::vector<std::string>{"a.json"});
 }
 
 TEST(Script, KeysAreHeldForTheirTime) {

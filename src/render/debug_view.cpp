@@ -1,0 +1,276 @@
+#include "render/debug_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "core/display.h"
+#include "metrics/heat_colour.h"
+#include "render/pixel_tracker.h"
+#include "render/renderer_parts.h"
+
+namespace whit {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr EffectColour kEffectColours[] = {
+    {Effect::textures, {0.25f, 0.25f, 0.25f}},   {Effect::normalMaps, {0.35f, 0.05f, 0.35f}},
+    {Effect::alphaMasks, {0.05f, 0.35f, 0.05f}}, {Effect::glossy, {0.45f, 0.4f, 0.0f}},
+    {Effect::emission, {0.7f, 0.25f, 0.0f}},     {Effect::mirror, {0.0f, 0.2f, 0.65f}},
+    {Effect::transmission, {0.0f, 0.5f, 0.35f}}, {Effect::sky, {0.08f, 0.1f, 0.15f}}};
+
+constexpr double kOutliers = 0.005;  // share of the pixels that a scale may leave behind
+
+EffectSet effectsOf(const Material& m) {
+  EffectSet e;
+  if (m.diffuseMap != kNoTexture || m.specularMap != kNoTexture) e = e.with(Effect::textures);
+  if (m.normalMap != kNoTexture) e = e.with(Effect::normalMaps);
+  if (m.alphaMap != kNoTexture) e = e.with(Effect::alphaMasks);
+  if (m.hasGlossy()) e = e.with(Effect::glossy);
+  if (maxComponent(m.emission) > 0) e = e.with(Effect::emission);
+  if (m.hasMirror() || (m.hasTransmission() && m.ior != 1)) e = e.with(Effect::mirror);
+  if (m.hasTransmission()) e = e.with(Effect::transmission);
+  return e;
+}
+
+Rgb colourOf(EffectSet effects) {
+  Rgb sum{0, 0, 0};
+  for (const EffectColour& c : kEffectColours) {
+    if (effects.has(c.effect)) sum += Rgb{c.colour[0], c.colour[1], c.colour[2]};
+  }
+  return sum;
+}
+
+// Sums, a pixel of the window each, of whatever the view shows.
+class Watcher : public StageObserver {
+ public:
+  Watcher(const Renderer::Parts& parts, const Crop& window, DebugView view)
+      : parts_(parts), window_(window), view_(view), last_(Clock::now()) {
+    const auto width = static_cast<std::size_t>(window.x1 - window.x0);
+    pixels_.resize(width * static_cast<std::size_t>(window.y1 - window.y0));
+  }
+
+  struct Pixel {
+    Rgb sum{0, 0, 0};  // of `count` colours, or of amounts in x
+    double count = 0;
+  };
+  const std::vector<Pixel>& pixels() const { return pixels_; }
+
+  void after(Stage stage, const ChunkView& chunk) override {
+    const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
+    tracker_.follow(stage, chunk);
+    followQueues(stage, chunk);
+    const bool hits = stage == Stage::findIntersections;
+    if (view_ == DebugView::cost) {
+      for (std::size_t i = 0; i < chunk.n; ++i) {
+        add(chunk, i, {static_cast<float>(us / static_cast<double>(chunk.n)), 0, 0}, 0);
+      }
+    } else if (view_ == DebugView::rays || view_ == DebugView::occupancy) {
+      if (hits) countRays(chunk);
+      if (stage == Stage::checkShadows) countShadowRays(chunk);
+    } else if (hits && chunk.depth == 0) {
+      lookAtSurfels(chunk);
+    }
+    last_ = Clock::now();
+  }
+
+ private:
+  void add(const ChunkView& chunk, std::size_t slot, const Rgb& value, double count) {
+    const std::uint32_t at = tracker_.pixel(chunk, slot);
+    const auto x = static_cast<std::size_t>(static_cast<int>(at & 0xFFFFu) - window_.x0);
+    const auto y = static_cast<std::size_t>(static_cast<int>(at >> 16) - window_.y0);
+    Pixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
+    pixel.sum += value;
+    pixel.count += count;
+  }
+
+  // Of each depth's queue the first so many are reflections, which travel in packets of their own.
+  void followQueues(Stage stage, const ChunkView& chunk) {
+    if (stage != Stage::addImpulses) return;
+    const auto next = static_cast<std::size_t>(chunk.depth) + 1;
+    if (reflections_.size() <= next) reflections_.resize(next + 1);
+    reflections_[next] = chunk.reflections;
+  }
+
+  // Ray i of n that go to Embree together.
+  void countRay(const ChunkView& chunk, std::size_t slot, std::size_t i, std::size_t n) {
+    if (view_ == DebugView::rays) {
+      add(chunk, slot, {1, 0, 0}, 0);
+      return;
+    }
+    const auto width = static_cast<std::size_t>(parts_.machine.packet);
+    const std::size_t live = std::min(width, n - i / width * width);
+    add(chunk, slot, {static_cast<float>(live) / static_cast<float>(width), 0, 0}, 1);
+  }
+
+  void countRays(const ChunkView& chunk) {
+    std::size_t split = chunk.n;
+    if (chunk.depth > 0) {
+      const std::size_t reflections = reflections_[static_cast<std::size_t>(chunk.depth)];
+      split = std::clamp(reflections, chunk.first, chunk.first + chunk.n) - chunk.first;
+    }
+    for (std::size_t i = 0; i < split; ++i) countRay(chunk, i, i, split);
+    for (std::size_t i = split; i < chunk.n; ++i) countRay(chunk, i, i - split, chunk.n - split);
+  }
+
+  void countShadowRays(const ChunkView& chunk) {
+    for (std::size_t i = 0; i < chunk.shadowCount; ++i) {
+      countRay(chunk, chunk.shadows.slot[i], i, chunk.shadowCount);
+    }
+  }
+
+  void lookAtSurfels(const ChunkView& chunk) {
+    const SurfelColumns& s = chunk.surfels;
+    for (std::size_t i = 0; i < chunk.n; ++i) {
+      const bool hit = s.material[i] != kMiss;
+      if (view_ == DebugView::effects) {
+        const EffectSet sky = EffectSet().with(Effect::sky);
+        const EffectSet all = hit ? effectsOf(parts_.scene.materials[s.material[i]]) : sky;
+        add(chunk, i, colourOf(EffectSet(all.bits() & parts_.plan.effects.bits())), 1);
+      } else if (!hit) {
+        add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
+      } else if (view_ == DebugView::depth) {
+        add(chunk, i, {chunk.hits.t[i], 0, 0}, 1);
+      } else if (view_ == DebugView::normals) {
+        add(chunk, i, Rgb{s.nsX[i] + 1, s.nsY[i] + 1, s.nsZ[i] + 1} * 0.5f, 1);
+      } else {
+        add(chunk, i, {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]}, 1);
+      }
+    }
+  }
+
+  const Renderer::Parts& parts_;
+  const Crop window_;
+  const DebugView view_;
+  PixelTracker tracker_;
+  std::vector<std::size_t> reflections_;  // of each depth's queue
+  std::vector<Pixel> pixels_;
+  Clock::time_point last_;
+};
+
+void setCode(DisplayImage& display, std::size_t pixel, int r, int g, int b) {
+  std::uint8_t* code = display.rgba.data() + 4 * pixel;
+  code[0] = static_cast<std::uint8_t>(r);
+  code[1] = static_cast<std::uint8_t>(g);
+  code[2] = static_cast<std::uint8_t>(b);
+  code[3] = 255;
+}
+
+int codeOf(float x) {
+  return static_cast<int>(std::lround(255 * std::clamp(static_cast<double>(x), 0.0, 1.0)));
+}
+
+void paintColours(const std::vector<Watcher::Pixel>& pixels, bool linear, DisplayImage& display) {
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto n = static_cast<float>(std::max(pixels[i].count, 1.0));
+    const Rgb c = pixels[i].sum * (1 / n);
+    const auto code = [&](float x) {
+      return linear ? srgbCode(static_cast<double>(x)) : codeOf(x);
+    };
+    setCode(display, i, code(c.x), code(c.y), code(c.z));
+  }
+}
+
+// Smallest and largest amount but for outliers.
+std::pair<double, double> rangeOf(std::vector<double> amounts) {
+  if (amounts.empty()) return {0, 0};
+  std::sort(amounts.begin(), amounts.end());
+  const auto last = static_cast<double>(amounts.size() - 1);
+  return {amounts.front(), amounts[static_cast<std::size_t>(std::lround(last * (1 - kOutliers)))]};
+}
+
+std::string legendOf(const char* what, double low, double high) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s, from %.3g to %.3g", what, low, high);
+  return text;
+}
+
+// Bright is near; what was not hit is black.
+std::string paintDepth(const std::vector<Watcher::Pixel>& pixels, DisplayImage& display) {
+  std::vector<double> distances;
+  for (const Watcher::Pixel& p : pixels) {
+    if (p.count > 0) distances.push_back(static_cast<double>(p.sum.x) / p.count);
+  }
+  const auto [low, high] = rangeOf(std::move(distances));
+  constexpr double kFarthest = 0.08;  // still told from nothing
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Watcher::Pixel& p = pixels[i];
+    const double t = p.count > 0 ? static_cast<double>(p.sum.x) / p.count : high;
+    const double depth = high > low ? std::min((t - low) / (high - low), 1.0) : 0;
+    const int code = p.count > 0 ? codeOf(static_cast<float>(1 - (1 - kFarthest) * depth)) : 0;
+    setCode(display, i, code, code, code);
+  }
+  return legendOf("distance", low, high);
+}
+
+// Mean amounts of the pixels, a ray or a sample each.
+std::vector<double> amountsOf(const std::vector<Watcher::Pixel>& pixels, double samples) {
+  std::vector<double> amounts;
+  for (const Watcher::Pixel& p : pixels) {
+    amounts.push_back(static_cast<double>(p.sum.x) / (p.count > 0 ? p.count : samples));
+  }
+  return amounts;
+}
+
+// Logarithmic: a few pixels take tens of times what most do.
+std::string paintHeat(const std::vector<double>& amounts, const char* what, DisplayImage& display) {
+  constexpr double kLongestScale = 1000;
+  const auto [smallest, high] = rangeOf(amounts);
+  const double low = std::max(smallest, high / kLongestScale);
+  for (std::size_t i = 0; i < amounts.size(); ++i) {
+    const double share = high > low ? std::log(amounts[i] / low) / std::log(high / low) : 0;
+    const auto colour = heatColour(share > 0 ? std::min(share, 1.0) : 0);
+    setCode(display, i, colour[0], colour[1], colour[2]);
+  }
+  return legendOf(what, low, high);
+}
+
+std::string paintShare(const std::vector<double>& shares, const char* what, DisplayImage& display) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const auto colour = heatColour(std::clamp(shares[i], 0.0, 1.0));
+    setCode(display, i, colour[0], colour[1], colour[2]);
+  }
+  return legendOf(what, 0, 1);
+}
+
+}  // namespace
+
+std::span<const EffectColour> effectColours() { return kEffectColours; }
+
+DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
+  Renderer::Parts& parts = renderer.parts();
+  FrameJob job = parts.makeJob(camera, film);
+  Watcher watcher(parts, film.image.window, view);
+  DebugFrame frame{parts.renderObserved(job, watcher), ""};
+  const std::vector<Watcher::Pixel>& pixels = watcher.pixels();
+  const std::vector<double> amounts = amountsOf(pixels, static_cast<double>(job.samples.size()));
+  switch (view) {
+    case DebugView::depth:
+      frame.legend = paintDepth(pixels, film.display);
+      break;
+    case DebugView::rays:
+      frame.legend = paintHeat(amounts, "rays a pixel and sample", film.display);
+      break;
+    case DebugView::cost:
+      frame.legend = paintHeat(amounts, "microseconds a pixel and sample", film.display);
+      break;
+    case DebugView::occupancy:
+      frame.legend = paintShare(amounts, "share of live lanes", film.display);
+      break;
+    case DebugView::normals:
+    case DebugView::effects:
+      paintColours(pixels, false, film.display);
+      break;
+    case DebugView::albedo:
+      paintColours(pixels, true, film.display);
+      break;
+    case DebugView::none:
+      break;
+  }
+  return frame;
+}
+
+}  // namespace whit

@@ -1,0 +1,40 @@
+// What else there is to see of a frame than its colours: for finding out, not for speed.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "render/renderer.h"
+
+namespace whit {
+
+enum class DebugView { none, depth, normals, albedo, rays, cost, effects, occupancy };
+inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo",
+                                            "rays", "cost",  "effects", "occupancy"};
+
+struct DebugFrame {
+  FrameStats stats;  // of one worker, who was looked at all the time
+  // What the colours stand for, for people: "rays a pixel, from 1 to 23".
+  std::string legend;
+};
+
+// Traces the frame as ever, but with one worker, and paints film.display (the window's pixels):
+//   depth      distance along the primary ray, near ones bright; black: nothing hit
+//   normals    shading normals, (n + 1) / 2 a channel
+//   albedo     diffuse reflectance, textures included
+//   rays       all that were traced for the pixel
+//   cost       the pixel's share of the time of the stages that it took part in
+//   effects    those of the surface that the primary ray hits, by effectColours(), added up
+//   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
+// Several samples are averaged. film.image is what render() makes of it. `view` is not none.
+DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
+
+// The colours of DebugView::effects.
+struct EffectColour {
+  Effect effect;
+  std::array<float, 3> colour;  // as displayed, 0 to 1
+};
+std::span<const EffectColour> effectColours();
+
+}  // namespace whit

@@ -1,0 +1,77 @@
+#include "scene/edit_shading.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "scene/finalize_steps.h"
+
+namespace whit {
+
+namespace {
+
+bool isBlack(const Rgb& c) { return !(maxComponent(c) > 0); }
+
+// Whether exchanging one for the other can neither bring nor take away an effect or a medium.
+bool sameKind(const Material& a, const Material& b) {
+  const bool sameMedium = !a.hasTransmission() || (a.ior == b.ior && a.absorption == b.absorption &&
+                                                   a.priority == b.priority);
+  return sameMedium && a.hasTransmission() == b.hasTransmission() &&
+         a.hasGlossy() == b.hasGlossy() && a.hasMirror() == b.hasMirror() &&
+         isBlack(a.emission) == isBlack(b.emission) && isBlack(a.diffuse) == isBlack(b.diffuse);
+}
+
+bool sameKindOfLight(const PointLight& a, const PointLight& b) {
+  return isBlack(a.intensity) == isBlack(b.intensity);
+}
+
+void keepBaked(const Material& from, Material& to) {
+  to.diffuseMap = from.diffuseMap;
+  to.specularMap = from.specularMap;
+  to.normalMap = from.normalMap;
+  to.alphaMap = from.alphaMap;
+  to.alphaCutoff = from.alphaCutoff;
+  to.castsShadow = from.castsShadow;
+}
+
+// As Scene::finalize() does: throws, or mends what has an obvious nearest value.
+void checkAndMend(const Scene& scene, std::vector<Material>& materials,
+                  std::vector<PointLight>& lights) {
+  SceneDescription d;
+  d.name = scene.name;
+  d.lights = lights;
+  d.materials = materials;
+  for (Material& m : d.materials) {  // maps were judged with the textures that they name
+    m.diffuseMap = m.specularMap = m.normalMap = m.alphaMap = kNoTexture;
+  }
+  Warnings warnings(false);
+  validate(d, warnings);
+  materials = std::move(d.materials);
+  lights = std::move(d.lights);
+}
+
+}  // namespace
+
+void editShading(Scene& scene, std::vector<Material> materials, std::vector<PointLight> lights) {
+  if (materials.size() != scene.materials.size() || lights.size() != scene.lights.size()) {
+    throwUsage("an edit cannot change the number of materials or lights");
+  }
+  checkAndMend(scene, materials, lights);
+  for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
+  const bool kindsStay =
+      std::equal(materials.begin(), materials.end(), scene.materials.begin(), sameKind) &&
+      std::equal(lights.begin(), lights.end(), scene.lights.begin(), sameKindOfLight);
+  scene.materials.swap(materials);
+  scene.lights.swap(lights);
+  if (kindsStay) return;
+  try {
+    numberMedia(scene);
+  } catch (...) {  // too many media
+    scene.materials.swap(materials);
+    scene.lights.swap(lights);
+    numberMedia(scene);
+    throw;
+  }
+  gatherEffects(scene);
+}
+
+}  // namespace whit

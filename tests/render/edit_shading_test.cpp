@@ -1,0 +1,126 @@
+// A scene edited in place makes the pictures of a scene that was read like that, bit for bit.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/error.h"
+#include "scene/edit_shading.h"
+#include "shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+using Edit = std::function<void(std::vector<Material>&, std::vector<PointLight>&)>;
+
+// Renders, edits, and renders again with the same renderer.
+void expectAsIfRead(const std::string& name, const Edit& edit) {
+  RenderOptions options = smallOptions();
+  options.size = ImageSize{53, 37};
+  Warnings warnings;
+  SceneDescription description = loadScene(name, LoadOptions{}, warnings);
+  Scene edited = Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+  edit(description.materials, description.lights);
+  const Scene read = Scene::finalize(std::move(description), warnings);
+
+  Renderer renderer(edited, options);
+  Film film = makeFilm(edited, options);
+  const Camera camera = chooseCamera(edited, options);
+  renderer.render(camera, film);
+  const Image before = film.image;
+  std::vector<Material> materials = edited.materials;
+  std::vector<PointLight> lights = edited.lights;
+  edit(materials, lights);
+  editShading(edited, materials, lights);
+  renderer.shadingChanged();
+  renderer.render(camera, film);
+
+  EXPECT_NE(firstDifference(before, film.image), "") << "the edit changes nothing";
+  EXPECT_EQ(firstDifference(render(read, options).image, film.image), "");
+  EXPECT_EQ(edited.effects, read.effects);
+  for (std::size_t i = 0; i < kEffectCount; ++i) {
+    EXPECT_EQ(edited.reasons[i].because, read.reasons[i].because);
+  }
+}
+
+TEST(EditShading, Colours) {
+  expectAsIfRead("whitted", [](auto& materials, auto&) {
+    for (Material& m : materials) m.diffuse = {0.1f, 0.7f, 0.3f};
+  });
+}
+
+TEST(EditShading, LightsMoveAndDim) {
+  expectAsIfRead("whitted", [](auto&, auto& lights) {
+    lights[0].position.x += 1.5f;
+    lights[0].intensity = lights[0].intensity * 0.25f;
+  });
+}
+
+TEST(EditShading, EffectsGo) {
+  expectAsIfRead("whitted", [](auto& materials, auto&) {
+    for (Material& m : materials) m.mirror = m.mirrorGrazing = m.transmission = {0, 0, 0};
+  });
+  expectAsIfRead("matte", [](auto&, auto& lights) {
+    for (PointLight& light : lights) light.intensity = {0, 0, 0};
+  });
+}
+
+TEST(EditShading, EffectsCome) {
+  expectAsIfRead("matte", [](auto& materials, auto&) {
+    for (Material& m : materials) {
+      m.mirror = m.mirrorGrazing = {0.5f, 0.5f, 0.4f};
+      m.specular = {0.2f, 0.2f, 0.2f};
+      m.emission = {0.01f, 0, 0};
+    }
+  });
+}
+
+TEST(EditShading, Dielectrics) {
+  expectAsIfRead("whitted", [](auto& materials, auto&) {
+    for (Material& m : materials) {
+      if (!m.hasTransmission()) continue;
+      m.ior += 0.2f;
+      m.absorption = {0.5f, 0.1f, 0};
+    }
+  });
+  expectAsIfRead("whitted", [](auto& materials, auto&) {
+    for (Material& m : materials) m.transmission = {0, 0, 0};
+  });
+}
+
+TEST(EditShading, MapsAndShadowsStay) {
+  Scene scene = load("whitted");
+  const Material first = scene.materials[0];
+  std::vector<Material> materials = scene.materials;
+  materials[0].castsShadow = !first.castsShadow;
+  materials[0].diffuseMap = 77;
+  materials[0].alphaCutoff = 0.9f;
+  editShading(scene, materials, scene.lights);
+  EXPECT_EQ(scene.materials[0].castsShadow, first.castsShadow);
+  EXPECT_EQ(scene.materials[0].diffuseMap, first.diffuseMap);
+  EXPECT_EQ(scene.materials[0].alphaCutoff, first.alphaCutoff);
+}
+
+TEST(EditShading, WhatCannotBeIsRefused) {
+  Scene scene = load("whitted");
+  const auto statusOf = [&](const Edit& edit) {
+    std::vector<Material> materials = scene.materials;
+    std::vector<PointLight> lights = scene.lights;
+    edit(materials, lights);
+    try {
+      editShading(scene, materials, lights);
+    } catch (const Error& error) {
+      return error.status();
+    }
+    return ExitStatus::done;
+  };
+  const Vec3f position = scene.lights[0].position;
+  EXPECT_EQ(statusOf([](auto&, auto& lights) { lights[0].position.y = std::nanf(""); }),
+            ExitStatus::badScene);
+  EXPECT_EQ(scene.lights[0].position, position);
+  EXPECT_EQ(statusOf([](auto& materials, auto&) { materials.pop_back(); }), ExitStatus::usage);
+  EXPECT_EQ(statusOf([](auto& materials, auto&) { materials[0].roughness = 2; }), ExitStatus::done);
+  EXPECT_EQ(scene.materials[0].roughness, 1);  // mended, as when it is read
+}
+
+}  // namespace
+}  // namespace whit::test

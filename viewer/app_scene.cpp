@@ -1,0 +1,72 @@
+// Which scene is looked at: the one given, read again when its file changes, or another one.
+#include "core/error.h"
+#include "io/paths.h"
+#include "viewer/app.h"
+#include "viewer/motion.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr double kWatchSeconds = 0.5;  // between looks at the scene's file, at least
+
+std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
+  std::error_code error;  // a file that is just being replaced is not an error
+  return std::filesystem::last_write_time(file, error);
+}
+
+}  // namespace
+
+void App::watch(const std::string& scene) {
+  sceneName_ = scene;
+  sceneFile_ = findScene(parseSceneName(scene).file);
+  sceneFileTime_ = timeOf(sceneFile_);
+}
+
+void App::watchSceneFile(double seconds) {
+  watchSeconds_ += seconds;
+  if (watchSeconds_ < kWatchSeconds) return;
+  watchSeconds_ = 0;
+  const auto time = timeOf(sceneFile_);
+  if (time == sceneFileTime_ || time == std::filesystem::file_time_type::min()) return;
+  sceneFileTime_ = time;
+  reload();
+}
+
+void App::reload() {
+  ++reloads_;
+  restSeconds_ = 0;
+  error_.clear();
+  thread_.load(sceneName_);
+  say("reading the scene again");
+}
+
+void App::open(const std::string& name) {
+  ++reloads_;
+  restSeconds_ = 0;
+  error_.clear();
+  opening_ = name;
+  thread_.load(name);
+  say("reading " + name);
+}
+
+// The frame just fetched shows a scene that was read anew.
+void App::takeScene() {
+  scene_ = shown_.scene;
+  edit_ = {scene_, scene().materials, scene().lights};
+  edits_ = 0;
+  if (opening_.empty()) {
+    if (scene().cameraPath.empty()) pathTime_.reset();
+    say("the scene was read again");
+    return;
+  }
+  watch(opening_);
+  opening_.clear();
+  control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
+  pathTime_.reset();
+  restSeconds_ = 0;
+  window_.setTitle("whit: " + scene().name);
+  say("opened " + sceneName_);
+}
+
+}  // namespace whit::view

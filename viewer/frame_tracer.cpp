@@ -1,0 +1,160 @@
+#include "viewer/frame_tracer.h"
+
+#include <algorithm>
+
+#include "cli/image_output.h"
+#include "scene/edit_shading.h"
+
+namespace whit::view {
+
+namespace {
+
+// Bands of interruptible frames are meant to take so long: what a new request waits at most, if the
+// answer is to be there with the next frame but one.
+constexpr double kBandMs = 8;
+constexpr double kReferenceBandMs = 80;  // of the reference, each of which is shown
+constexpr int kBandRows = 8;             // bands are multiples of it
+
+ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
+
+void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
+  if (filmSizeOf(film) == size && film.image.window == window) return;
+  film.image = Image(size.width, size.height, window);
+}
+
+// For a film that is filled band by band.
+void sizeDisplay(Film& film) {
+  film.display.width = film.image.width;
+  film.display.height = film.image.height;
+  film.display.rgba.resize(film.image.pixels.size() * 4);
+}
+
+// Copies a band of whole rows to its place.
+void copyBand(const Film& band, Film& film) {
+  const auto row = static_cast<std::ptrdiff_t>(band.image.window.y0);
+  const std::ptrdiff_t width = film.image.width;
+  std::copy(band.image.pixels.begin(), band.image.pixels.end(),
+            film.image.pixels.begin() + row * width);
+  std::copy(band.display.rgba.begin(), band.display.rgba.end(),
+            film.display.rgba.begin() + row * width * 4);
+}
+
+double samplesOf(const FrameRequest& request) {
+  const ImageSize size = request.options.size.value();
+  return static_cast<double>(size.width) * size.height * request.spp;
+}
+
+}  // namespace
+
+FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)
+    : common_(common),
+      scene_(std::move(scene)),
+      options_(common.render),
+      renderer_(std::make_unique<Renderer>(scene_->scene, options_)) {}
+
+void FrameTracer::load(const std::string& name) {
+  std::shared_ptr<cli::OpenScene> scene = cli::openScene(name, common_, nullptr);
+  auto renderer = std::make_unique<Renderer>(scene->scene, options_);
+  renderer_ = std::move(renderer);  // before the scene that the old one reads goes
+  scene_ = std::move(scene);
+}
+
+void FrameTracer::edit(ShadingEdit edit) {
+  if (edit.scene != scene_) return;
+  editShading(scene_->scene, std::move(edit.materials), std::move(edit.lights));
+  renderer_->shadingChanged();
+}
+
+void FrameTracer::applyOptions(const FrameRequest& request) {
+  RenderOptions next = request.options;
+  next.spp = request.spp;
+  if (renderer_->canSetOptions(next)) {
+    renderer_->setOptions(next);
+  } else {
+    renderer_ = std::make_unique<Renderer>(scene_->scene, next);
+  }
+  options_ = next;
+}
+
+bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
+                        const Superseded& superseded, const Publish& publish) {
+  applyOptions(request);
+  frame.comparison.reset();
+  if (!tracePicture(request, frame, superseded)) return false;
+  frame.scene = scene_;
+  frame.request = request;
+  frame.options = options_;
+  frame.metadata =
+      cli::describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
+  if (request.edits > 0) frame.metadata.emplace_back("edited", "materials or lights");
+  frame.effects = renderer_->plan().effects;
+  frame.reasons = scene_->scene.reasons;
+  frame.machine = renderer_->machine();
+  frame.triangles = scene_->scene.instancedTriangles;
+  return !request.withReference || traceReference(request, frame, superseded, publish);
+}
+
+bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
+                               const Superseded& superseded) {
+  const ImageSize size = request.options.size.value();
+  sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
+  frame.legend.clear();
+  if (request.view != DebugView::none) {
+    DebugFrame debug = renderDebugView(*renderer_, request.camera, frame.film, request.view);
+    frame.stats = debug.stats;
+    frame.legend = std::move(debug.legend);
+    return true;
+  }
+  if (request.interruptible && msPerSample_ * samplesOf(request) > kBandMs) {
+    if (!traceInBands(request.camera, frame, superseded)) return false;
+  } else {
+    frame.stats = renderer_->render(request.camera, frame.film);
+  }
+  msPerSample_ = frame.stats.frameMs / samplesOf(request);
+  return true;
+}
+
+bool FrameTracer::traceInBands(const Camera& camera, TracedFrame& frame,
+                               const Superseded& superseded) {
+  const ImageSize size = filmSizeOf(frame.film);
+  sizeDisplay(frame.film);
+  const double msPerRow = msPerSample_ * size.width * options_.spp;
+  const int rows =
+      std::max(static_cast<int>(kBandMs / msPerRow) / kBandRows * kBandRows, kBandRows);
+  frame.stats = FrameStats();
+  for (int y = 0; y < size.height; y += rows) {
+    if (superseded()) return false;
+    sizeFilm(band_, size, Crop{0, y, size.width, std::min(y + rows, size.height)});
+    const FrameStats stats = renderer_->render(camera, band_);
+    copyBand(band_, frame.film);
+    frame.stats.add(stats);
+    frame.stats.frameMs += stats.frameMs;
+    frame.stats.workers = stats.workers;
+  }
+  return true;
+}
+
+bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame,
+                                 const Superseded& superseded, const Publish& publish) {
+  const ImageSize size = filmSizeOf(frame.film);
+  Comparison& comparison = frame.comparison.emplace();
+  sizeFilm(comparison.reference, size, Crop{0, 0, size.width, size.height});
+  sizeDisplay(comparison.reference);
+  double msPerRow = kReferenceBandMs;
+  for (int y = 0; y < size.height; y = comparison.rows) {
+    if (superseded()) return false;
+    const int rows = std::max(static_cast<int>(kReferenceBandMs / msPerRow), 1);
+    const int end = std::min(y + rows, size.height);
+    sizeFilm(band_, size, Crop{0, y, size.width, end});
+    const double ms = renderer_->renderReference(request.camera, band_).frameMs;
+    copyBand(band_, comparison.reference);
+    comparison.referenceMs += ms;
+    comparison.rows = end;
+    msPerRow = std::max(ms / (end - y), 1e-3);
+    publish(frame);
+  }
+  finishComparison(frame.film, options_.exposure, options_.toneCurve, comparison);
+  return true;
+}
+
+}  // namespace whit::view

@@ -1,0 +1,46 @@
+// Makes what a FrameRequest asks for. Belongs to one thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "viewer/traced_frame.h"
+
+namespace whit::view {
+
+class FrameTracer {
+ public:
+  // Builds the renderer; throws as Renderer does.
+  FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common);
+
+  // Reads a scene; the old one stays when that fails.
+  void load(const std::string& name);
+  // Changes materials and lights; nothing when the scene is another one by now.
+  void edit(ShadingEdit edit);
+
+  // Asked between bands of rows of interruptible frames: something else is wanted.
+  using Superseded = std::function<bool()>;
+  // Called with frames whose reference is under way.
+  using Publish = std::function<void(const TracedFrame&)>;
+  // False: given up, and `frame` is not to be shown. Throws when the options ask for what the
+  // machine does not have; the old ones then stay.
+  bool trace(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded,
+             const Publish& publish);
+
+ private:
+  void applyOptions(const FrameRequest& request);
+  bool tracePicture(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded);
+  bool traceInBands(const Camera& camera, TracedFrame& frame, const Superseded& superseded);
+  bool traceReference(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded,
+                      const Publish& publish);
+
+  const cli::CommonOptions common_;
+  std::shared_ptr<cli::OpenScene> scene_;
+  RenderOptions options_;
+  std::unique_ptr<Renderer> renderer_;
+  Film band_;
+  double msPerSample_ = 0;
+};
+
+}  // namespace whit::view

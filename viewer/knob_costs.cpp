@@ -1,0 +1,55 @@
+#include "viewer/knob_costs.h"
+
+#include "cli/option_values.h"
+
+namespace whit::view {
+
+namespace {
+
+// Of every option, as on the command line.
+std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
+  std::map<std::string, std::string> values;
+  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
+                             const auto& field) {
+    const std::string value = cli::formatValue(cli::renderOptionSpec(name, placeholder), field);
+    values[name] = value.empty() ? "none" : value;
+  });
+  return values;
+}
+
+// Whether nothing but options can make the two cost different amounts.
+bool comparable(const FrameRequest& a, FrameRequest b) {
+  b.options = a.options;
+  b.spp = a.spp;
+  return samePicture(a, b);
+}
+
+void append(std::string& list, const std::string& word) {
+  list += (list.empty() ? "" : ", ") + word;
+}
+
+}  // namespace
+
+void KnobCosts::learn(const TracedFrame& frame) {
+  const FrameRequest& request = frame.request;
+  if (!request.interruptible || request.spp != request.options.spp) return;
+  const auto before = std::exchange(baseline_, Baseline{request, frame.stats});
+  if (!before || before->request.options.size != request.options.size ||
+      !comparable(before->request, request)) {
+    return;
+  }
+  const auto old = valuesOf(before->request.options), now = valuesOf(request.options);
+  std::string name;
+  KnobChange change{"", "", before->stats, frame.stats};
+  for (const auto& [option, value] : now) {
+    if (old.at(option) == value) continue;
+    append(name, option);
+    append(change.from, old.at(option));
+    append(change.to, value);
+  }
+  if (name.empty()) return;
+  lastChanged_ = name;
+  changes_[name] = change;
+}
+
+}  // namespace whit::view

@@ -1,0 +1,155 @@
+#include "viewer/knobs.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "cli/option_values.h"
+#include "core/quality.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr float kControlWidth = 11;  // in heights of the font
+
+// Options that are no knobs (where the camera is, what happens to the picture afterwards), that the
+// viewer sets itself, or that have a place of their own in the panel.
+constexpr std::array kElsewhere{"size",    "camera",  "eye",      "at",      "up",
+                                "fov",     "crop",    "threads",  "simd",    "mode",
+                                "quality", "disable", "exposure", "tonemap", "strict"};
+
+bool isElsewhere(const std::string& name) {
+  return std::find(kElsewhere.begin(), kElsewhere.end(), name) != kElsewhere.end();
+}
+
+// A list of the placeholder's words.
+template <typename Field>
+void drawChoice(const cli::OptionSpec& spec, Field& field) {
+  const std::string now = cli::formatValue(spec, field);
+  if (!ImGui::BeginCombo(spec.name.c_str(), now.c_str())) return;
+  for (std::size_t begin = 0; begin <= spec.placeholder.size();) {
+    const std::size_t end = std::min(spec.placeholder.find('|', begin), spec.placeholder.size());
+    const std::string word = spec.placeholder.substr(begin, end - begin);
+    if (ImGui::Selectable(word.c_str(), word == now)) cli::parseValue(spec, word, field);
+    begin = end + 1;
+  }
+  ImGui::EndCombo();
+}
+
+void drawNumber(const cli::OptionSpec& spec, int& field) {
+  constexpr double kOpenEnd = 1 << 20;
+  const int low = static_cast<int>(std::max(spec.low, 0.0));
+  const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
+  int value = field;
+  constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
+  const auto flags = ImGuiSliderFlags_AlwaysClamp |
+                     (high - low > kShort ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  if (ImGui::SliderInt(spec.name.c_str(), &value, low, high, "%d", flags)) field = value;
+}
+
+void drawNumber(const cli::OptionSpec& spec, float& field) {
+  const auto low = static_cast<float>(std::max(spec.low, 0.0));
+  const auto high = static_cast<float>(std::min(spec.high, 1.0));
+  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+  ImGui::SliderFloat(spec.name.c_str(), &field, low, high, "%.1e", kFlags);
+}
+
+template <typename Field>
+void drawKnob(const cli::OptionSpec& spec, Field& field) {
+  if constexpr (std::is_same_v<Field, bool>) {
+    ImGui::Checkbox(spec.name.c_str(), &field);
+  } else if (spec.placeholder.find('|') != std::string::npos) {
+    drawChoice(spec, field);
+  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
+    drawNumber(spec, field);
+  }
+}
+
+void drawCost(const KnobCosts& costs, const std::string& name) {
+  const auto found = costs.changes().find(name);
+  if (found == costs.changes().end()) return;
+  const KnobChange& change = found->second;
+  ImGui::SameLine();
+  ImGui::TextDisabled("%+.2f ms", change.after.frameMs - change.before.frameMs);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s: from %s to %s", name.c_str(), change.from.c_str(), change.to.c_str());
+  }
+}
+
+// What the preset makes of the options. Its reference mode is another key's matter.
+RenderOptions withQuality(RenderOptions options, Quality quality) {
+  options.quality = quality;
+  applyQuality(options, {"mode"});
+  return options;
+}
+
+void drawPresets(RenderOptions& options) {
+  constexpr std::array kNames{"draft", "standard", "fine", "reference"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
+    RenderOptions now = options;
+    now.quality = preset.quality;
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::RadioButton(kNames[i], now == preset)) options = preset;
+  }
+}
+
+}  // namespace
+
+void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
+  drawPresets(options);
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  forEachOption(options, [&](const std::string& name, const char* placeholder, const char* help,
+                             auto& field) {
+    if (isElsewhere(name)) return;
+    drawKnob(cli::renderOptionSpec(name, placeholder), field);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    drawCost(costs, name);
+  });
+  ImGui::PopItemWidth();
+}
+
+void drawDisplay(RenderOptions& options) {
+  constexpr float kStops = 10;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  ImGui::SliderFloat("exposure", &options.exposure, -kStops, kStops, "%+.2f EV");
+  forEachOption(options,
+                [&](const std::string& name, const char* placeholder, const char*, auto& field) {
+                  if (name == "tonemap") drawKnob(cli::renderOptionSpec(name, placeholder), field);
+                });
+  ImGui::PopItemWidth();
+}
+
+void drawLastChange(const KnobCosts& costs) {
+  if (costs.lastChanged().empty()) return;
+  const KnobChange& change = costs.changes().at(costs.lastChanged());
+  ImGui::TextWrapped("%s: %s to %s", costs.lastChanged().c_str(), change.from.c_str(),
+                     change.to.c_str());
+  if (!ImGui::BeginTable("change", 4)) return;
+  for (const char* heading : {"", "before", "after", "%"}) ImGui::TableSetupColumn(heading);
+  ImGui::TableHeadersRow();
+  const auto row = [](const char* name, double before, double after) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", before);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", after);
+    ImGui::TableNextColumn();
+    if (before > 0) ImGui::Text("%+.1f", 100 * (after / before - 1));
+  };
+  row("frame, ms", change.before.frameMs, change.after.frameMs);
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    const auto thousands = [&](const FrameStats& s) {
+      return static_cast<double>(s.tally[i].rays) / 1e3;
+    };
+    row((std::string(kRayKindNames[i]) + ", k").c_str(), thousands(change.before),
+        thousands(change.after));
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace whit::view

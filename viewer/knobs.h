@@ -1,0 +1,18 @@
+// The options of a render as sliders, boxes and lists, with what each has cost.
+#pragma once
+
+#include "viewer/knob_costs.h"
+
+namespace whit::view {
+
+// Presets, then every option of forEachOption that trades time for accuracy or speed: a new one
+// shows up by itself. Between ImGui's Begin and End.
+void drawKnobs(RenderOptions& options, const KnobCosts& costs);
+
+// Exposure and tone curve.
+void drawDisplay(RenderOptions& options);
+
+// The last change, before and after: frame time and rays by kind. Nothing before the first.
+void drawLastChange(const KnobCosts& costs);
+
+}  // namespace whit::view

@@ -1,0 +1,81 @@
+#include "viewer/scene_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit::view {
+
+namespace {
+
+constexpr float kLargestIntensity = 1e6f, kLargestRadiance = 1e4f;
+
+bool drawColour(const char* label, Rgb& colour) {
+  return ImGui::ColorEdit3(label, &colour.x, ImGuiColorEditFlags_Float);
+}
+
+// Colour and strength of what has no upper limit. The colour's largest channel is 1.
+bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
+  float strength = maxComponent(value);
+  Rgb colour = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
+  const bool recoloured = drawColour(label, colour);
+  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
+  if (!recoloured && !turned) return false;
+  value = colour * strength;
+  return true;
+}
+
+bool drawLight(PointLight& light) {
+  bool changed = drawBright("colour", "intensity", kLargestIntensity, light.intensity);
+  const float step = 0.002f * std::max(1.0f, maxComponent(abs(light.position)));
+  changed |= ImGui::DragFloat3("position", &light.position.x, step);
+  return changed;
+}
+
+bool drawMaterial(Material& m) {
+  constexpr float kLeastIor = 1, kLargestIor = 3, kLargestAbsorption = 100;
+  bool changed = drawColour("diffuse", m.diffuse);
+  changed |= drawColour("specular", m.specular);
+  if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
+  changed |= drawColour("mirror", m.mirror);
+  changed |= drawColour("mirror, grazing", m.mirrorGrazing);
+  changed |= drawColour("transmission", m.transmission);
+  if (m.hasTransmission()) {
+    changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f");
+    changed |= drawBright("absorption", "absorption per unit", kLargestAbsorption, m.absorption);
+  }
+  changed |= drawBright("emission", "radiance", kLargestRadiance, m.emission);
+  return changed;
+}
+
+// A foldable node for each item, under its name or number.
+template <typename Item, typename Draw>
+bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
+  bool changed = false;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string number = std::string(kind) + " " + std::to_string(i + 1);
+    const std::string name = items[i].name.empty() ? number : items[i].name;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::TreeNode(kind, "%s", name.c_str())) {
+      changed |= draw(items[i]);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+  ImGui::PopItemWidth();
+  if (items.empty()) ImGui::TextDisabled("none");
+  return changed;
+}
+
+}  // namespace
+
+bool drawLights(std::vector<PointLight>& lights) { return drawItems(lights, "light", drawLight); }
+
+bool drawMaterials(std::vector<Material>& materials) {
+  return drawItems(materials, "material", drawMaterial);
+}
+
+}  // namespace whit::view

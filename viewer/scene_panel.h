@@ -1,0 +1,12 @@
+// Materials and lights of the scene, to be changed while it is being looked at.
+#pragma once
+
+#include "viewer/traced_frame.h"
+
+namespace whit::view {
+
+// Between ImGui's Begin and End. Each returns whether something was changed.
+bool drawLights(std::vector<PointLight>& lights);
+bool drawMaterials(std::vector<Material>& materials);
+
+}  // namespace whit::view
