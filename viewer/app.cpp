@@ -117,6 +117,7 @@ void App::fetchFrame() {
   const FrameRequest& request = shown_.request;
   if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   panel_.remember(shown_);
+  if (shown_.request.measureKnobs) settings_.measureKnobs = false;
   showPicture();
 }
 
@@ -147,6 +148,7 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   request.spp = sharpness.spp;
   request.view = settings_.view;
   request.withReference = still && settings_.compare != CompareMode::off;
+  request.measureKnobs = still && settings_.measureKnobs;
   request.reloads = reloads_;
   request.edits = edits_;
   request.interruptible = still;
@@ -161,7 +163,8 @@ void App::askForFrame() {
   resolution_.setSpp(settings_.options.spp);
   const bool still = restSeconds_ >= kSettleSeconds;
   // More samples would only blur what is to be compared or looked into.
-  const bool refine = settings_.compare == CompareMode::off && settings_.view == DebugView::none;
+  const bool refine = settings_.compare == CompareMode::off && settings_.view == DebugView::none &&
+                      !settings_.measureKnobs;
   if (!still || !refine) resolution_.restartSharpening();
   const double pixels = static_cast<double>(window.width) * window.height;
   FrameRequest request =
@@ -196,7 +199,7 @@ void App::drawPanel() {
 void App::draw(const std::string& screenshot) {
   window_.begin();
   if (settings_.compare != CompareMode::off && shown_.scene) {
-    drawComparison(shown_, settings_.compare, split_);
+    drawComparison(shown_, settings_.compare, split_, settings_.shown);
   }
   drawPanel();
   if (!error_.empty()) {

@@ -61,6 +61,8 @@ void App::obey(const ScriptCommand& command) {
     window_.minimise();
   } else if (command.kind == Kind::restore) {
     window_.restore();
+  } else if (command.kind == Kind::panel) {
+    settings_.tab = command.file;
   } else {
     surviveErrors_ = command.kind == Kind::showErrors;
   }
@@ -140,6 +142,10 @@ void App::handlePictureKey(int key) {
       say(std::string("view: ") + kDebugViewNames[static_cast<std::size_t>(settings_.view)]);
       break;
     }
+    case GLFW_KEY_M:
+      settings_.measureKnobs = true;
+      say("measuring what each knob and effect costs");
+      break;
     case GLFW_KEY_X:
       settings_.compare = settings_.compare == CompareMode::off     ? CompareMode::split
                           : settings_.compare == CompareMode::split ? CompareMode::heatMap

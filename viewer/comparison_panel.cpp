@@ -19,13 +19,14 @@ void drawLabel(ImDrawList& list, const ImVec2& at, const char* text) {
 }
 
 // Behind the panels, over the picture.
-void drawSplit(double split) {
+void drawSplit(double split, bool labels) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float x = static_cast<float>(split) * window.x, gap = ImGui::GetFontSize();
   const float y = window.y - 5 * gap;
   list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
   list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
+  if (!labels) return;
   drawLabel(list, ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
   drawLabel(list, ImVec2(x + gap, y), "reference");
 }
@@ -38,12 +39,28 @@ void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
   ImGui::Text("packets %.1f ms, reference %.0f ms", frame.stats.frameMs, comparison.referenceMs);
 }
 
+void drawFindings(const TracedFrame& frame, bool heat) {
+  ImGui::TextUnformatted(heat ? "difference from the reference, in 8-bit codes"
+                              : "packets against the reference");
+  if (!frame.comparison) {
+    ImGui::TextDisabled("waits until nothing moves");
+  } else if (frame.comparison->complete()) {
+    drawDifference(frame, *frame.comparison);
+  } else {
+    char text[48];
+    std::snprintf(text, sizeof text, "reference: %.0f %%", 100 * frame.comparison->progress());
+    ImGui::ProgressBar(static_cast<float>(frame.comparison->progress()),
+                       ImVec2(ImGui::GetFontSize() * 18, 0), text);
+  }
+}
+
 }  // namespace
 
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split) {
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
   const bool under = frame.comparison.has_value();
   const bool heat = mode == CompareMode::heatMap && under && frame.comparison->complete();
-  if (under && !heat) drawSplit(split);
+  if (under && !heat) drawSplit(split, words);
+  if (!words) return;
   const float gap = 10;
   ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
                           ImVec2(1, 0));
@@ -51,20 +68,7 @@ void drawComparison(const TracedFrame& frame, CompareMode mode, double split) {
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_AlwaysAutoResize |
                                       ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("comparison", nullptr, kFlags)) {
-    ImGui::TextUnformatted(heat ? "difference from the reference, in 8-bit codes"
-                                : "packets against the reference");
-    if (!under) {
-      ImGui::TextDisabled("waits until nothing moves");
-    } else if (frame.comparison->complete()) {
-      drawDifference(frame, *frame.comparison);
-    } else {
-      char text[48];
-      std::snprintf(text, sizeof text, "reference: %.0f %%", 100 * frame.comparison->progress());
-      ImGui::ProgressBar(static_cast<float>(frame.comparison->progress()),
-                         ImVec2(ImGui::GetFontSize() * 18, 0), text);
-    }
-  }
+  if (ImGui::Begin("comparison", nullptr, kFlags)) drawFindings(frame, heat);
   ImGui::End();
 }
 

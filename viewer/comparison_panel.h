@@ -6,7 +6,7 @@
 namespace whit::view {
 
 // Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
-// window's width, and a window with what is known about their difference.
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split);
+// window's width; with `words` also what is what, and what is known about their difference.
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
 
 }  // namespace whit::view

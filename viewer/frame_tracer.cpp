@@ -80,6 +80,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
                         const Superseded& superseded, const Publish& publish) {
   applyOptions(request);
   frame.comparison.reset();
+  frame.costs.clear();
   if (!tracePicture(request, frame, superseded)) return false;
   frame.scene = scene_;
   frame.request = request;
@@ -91,6 +92,11 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
   frame.triangles = scene_->scene.instancedTriangles;
+  if (request.measureKnobs) {
+    sizeFilm(band_, request.options.size.value(), frame.film.image.window);
+    frame.costs = measureKnobs(*renderer_, options_, request.camera, band_, superseded);
+    if (superseded()) return false;
+  }
   return !request.withReference || traceReference(request, frame, superseded, publish);
 }
 

@@ -1,5 +1,8 @@
 #include "viewer/knob_costs.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "cli/option_values.h"
 
 namespace whit::view {
@@ -21,6 +24,7 @@ std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
 bool comparable(const FrameRequest& a, FrameRequest b) {
   b.options = a.options;
   b.spp = a.spp;
+  b.measureKnobs = a.measureKnobs;
   return samePicture(a, b);
 }
 
@@ -31,6 +35,7 @@ void append(std::string& list, const std::string& word) {
 }  // namespace
 
 void KnobCosts::learn(const TracedFrame& frame) {
+  if (!frame.costs.empty()) measured_ = frame.costs;
   const FrameRequest& request = frame.request;
   if (!request.interruptible || request.spp != request.options.spp) return;
   const auto before = std::exchange(baseline_, Baseline{request, frame.stats});
@@ -50,6 +55,12 @@ void KnobCosts::learn(const TracedFrame& frame) {
   if (name.empty()) return;
   lastChanged_ = name;
   changes_[name] = change;
+}
+
+const KnobCost* KnobCosts::measured(const std::string& name) const {
+  const auto found = std::find_if(measured_.begin(), measured_.end(),
+                                  [&](const KnobCost& cost) { return cost.name == name; });
+  return found == measured_.end() ? nullptr : &*found;
 }
 
 }  // namespace whit::view

@@ -16,13 +16,16 @@ struct KnobChange {
 
 class KnobCosts {
  public:
-  // Only frames at rest, with the samples that the options ask for, can be compared: others are
-  // passed over. A change is noticed when nothing but options differs from the last such frame.
+  // Takes over what was measured. Otherwise only frames at rest, with the samples that the options
+  // ask for, can be compared: others are passed over. A change is noticed when nothing but options
+  // differs from the last such frame.
   void learn(const TracedFrame& frame);
 
   // The last change of each option, by its name; of several at once, "a, b".
   const std::map<std::string, KnobChange>& changes() const { return changes_; }
   const std::string& lastChanged() const { return lastChanged_; }  // empty: nothing yet
+  // The last ones that were measured; null where there are none of that name.
+  const KnobCost* measured(const std::string& name) const;
 
  private:
   struct Baseline {
@@ -32,6 +35,7 @@ class KnobCosts {
   std::optional<Baseline> baseline_;
   std::map<std::string, KnobChange> changes_;
   std::string lastChanged_;
+  std::vector<KnobCost> measured_;
 };
 
 }  // namespace whit::view

@@ -68,17 +68,6 @@ void drawKnob(const cli::OptionSpec& spec, Field& field) {
   }
 }
 
-void drawCost(const KnobCosts& costs, const std::string& name) {
-  const auto found = costs.changes().find(name);
-  if (found == costs.changes().end()) return;
-  const KnobChange& change = found->second;
-  ImGui::SameLine();
-  ImGui::TextDisabled("%+.2f ms", change.after.frameMs - change.before.frameMs);
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s: from %s to %s", name.c_str(), change.from.c_str(), change.to.c_str());
-  }
-}
-
 // What the preset makes of the options. Its reference mode is another key's matter.
 RenderOptions withQuality(RenderOptions options, Quality quality) {
   options.quality = quality;
@@ -98,6 +87,26 @@ void drawPresets(RenderOptions& options) {
 }
 
 }  // namespace
+
+void drawCost(const KnobCosts& costs, const std::string& name) {
+  const KnobCost* measured = costs.measured(name);
+  const auto found = costs.changes().find(name);
+  if (!measured && found == costs.changes().end()) return;
+  ImGui::SameLine();
+  if (measured) {
+    ImGui::TextDisabled("costs %.2f ms", measured->ms());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s: %+.0f rays, against %s", name.c_str(), measured->rays(),
+                        measured->other.c_str());
+    }
+    return;
+  }
+  const KnobChange& change = found->second;
+  ImGui::TextDisabled("%+.2f ms", change.after.frameMs - change.before.frameMs);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s: from %s to %s", name.c_str(), change.from.c_str(), change.to.c_str());
+  }
+}
 
 void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
   drawPresets(options);

@@ -9,6 +9,10 @@ namespace whit::view {
 // shows up by itself. Between ImGui's Begin and End.
 void drawKnobs(RenderOptions& options, const KnobCosts& costs);
 
+// Beside the control of that knob or effect: what it costs, as measured, or else what its last
+// change has done; nothing where neither is known.
+void drawCost(const KnobCosts& costs, const std::string& name);
+
 // Exposure and tone curve.
 void drawDisplay(RenderOptions& options);
 

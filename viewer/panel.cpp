@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "cli/frame_summary.h"
 #include "viewer/keys.h"
@@ -51,22 +52,23 @@ void drawRays(const FrameStats& stats) {
   ImGui::EndTable();
 }
 
-// A box for each effect that the scene calls for; the others greyed, with the reason.
-void drawEffects(const TracedFrame& frame, EffectSet& disable) {
+// A box for each effect that the scene calls for; the others greyed; why, for all of them.
+void drawEffects(const TracedFrame& frame, const KnobCosts& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
     const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
-    if (reason.on) {
-      bool on = !disable.has(effect);
-      if (ImGui::Checkbox(name.c_str(), &on)) {
-        disable = on ? disable.without(effect) : disable.with(effect);
-      }
-    } else {
-      ImGui::TextDisabled("      %s", name.c_str());
+    bool on = reason.on && !disable.has(effect);
+    ImGui::BeginDisabled(!reason.on);
+    if (ImGui::Checkbox(name.c_str(), &on)) {
+      disable = on ? disable.without(effect) : disable.with(effect);
     }
+    ImGui::EndDisabled();
+    drawCost(costs, name);
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", reason.because.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", reason.because.c_str());
+    ImGui::PopStyleColor();
   }
 }
 
@@ -153,32 +155,58 @@ void Panel::drawTimes(const TracedFrame& frame) const {
                    ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4));
 }
 
+bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const {
+  bool edited = false;
+  const std::string chosen = std::exchange(settings.tab, std::string());
+  const auto tab = [&](const char* name, auto&& draw) {
+    const bool choose = chosen == name;
+    if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
+    draw();
+    ImGui::EndTabItem();
+  };
+  if (!ImGui::BeginTabBar("tabs")) return false;
+  tab("frame", [&] {
+    drawStages(frame.stats);
+    drawRays(frame.stats);
+  });
+  tab("picture", [&] {
+    drawPicture(settings);
+    drawView(frame, settings);
+  });
+  tab("knobs", [&] {
+    drawKnobs(settings.options, costs_);
+    ImGui::BeginDisabled(settings.measureKnobs);
+    if (ImGui::Button(settings.measureKnobs ? "measuring" : "measure what each costs (M)")) {
+      settings.measureKnobs = true;
+    }
+    ImGui::EndDisabled();
+    drawLastChange(costs_);
+  });
+  tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
+  tab("scene", [&] {
+    ImGui::TextDisabled("lights");
+    edited |= drawLights(scene.lights);
+    ImGui::TextDisabled("materials");
+    edited |= drawMaterials(scene.materials);
+  });
+  tab("keys", drawKeys);
+  ImGui::EndTabBar();
+  return edited;
+}
+
 bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings,
                  ShadingEdit& scene) const {
-  bool edited = false;
-  ImGui::SetNextWindowPos(ImVec2(10, 10), ImGuiCond_FirstUseEver);
-  const float height = ImGui::GetIO().DisplaySize.y - 20;
-  ImGui::SetNextWindowSize(ImVec2(ImGui::GetFontSize() * 26, height), ImGuiCond_FirstUseEver);
+  constexpr float kMargin = 10, kWidth = 27;  // pixels; heights of the font
+  const float width = ImGui::GetFontSize() * kWidth;
+  const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
+  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  if (ImGui::Begin("whit")) {
+  bool edited = false;
+  if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
     ImGui::Text("speed %.3g units a second", speed);
-    if (ImGui::CollapsingHeader("stages", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(frame.stats);
-    if (ImGui::CollapsingHeader("rays", ImGuiTreeNodeFlags_DefaultOpen)) drawRays(frame.stats);
-    if (ImGui::CollapsingHeader("picture", ImGuiTreeNodeFlags_DefaultOpen)) {
-      drawPicture(settings);
-      drawView(frame, settings);
-    }
-    if (ImGui::CollapsingHeader("knobs", ImGuiTreeNodeFlags_DefaultOpen)) {
-      drawKnobs(settings.options, costs_);
-      drawLastChange(costs_);
-    }
-    if (ImGui::CollapsingHeader("effects")) {
-      drawEffects(frame, settings.options.disable);
-    }
-    if (ImGui::CollapsingHeader("lights")) edited |= drawLights(scene.lights);
-    if (ImGui::CollapsingHeader("materials")) edited |= drawMaterials(scene.materials);
-    if (ImGui::CollapsingHeader("keys")) drawKeys();
+    edited = drawTabs(frame, settings, scene);
   }
   ImGui::End();
   return edited;

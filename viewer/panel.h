@@ -11,15 +11,19 @@ namespace whit::view {
 // Against the reference: not at all, side by side, or as a map of the differences.
 enum class CompareMode { off, split, heatMap };
 
+inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects", "scene", "keys"};
+
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
 
 // What the user can change here.
 struct PanelSettings {
   bool shown = true;
+  std::string tab;   // of kPanelTabs, to be turned to by the next frame; empty: it stays
   double rate = 60;  // frames a second to hold
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
+  bool measureKnobs = false;  // until it is done
 };
 
 class Panel {
@@ -36,6 +40,7 @@ class Panel {
 
  private:
   void drawTimes(const TracedFrame& frame) const;
+  bool drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const;
 
   KnobCosts costs_;
   // Milliseconds of frames in motion, for the graph.

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "viewer/keys.h"
+#include "viewer/panel.h"
 
 namespace whit::view {
 
@@ -91,6 +93,18 @@ ScriptCommand errorsCommand(const Words& words) {
   return {words[1] == "show" ? Kind::showErrors : Kind::endErrors};
 }
 
+ScriptCommand panelCommand(const Words& words) {
+  if (words.size() != 2) expected("panel NAME");
+  const std::vector<std::string> tabs(kPanelTabs.begin(), kPanelTabs.end());
+  if (std::find(tabs.begin(), tabs.end(), words[1]) == tabs.end()) {
+    throwUsage("the panel has no tab '" + words[1] + "'; nearest: '" + nearestName(words[1], tabs) +
+               "'");
+  }
+  ScriptCommand command{Kind::panel};
+  command.file = words[1];
+  return command;
+}
+
 constexpr std::pair<const char*, Kind> kPlainCommands[] = {
     {"minimise", Kind::minimise}, {"restore", Kind::restore}, {"quit", Kind::quit}};
 
@@ -111,6 +125,7 @@ ScriptCommand commandOf(const Words& words) {
     return command;
   }
   if (words[0] == "click") return clickCommand(words);
+  if (words[0] == "panel") return panelCommand(words);
   if (words[0] == "drop") {
     if (words.size() != 2) expected("drop FILE");
     ScriptCommand command{Kind::drop};
@@ -123,9 +138,8 @@ ScriptCommand commandOf(const Words& words) {
     if (words[0] == name && words.size() == 1) return {kind};
   }
   expected(
-      "key, mouse, wheel, wait, screenshot, click, drop, resize, minimise, restore, errors or "
-      "quit, "
-      "got '" +
+      "key, mouse, wheel, wait, screenshot, click, panel, drop, resize, minimise, restore, errors "
+      "or quit, got '" +
       words[0] + "'");
 }
 
@@ -185,6 +199,7 @@ ScriptPlayer::Step ScriptPlayer::next(bool sharp, Input& input) {
     case Kind::drop:
       input.dropped.push_back(c.file);
       break;
+    case Kind::panel:
     case Kind::resize:
     case Kind::minimise:
     case Kind::restore:

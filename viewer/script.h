@@ -5,8 +5,10 @@
 //   wheel NOTCHES
 //   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
-//   click X Y [X2 Y2]             on the panel, in pixels of the window; from there dragged to X2
-//   Y2 drop FILE                     a file dropped on the window resize W H | minimise | restore
+//   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
+//   panel NAME                    turns to that tab of the panel
+//   drop FILE                     a file dropped on the window
+//   resize W H | minimise | restore
 //   errors show | errors end      errors are shown as to a user; by default they end the script
 //   quit
 //
@@ -32,6 +34,7 @@ struct ScriptCommand {
     waitSharp,
     screenshot,
     click,
+    panel,
     drop,
     resize,
     minimise,
@@ -45,7 +48,7 @@ struct ScriptCommand {
   int frames = 1;  // that it takes: key, wait
   // look, orbit, click: pixels; wheel: notches in x; resize: pixels a side; to: where a click ends
   double x = 0, y = 0, toX = 0, toY = 0;
-  std::string file{};
+  std::string file{};  // or a tab of the panel
 };
 
 // Throws Error(badScene) with "file:line" and what was expected.

@@ -10,6 +10,7 @@
 #include "io/image_file.h"
 #include "render/debug_view.h"
 #include "viewer/comparison.h"
+#include "viewer/knob_measurement.h"
 
 namespace whit::view {
 
@@ -19,6 +20,7 @@ struct FrameRequest {
   int spp = 1;            // that are traced: of the options, or more at rest
   DebugView view = DebugView::none;
   bool withReference = false;  // the reference's picture as well, and how far apart they are
+  bool measureKnobs = false;   // also what each knob costs
   int reloads = 0, edits = 0;  // of the scene before it
   int serial = 0;              // tells requests apart
   bool interruptible = false;  // given up when another one is asked for
@@ -28,8 +30,8 @@ struct FrameRequest {
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return a.camera.eye == b.camera.eye && a.camera.at == b.camera.at && a.camera.up == b.camera.up &&
          a.camera.fov == b.camera.fov && a.options == b.options && a.spp == b.spp &&
-         a.view == b.view && a.withReference == b.withReference && a.reloads == b.reloads &&
-         a.edits == b.edits;
+         a.view == b.view && a.withReference == b.withReference &&
+         a.measureKnobs == b.measureKnobs && a.reloads == b.reloads && a.edits == b.edits;
 }
 
 // What a user makes of a scene's surfaces and lights; see scene/edit_shading.h.
@@ -51,6 +53,7 @@ struct TracedFrame {
   Machine machine;
   std::string legend;                    // of a debug view
   std::optional<Comparison> comparison;  // where the request is with the reference
+  std::vector<KnobCost> costs;           // where the request is to measure them
   std::uint64_t triangles = 0;
 };
 

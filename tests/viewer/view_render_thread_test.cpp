@@ -133,6 +133,30 @@ TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
   expectRightPicture(thread);
 }
 
+TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.measureKnobs = true;
+  const TracedFrame frame = traced(thread);
+  const auto costOf = [&](const std::string& name) {
+    for (const KnobCost& cost : frame.costs) {
+      if (cost.name == name) return cost;
+    }
+    ADD_FAILURE() << name << " was not measured";
+    return KnobCost();
+  };
+  // A mirror's rays are all that a frame without impulses lacks, but for those that they cause.
+  const KnobCost depth = costOf("depth"), mirror = costOf("mirror");
+  EXPECT_EQ(depth.other, "0");
+  EXPECT_EQ(depth.then.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(depth.now.of(RayKind::reflection).rays, frame.stats.of(RayKind::reflection).rays);
+  EXPECT_EQ(depth.rays(), mirror.rays());
+  EXPECT_GT(depth.rays(), 0);
+  EXPECT_EQ(costOf("shadows").then.of(RayKind::shadow).rays, 0u);
+  for (const KnobCost& cost : frame.costs) EXPECT_NE(cost.name, "glossy");  // the scene has none
+  request_.measureKnobs = false;
+  expectRightPicture(thread);
+}
+
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);

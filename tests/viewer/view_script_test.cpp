@@ -37,12 +37,13 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("wheel nan"), "walk.txt:1: expected a number of at most 1e6, got 'nan'");
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
-            "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, drop, resize, "
+            "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, panel, drop, resize, "
             "minimise, restore, errors or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
   EXPECT_EQ(errorOf("click 3"), "walk.txt:1: expected click X Y [X2 Y2]");
+  EXPECT_EQ(errorOf("panel knob"), "walk.txt:1: the panel has no tab 'knob'; nearest: 'knobs'");
   EXPECT_EQ(errorOf("drop"), "walk.txt:1: expected drop FILE");
   EXPECT_EQ(errorOf("resize 0 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
   EXPECT_EQ(errorOf("resize 10"), "walk.txt:1: expected resize W H, from 1 to 16384");

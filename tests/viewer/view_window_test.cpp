@@ -3,63 +3,13 @@
 
 #include <cstring>
 
-#include "io/image_file.h"
 #include "viewer/view_files.h"
-#include "virtual_display.h"
+#include "viewer_fixture.h"
 
 namespace whit::view {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Viewer : public testing::Test {
- protected:
-  void SetUp() override {
-    if (display_.name().empty()) {
-      GTEST_SKIP() << "Xvfb is not installed: the viewer's window is NOT tested (xvfb)";
-    }
-    cli::writeTinyScene(folder_);
-  }
-
-  cli::Outcome view(std::vector<std::string> words) {
-    words.insert(words.begin(), {WHIT_VIEW_PROGRAM, "tiny.json", "--quiet"});
-    return runOn(display_.name(), folder_.path().string(), words);
-  }
-  cli::Outcome play(const std::string& script, std::vector<std::string> words = {}) {
-    std::ofstream(folder_ / "script.txt") << script;
-    words.insert(words.end(), {"--script", "script.txt"});
-    const cli::Outcome outcome = view(words);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return outcome;
-  }
-  // Runs a command that the viewer has printed, as a shell would.
-  void render(const std::string& command, const std::string& file) {
-    ASSERT_EQ(command.rfind("whit render ", 0), 0u) << command;
-    const std::string line = WHIT_PROGRAM + command.substr(4) + " --quiet -o " + file;
-    const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
-    ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
-  }
-  RawImage codes(const std::string& file) {
-    Warnings warnings;
-    return readRawImage(folder_ / file, ImageLimits(), warnings);
-  }
-  void expectSameCodes(const std::string& a, const std::string& b) {
-    const RawImage x = codes(a), y = codes(b);
-    ASSERT_EQ(x.width, y.width);
-    ASSERT_EQ(x.height, y.height);
-    EXPECT_EQ(x.codes, y.codes);
-  }
-
-  VirtualDisplay display_;
-  cli::TemporaryFolder folder_;
-};
-
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
   const cli::Outcome outcome = play(
@@ -126,6 +76,7 @@ TEST_F(Viewer, BenchmarkTellsTracingFromDisplay) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("tracing"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("display"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("latency"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Viewer, ErrorsEndAScript) {

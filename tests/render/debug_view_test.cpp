@@ -1,0 +1,131 @@
+// Debug views of scenes whose every pixel is known.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/display.h"
+#include "render/debug_view.h"
+#include "shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+using Code = std::array<int, 3>;
+
+// A wall at z = 0 that fills the view from z = 5, of the colour (0.5, 0.25, 0.1), and one light.
+Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
+  SceneDescription d;
+  d.name = "wall";
+  d.materials.resize(1);
+  d.materials[0].diffuse = {0.5f, 0.25f, 0.1f};
+  d.lights.resize(1);
+  d.lights[0].position = {0, 0, 4};
+  Mesh mesh;
+  mesh.positions = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.materials = {0};
+  d.objects.push_back({"wall", {mesh}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.resize(1);  // at z = 5, looking along -z
+  if (change) change(d);
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+struct Viewed {
+  DebugFrame frame;
+  Film film;
+  Code code(int x, int y) const {
+    const std::size_t at = 4 * static_cast<std::size_t>(y * film.display.width + x);
+    return {film.display.rgba[at], film.display.rgba[at + 1], film.display.rgba[at + 2]};
+  }
+};
+
+Viewed view(const Scene& scene, DebugView what, const RenderOptions& options = smallOptions()) {
+  Renderer renderer(scene, options);
+  Viewed viewed{{}, makeFilm(scene, options)};
+  viewed.frame = renderDebugView(renderer, chooseCamera(scene, options), viewed.film, what);
+  return viewed;
+}
+
+// The same code in every pixel.
+void expectAll(const Viewed& viewed, const Code& code) {
+  for (int y = 0; y < viewed.film.display.height; ++y) {
+    for (int x = 0; x < viewed.film.display.width; ++x) {
+      ASSERT_EQ(viewed.code(x, y), code) << x << ',' << y;
+    }
+  }
+}
+
+TEST(DebugView, NormalsOfAWallFaceTheViewer) {
+  expectAll(view(wall(), DebugView::normals), {128, 128, 255});  // (0 + 1) / 2, (1 + 1) / 2
+}
+
+TEST(DebugView, AlbedoIsTheMaterials) {
+  expectAll(view(wall(), DebugView::albedo), {srgbCode(0.5), srgbCode(0.25), srgbCode(0.1)});
+}
+
+TEST(DebugView, DepthBeginsWhereTheWallIsNearest) {
+  const Viewed viewed = view(wall(), DebugView::depth);
+  EXPECT_EQ(viewed.frame.legend.substr(0, 17), "distance, from 5 ");
+  EXPECT_GT(viewed.code(53, 33)[0], viewed.code(0, 0)[0]);  // the middle is nearer
+  expectAll(view(wall([](SceneDescription& d) {
+                   d.cameras[0].at = {0, 0, 10};
+                 }),
+                 DebugView::depth),
+            {0, 0, 0});  // looking away
+}
+
+TEST(DebugView, CountsRays) {
+  EXPECT_EQ(view(wall(), DebugView::rays).frame.legend,
+            "rays a pixel and sample, from 2 to 2");  // and one to the light
+  const auto dark = [](SceneDescription& d) { d.lights.clear(); };
+  EXPECT_EQ(view(wall(dark), DebugView::rays).frame.legend, "rays a pixel and sample, from 1 to 1");
+  // A mirror in the dark: its ray leaves the scene.
+  const auto mirror = [&](SceneDescription& d) {
+    dark(d);
+    d.materials[0].mirror = d.materials[0].mirrorGrazing = {1, 1, 1};
+  };
+  RenderOptions several = smallOptions();
+  several.spp = 4;
+  EXPECT_EQ(view(wall(mirror), DebugView::rays, several).frame.legend,
+            "rays a pixel and sample, from 2 to 2");
+}
+
+TEST(DebugView, FullPacketsAreBright) {
+  RenderOptions options = smallOptions();
+  options.size = ImageSize{96, 64};  // whole tiles: no packet is partly filled
+  expectAll(view(wall(), DebugView::occupancy, options), {255, 245, 170});
+  options.size = ImageSize{1, 1};
+  options.packet = 8;
+  const Code alone = view(wall(), DebugView::occupancy, options).code(0, 0);  // an eighth
+  EXPECT_LT(alone[0] + alone[1] + alone[2], 128);
+}
+
+TEST(DebugView, EffectsOfTheSurface) {
+  const Code matte = {0, 0, 0};
+  expectAll(view(wall(), DebugView::effects), matte);
+  const auto mirror = [](SceneDescription& d) { d.materials[0].mirror = {0.5f, 0.5f, 0.5f}; };
+  for (const EffectColour& c : effectColours()) {
+    if (c.effect != Effect::mirror) continue;
+    expectAll(view(wall(mirror), DebugView::effects),
+              {static_cast<int>(std::lround(255 * c.colour[0])),
+               static_cast<int>(std::lround(255 * c.colour[1])),
+               static_cast<int>(std::lround(255 * c.colour[2]))});
+  }
+  RenderOptions without = smallOptions();
+  without.disable = without.disable.with(Effect::mirror);
+  expectAll(view(wall(mirror), DebugView::effects, without), matte);
+}
+
+TEST(DebugView, ThePictureItselfIsAsEver) {
+  const Scene scene = load("whitted");
+  for (const DebugView what : {DebugView::rays, DebugView::cost, DebugView::occupancy}) {
+    const Viewed viewed = view(scene, what);
+    EXPECT_EQ(firstDifference(viewed.film.image, render(scene, smallOptions()).image), "");
+    EXPECT_GT(viewed.frame.stats.frameMs, 0);
+  }
+}
+
+}  // namespace
+}  // namespace whit::test

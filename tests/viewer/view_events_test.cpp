@@ -1,0 +1,146 @@
+// whit-view under a restless user: the reference, other views, dropped files, errors, and events
+// at random.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+// Pixels [x0, x1) of both, channel by channel.
+void expectSameColumns(const RawImage& a, const RawImage& b, int x0, int x1) {
+  ASSERT_EQ(a.width, b.width);
+  ASSERT_EQ(a.height, b.height);
+  const std::size_t channels =
+      a.codes.size() / (static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height));
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y * a.width + x) * channels;
+      for (std::size_t c = 0; c < channels; ++c) {
+        ASSERT_EQ(a.codes[at + c], b.codes[at + c]) << x << ',' << y;
+      }
+    }
+  }
+}
+
+TEST_F(Viewer, TheReferenceIsBesideThePicture) {
+  const cli::Outcome outcome = play(
+      "key H\nkey X\nwait 30 frames\nwait sharp\nscreenshot half.png\nmouse left 20 0\n"
+      "wait 2 frames\nscreenshot moved.png\nkey C\nkey X\nwait 2 frames\nscreenshot heat.png\n"
+      "key X\nwait 2 frames\nscreenshot frame.png\n",
+      {"--size", "96x64", "--spp", "1"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  render(lines[0], "packets.png");
+  render(lines[0] + " --mode reference", "reference.png");
+  const RawImage packets = codes("packets.png"), reference = codes("reference.png");
+  const RawImage half = codes("half.png"), moved = codes("moved.png");
+  // The line itself is a few pixels wide, in the middle, then 20 pixels further right.
+  expectSameColumns(half, packets, 0, 42);
+  expectSameColumns(half, reference, 54, 96);
+  expectSameColumns(moved, packets, 0, 62);
+  expectSameColumns(moved, reference, 74, 96);
+  EXPECT_NE(codes("heat.png").codes, half.codes);
+  expectSameColumns(codes("frame.png"), packets, 0, 96);
+}
+
+TEST_F(Viewer, ShowsOtherViews) {
+  play(
+      "key H\nwait sharp\nscreenshot picture.png\nkey V\nwait 2 frames\nwait sharp\n"
+      "screenshot depth.png\nkey V\nwait 2 frames\nwait sharp\nscreenshot normals.png\n");
+  play("key H\nwait sharp\nscreenshot again.png\n", {"--view", "normals"});
+  EXPECT_NE(codes("picture.png").codes, codes("depth.png").codes);
+  EXPECT_NE(codes("depth.png").codes, codes("normals.png").codes);
+  expectSameCodes("again.png", "normals.png");
+}
+
+TEST_F(Viewer, DroppedFilesOpen) {
+  std::string text = cli::readFile(folder_ / "tiny.json");
+  text.replace(text.find("0, 2, 6"), 7, "1, 3, 7");
+  std::ofstream(folder_ / "other.json") << text;
+  const cli::Outcome outcome = play(
+      "key H\nwait sharp\ndrop other.json\nwait 60 frames\nwait sharp\nscreenshot shown.png\n"
+      "key C\n",
+      {"--size", "120x80"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_NE(lines[0].find("other.json"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("--eye=1,3,7"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+TEST_F(Viewer, ErrorsAreShownAndSurvived) {
+  std::ofstream(folder_ / "broken.json") << "{ \"whit\": 1,\n \"lights\": 7 }";
+  const cli::Outcome outcome = play(
+      "errors show\nkey H\nwait sharp\nscreenshot before.png\ndrop broken.json\nwait 30 frames\n"
+      "wait sharp\nscreenshot error.png\ndrop missing.json\nwait 30 frames\nwait sharp\n",
+      {"--size", "320x200"});
+  EXPECT_NE(outcome.err.find("broken.json#/lights"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("missing.json"), std::string::npos) << outcome.err;
+  EXPECT_NE(codes("before.png").codes, codes("error.png").codes);
+}
+
+// Everything that keys and mouse can do, but quit and write files.
+std::string randomEvents(unsigned seed, int count) {
+  constexpr std::array kKeys{"W", "A", "S", "D", "Q", "E", "Left", "Up", "Space", "1", "2",
+                             "9", "+", "-", "[", "]", "F", "H",    "V",  "X",     "R", "Shift"};
+  std::mt19937 random(seed);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::ostringstream script;
+  script << "errors show\n";
+  for (int i = 0; i < count; ++i) {
+    switch (below(9)) {
+      case 0:
+        script << "mouse left " << below(400) - 200 << ' ' << below(300) - 150 << "\n";
+        break;
+      case 1:
+        script << "mouse right " << below(400) - 200 << ' ' << below(300) - 150 << "\n";
+        break;
+      case 2:
+        script << "wheel " << below(7) - 3 << "\n";
+        break;
+      case 3:
+        script << "click " << below(320) << ' ' << below(240) << "\n";
+        break;
+      case 4:
+        script << "click " << below(320) << ' ' << below(240) << ' ' << below(320) << ' '
+               << below(240) << "\n";
+        break;
+      case 5:
+        if (below(4) == 0) script << "resize " << 1 + below(400) << ' ' << 1 + below(300) << "\n";
+        if (below(8) == 0) script << "minimise\nwait 2 frames\nrestore\n";
+        if (below(8) == 0) script << "drop " << (below(2) == 0 ? "tiny.json" : "none.json") << "\n";
+        script << "wait " << 1 + below(10) << " frames\n";
+        break;
+      default:
+        script << "key " << kKeys[static_cast<std::size_t>(below(kKeys.size()))];
+        if (below(2) == 0) script << " 0.1";
+        script << "\n";
+    }
+  }
+  return script.str();
+}
+
+TEST_F(Viewer, SurvivesTwoHundredRandomEvents) {
+  const cli::Outcome outcome = play(randomEvents(7, 200), {"--size", "320x240"});
+  EXPECT_EQ(outcome.err.find("Sanitizer"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Viewer, FullScreenMinimisedAndResized) {
+  const cli::Outcome outcome = play(
+      "key H\nkey F\nwait 5 frames\nkey F\nwait 5 frames\nminimise\nwait 5 frames\nrestore\n"
+      "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n");
+  const RawImage shown = codes("shown.png");
+  EXPECT_EQ(shown.width, 200);
+  EXPECT_EQ(shown.height, 100);
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+}  // namespace
+}  // namespace whit::view

@@ -1,0 +1,79 @@
+#include "viewer/knob_measurement.h"
+
+#include <array>
+#include <utility>
+
+#include "cli/option_values.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr int kTurns = 2;
+
+// The cheapest setting that still makes a picture of the scene.
+constexpr std::array<std::pair<const char*, const char*>, 6> kCheapest{{{"depth", "0"},
+                                                                        {"cutoff", "0.004"},
+                                                                        {"light-cutoff", "0.004"},
+                                                                        {"fresnel", "schlick"},
+                                                                        {"offset", "fixed"},
+                                                                        {"effects", "auto"}}};
+
+struct Candidate {
+  std::string name, other;
+  RenderOptions options;
+};
+
+std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOptions& options) {
+  std::vector<Candidate> candidates;
+  for (const auto& [name, cheapest] : kCheapest) {
+    Candidate candidate{name, cheapest, options};
+    forEachOption(candidate.options, [&](const std::string& option, const char* placeholder,
+                                         const char*, auto& field) {
+      if (option != candidate.name) return;
+      cli::parseValue(cli::renderOptionSpec(option, placeholder), candidate.other, field);
+    });
+    candidates.push_back(std::move(candidate));
+  }
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto effect = static_cast<Effect>(i);
+    if (!renderer.plan().effects.has(effect)) continue;
+    Candidate candidate{std::string(kEffectNames[static_cast<std::size_t>(i)].name), "off",
+                        options};
+    candidate.options.disable = candidate.options.disable.with(effect);
+    candidates.push_back(std::move(candidate));
+  }
+  std::erase_if(candidates, [&](const Candidate& c) {
+    return c.options == options || !renderer.canSetOptions(c.options);
+  });
+  return candidates;
+}
+
+// Keeps the quickest. The first frame after a change fills new queues and does not count.
+void render(Renderer& renderer, const RenderOptions& options, const Camera& camera, Film& film,
+            FrameStats& best) {
+  renderer.setOptions(options);
+  renderer.render(camera, film);
+  const FrameStats stats = renderer.render(camera, film);
+  if (best.frameMs == 0 || stats.frameMs < best.frameMs) best = stats;
+}
+
+}  // namespace
+
+std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& options,
+                                   const Camera& camera, Film& film,
+                                   const std::function<bool()>& superseded) {
+  std::vector<KnobCost> costs;
+  for (const Candidate& candidate : candidatesOf(renderer, options)) {
+    KnobCost cost{candidate.name, candidate.other, {}, {}};
+    for (int turn = 0; turn < kTurns; ++turn) {
+      if (superseded()) return {};
+      render(renderer, candidate.options, camera, film, cost.then);
+      render(renderer, options, camera, film, cost.now);
+    }
+    costs.push_back(std::move(cost));
+  }
+  return costs;
+}
+
+}  // namespace whit::view

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Makes the pictures of the viewer that README.md shows, on a virtual display.
+#   viewer/screenshots.sh [FOLDER]      default: scenes/pictures
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+mkdir -p "${1:-$root/scenes/pictures}"
+folder=$(cd "${1:-$root/scenes/pictures}" && pwd)
+view=$root/build/whit-view
+largest=400000  # bytes a picture
+
+if [ ! -x "$view" ]; then
+  echo "viewer/screenshots.sh: there is no $view; build it first: cmake --build build" >&2
+  exit 1
+fi
+if ! command -v xvfb-run >/dev/null; then
+  echo "viewer/screenshots.sh: xvfb-run is missing: apt-get install xvfb xauth" >&2
+  exit 1
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# shot NAME SCENE SIZE SCRIPT-LINE...: plays the lines, then saves what the window shows.
+shot() {
+  local name=$1 scene=$2 size=$3
+  shift 3
+  printf '%s\n' "$@" "screenshot $work/$name.png" > "$work/$name.txt"
+  (cd "$root" && xvfb-run -a -s "-screen 0 1280x720x24" \
+    "$view" "$scene" --size "$size" --quiet --script "$work/$name.txt")
+  if [ "$(stat -c %s "$work/$name.png")" -gt $largest ]; then
+    echo "viewer/screenshots.sh: $name.png is larger than $largest bytes" >&2
+    exit 1
+  fi
+  mv "$work/$name.png" "$folder/$name.png"
+  echo "$folder/$name.png"
+}
+
+settle=("wait 30 frames" "wait sharp" "wait 260 frames")  # messages have gone
+shot viewer atrium 800x500 "key W 0.2" "${settle[@]}"
+shot viewer-knobs whitted 800x500 "wait sharp" "panel knobs" "${settle[@]}"
+shot viewer-reference whitted 800x500 "key X" "panel picture" "mouse left 120 0" "${settle[@]}"
+shot viewer-cost glass 800x500 "key V" "key V" "key V" "key V" "key V" "panel picture" \
+  "${settle[@]}"
