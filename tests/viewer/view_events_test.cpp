@@ -29,10 +29,10 @@ TEST_F(Viewer, TheReferenceIsBesideThePicture) {
   const cli::Outcome outcome = play(
       "key H\nkey X\nwait 30 frames\nwait sharp\nscreenshot half.png\nmouse left 20 0\n"
       "wait 2 frames\nscreenshot moved.png\nkey C\nkey X\nwait 2 frames\nscreenshot heat.png\n"
-      "key X\nwait 2 frames\nscreenshot frame.png\n",
+      "key X\nwait 2 frames\nwait sharp\nscreenshot frame.png\nkey C\n",
       {"--size", "96x64", "--spp", "1"});
   const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
   render(lines[0], "packets.png");
   render(lines[0] + " --mode reference", "reference.png");
   const RawImage packets = codes("packets.png"), reference = codes("reference.png");
@@ -43,7 +43,8 @@ TEST_F(Viewer, TheReferenceIsBesideThePicture) {
   expectSameColumns(moved, packets, 0, 62);
   expectSameColumns(moved, reference, 74, 96);
   EXPECT_NE(codes("heat.png").codes, half.codes);
-  expectSameColumns(codes("frame.png"), packets, 0, 96);
+  render(lines[1], "sharp.png");  // supersampled again
+  expectSameCodes("frame.png", "sharp.png");
 }
 
 TEST_F(Viewer, ShowsOtherViews) {
