@@ -8,7 +8,8 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "simd/media-inl.h"
-#include "simd/texture-inl.h"
+#include "simd/surface_maps-inl.h"
+#include "simd/triangle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -21,53 +22,6 @@ constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
 
-// The corners and texture coordinates of each lane's triangle, and what follows from them.
-struct TriangleLanes {
-  V3 p0, p1, p2;
-  VF u0, v0, u1, v1, u2, v2;
-  VI material;
-};
-
-HWY_INLINE TriangleLanes LoadTriangles(const ShadingTables& tables, VI triangle) {
-  const Records records = RecordsAt(tables.triangles, 16, triangle);
-  const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
-  const V4 c = LoadColumns4(records, 8), e = LoadColumns4(records, 12);
-  return {{a.x, a.y, a.z},           {a.w, b.x, b.y}, {b.z, b.w, c.x}, c.y, c.z, c.w, e.x, e.y, e.z,
-          hn::BitCast(IntTag(), e.w)};
-}
-
-// Barycentric weights of the corners.
-struct Weights {
-  VF w0, w1, w2;
-};
-
-HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
-  return hn::MulAdd(a, w.w0, hn::MulAdd(b, w.w1, hn::Mul(c, w.w2)));
-}
-HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
-  return {Interpolate(w, a.x, b.x, c.x), Interpolate(w, a.y, b.y, c.y),
-          Interpolate(w, a.z, b.z, c.z)};
-}
-
-// Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
-// products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
-HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2) {
-  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
-  const VF scale = InverseExponent(largest);
-  const V3 unit{hn::Zero(FloatTag()), hn::Zero(FloatTag()), hn::Set(FloatTag(), 1.0f)};
-  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit);
-}
-
-HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
-                           const V3& ng) {
-  const Records records =
-      RecordsAt(tables.normals, static_cast<size_t>(tables.normalStride), triangle);
-  // The last fetch starts at 5, not 8: a record ends after nine floats.
-  const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
-  const V4 c = LoadColumns4(records, 5);
-  return NormalizeOr(Interpolate3(w, {a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}), ng);
-}
-
 struct InstanceLanes {
   V4 row0, row1, row2;
 };
@@ -75,77 +29,6 @@ struct InstanceLanes {
 HWY_INLINE V3 TransformVector(const InstanceLanes& m, const V3& v) {
   return {Dot({m.row0.x, m.row0.y, m.row0.z}, v), Dot({m.row1.x, m.row1.y, m.row1.z}, v),
           Dot({m.row2.x, m.row2.y, m.row2.z}, v)};
-}
-
-// The frame that the texture coordinates span about `ns`: T along u, B along v. False where they
-// span none.
-struct TangentFrame {
-  V3 tangent, bitangent;
-  MF good;
-};
-
-HWY_INLINE TangentFrame FindTangentFrame(const TriangleLanes& t, const V3& edge1, const V3& edge2,
-                                         const V3& ns, VF handedness) {
-  const FloatTag d;
-  const VF du1 = hn::Sub(t.u1, t.u0), dv1 = hn::Sub(t.v1, t.v0);
-  const VF du2 = hn::Sub(t.u2, t.u0), dv2 = hn::Sub(t.v2, t.v0);
-  const VF det = DifferenceOfProducts(du1, dv2, du2, dv1);
-  const VF sign = hn::CopySign(hn::Set(d, 1.0f), det);
-  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
-  const VF scale = hn::Mul(InverseExponent(largest), sign);
-  const V3 along = Scale3(Sub3(Scale3(edge1, dv2), Scale3(edge2, dv1)), scale);
-  const V3 none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const V3 unitAlong = NormalizeOr(along, none);
-  const V3 tangent = NormalizeOr(MulAdd3(ns, hn::Neg(Dot(ns, unitAlong)), unitAlong), none);
-  const V3 bitangent = Scale3(Cross(ns, tangent), hn::Mul(sign, handedness));
-  const MF good =
-      hn::And(hn::Ne(det, hn::Zero(d)), hn::Gt(Dot(tangent, tangent), hn::Set(d, 0.5f)));
-  return {tangent, bitangent, good};
-}
-
-// What waits for texels, of one block of rays.
-struct BlockTextures {
-  TexelQueue diffuse, specular, normal;
-  HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
-};
-
-HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, BlockTextures& block) {
-  const V3 t = Scale3(frame.tangent, flip), b = Scale3(frame.bitangent, flip);
-  Store3(t, block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  Store3(b, block.tangent[3], block.tangent[4], block.tangent[5], slot);
-}
-
-HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, VF u, VF v, size_t slot,
-                         TexelQueue& queue) {
-  const VI map = hn::BitCast(IntTag(), mapBits);
-  const MF mapped = hn::And(live, hn::RebindMask(FloatTag(), NonNegative(map)));
-  QueueTexels(tables.textures.data(), tables.texels.data(), map, mapped, u, v, slot, queue);
-}
-
-// Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColour(const ShadingTables& tables, const TexelQueue& queue, size_t slot,
-                            float* r, float* g, float* b, size_t i) {
-  if (!queue.any[slot]) return;
-  const V3 colour = Load3(r, g, b, i);
-  const V3 texture = FilterColour(FetchTexels(tables.texels.data(), queue, slot));
-  Store3(Select3(QueuedLanes(queue, slot), Mul3(colour, texture), colour), r, g, b, i);
-}
-
-// Bends the shading normals at slot i by the normal map that waits at `slot`.
-HWY_INLINE void ApplyNormalMap(const ShadingTables& tables, const BlockTextures& block, size_t slot,
-                               const SurfelColumns& surfels, size_t i) {
-  if (!block.normal.any[slot]) return;
-  const FloatTag d;
-  const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
-  const V3 code = FilterData3(FetchTexels(tables.texels.data(), block.normal, slot));
-  const V3 m{hn::MulSub(code.x, two, one), hn::MulSub(code.y, two, one),
-             hn::MulSub(code.z, two, one)};
-  const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
-  const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
-  const V3 bent = MulAdd3(tangent, m.x, MulAdd3(bitangent, m.y, Scale3(ns, m.z)));
-  Store3(Select3(QueuedLanes(block.normal, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
-         surfels.nsY, surfels.nsZ, i);
 }
 
 // Media on both sides of the surface, and whether it is there at all.

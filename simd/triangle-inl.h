@@ -1,0 +1,63 @@
+// What follows from a hit triangle's record: corners, normals, and what lies between them.
+#if defined(WHIT_SIMD_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_TRIANGLE_INL_H_
+#undef WHIT_SIMD_TRIANGLE_INL_H_
+#else
+#define WHIT_SIMD_TRIANGLE_INL_H_
+#endif
+
+#include "simd/records-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// The corners and texture coordinates of each lane's triangle, and what follows from them.
+struct TriangleLanes {
+  V3 p0, p1, p2;
+  VF u0, v0, u1, v1, u2, v2;
+  VI material;
+};
+
+HWY_INLINE TriangleLanes LoadTriangles(const ShadingTables& tables, VI triangle) {
+  const Records records = RecordsAt(tables.triangles, 16, triangle);
+  const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
+  const V4 c = LoadColumns4(records, 8), e = LoadColumns4(records, 12);
+  return {{a.x, a.y, a.z},           {a.w, b.x, b.y}, {b.z, b.w, c.x}, c.y, c.z, c.w, e.x, e.y, e.z,
+          hn::BitCast(IntTag(), e.w)};
+}
+
+// Barycentric weights of the corners.
+struct Weights {
+  VF w0, w1, w2;
+};
+
+HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
+  return hn::MulAdd(a, w.w0, hn::MulAdd(b, w.w1, hn::Mul(c, w.w2)));
+}
+HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
+  return {Interpolate(w, a.x, b.x, c.x), Interpolate(w, a.y, b.y, c.y),
+          Interpolate(w, a.z, b.z, c.z)};
+}
+
+// Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
+// products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
+HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2) {
+  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF scale = InverseExponent(largest);
+  const V3 unit{hn::Zero(FloatTag()), hn::Zero(FloatTag()), hn::Set(FloatTag(), 1.0f)};
+  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit);
+}
+
+HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
+                           const V3& ng) {
+  const Records records =
+      RecordsAt(tables.normals, static_cast<size_t>(tables.normalStride), triangle);
+  // The last fetch starts at 5, not 8: a record ends after nine floats.
+  const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
+  const V4 c = LoadColumns4(records, 5);
+  return NormalizeOr(Interpolate3(w, {a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}), ng);
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
