@@ -38,11 +38,10 @@ struct ShadowGroup {
   std::size_t count = 0;
 };
 
-template <int kWidth>
-void setLanes(int* valid, std::size_t live) {
-  for (int lane = 0; lane < kWidth; ++lane) {
-    valid[lane] = static_cast<std::size_t>(lane) < live ? -1 : 0;
-  }
+// Full packets have these lanes; the last one of a queue may have fewer.
+template <int kWidth, typename Group>
+void setAllLanes(Group& group) {
+  for (auto& valid : group.valid) std::fill(valid, valid + kWidth, -1);
 }
 
 // Embree's robust traversal accepts hits at tnear, so the origin must not lie on the surface: it
@@ -71,8 +70,9 @@ void loadRay(Ray& ray, const Columns& rays, std::size_t i) {
 // Masked lanes get a harmless empty ray: where Embree splits a packet that is wider than the CPU,
 // it looks at their coordinates all the same.
 template <int kWidth, typename Ray>
-void emptyLanes(Ray& ray, std::size_t live) {
+void emptyLanes(Ray& ray, int* valid, std::size_t live) {
   for (std::size_t lane = live; lane < kWidth; ++lane) {
+    valid[lane] = 0;
     ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
     ray.dir_x[lane] = ray.dir_y[lane] = 0;
     ray.dir_z[lane] = 1;
@@ -92,8 +92,7 @@ void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, 
       packet.hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
-    setLanes<kWidth>(group.valid[group.count], end - i);
-    emptyLanes<kWidth>(packet.ray, end - i);
+    emptyLanes<kWidth>(packet.ray, group.valid[group.count], end - i);
   }
 }
 
@@ -125,6 +124,7 @@ void traceHits(const EmbreeScene& scene, const RayColumns& rays, std::size_t n, 
                const HitColumns& hits, TraceMeter& meter) {
   QueryContext context(coherent);
   Group<kWidth> group;
+  setAllLanes<kWidth>(group);
   for (auto& packet : group.packets) setConstants<kWidth>(packet.ray, kSeenMask);
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t end = std::min(n, begin + kGroup);
@@ -146,6 +146,7 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
                   bool coherent, float* visible, TraceMeter& meter) {
   QueryContext context(coherent);
   ShadowGroup<kWidth> group;
+  setAllLanes<kWidth>(group);
   for (auto& packet : group.packets) setConstants<kWidth>(packet, kShadowMask);
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t end = std::min(n, begin + kGroup);
@@ -154,8 +155,7 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
       auto& packet = group.packets[group.count];
       loadRay<kWidth>(packet, shadows, i);
       std::memcpy(packet.tfar, shadows.tFar + i, sizeof(packet.tfar));
-      setLanes<kWidth>(group.valid[group.count], end - i);
-      emptyLanes<kWidth>(packet, end - i);
+      emptyLanes<kWidth>(packet, group.valid[group.count], end - i);
     }
     const Clock::time_point start = Clock::now();
     for (std::size_t p = 0; p < group.count; ++p) {
@@ -164,8 +164,10 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
     meter.embreeMs += milliseconds(Clock::now() - start);
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t lane = i - begin;
-      // Embree marks an occluded ray with a tfar of minus infinity.
-      visible[shadows.slot[i]] = group.packets[lane / kWidth].tfar[lane % kWidth] >= 0 ? 1.f : 0.f;
+      // Embree marks an occluded ray with a tfar of minus infinity. No branch: which way it goes
+      // cannot be foretold.
+      const bool clear = group.packets[lane / kWidth].tfar[lane % kWidth] >= 0;
+      visible[shadows.slot[i]] = static_cast<float>(static_cast<int>(clear));
     }
     meter.tally->lanes += group.count * kWidth;
   }
