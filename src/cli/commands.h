@@ -14,6 +14,7 @@ int compareCommand(const Words& words);
 int infoCommand(const Words& words);
 int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
+int accuracyCommand(const Words& words);
 
 struct Command {
   const char *name, *summary;
@@ -26,6 +27,7 @@ inline constexpr Command kCommands[] = {
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
     {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
+    {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
     {"merge", "crops of one image, put together", mergeCommand},
 };
 

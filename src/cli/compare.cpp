@@ -70,7 +70,7 @@ Compared compareModes(const CompareJob& job) {
   result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
   const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;
   result.numbers.pathFlipsPerMpx =
-      static_cast<double>(countPathFlips(renderer, camera, packets)) / megapixels;
+      static_cast<double>(comparePaths(renderer, camera, packets).flips) / megapixels;
   if (job.stages) {
     Film scratch = openFilm(open->scene, job.common);
     result.numbers.stages = compareStages(renderer, camera, scratch);

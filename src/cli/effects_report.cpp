@@ -1,18 +1,12 @@
 #include "cli/effects_report.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "core/formatted.h"
 
 namespace whit::cli {
 
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 double outside(const FrameStats& frame) { return frame.frameMs - frame.embreeMs(); }
 

@@ -1,7 +1,6 @@
 #include "cli/frame_summary.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace whit::cli {
 
@@ -18,14 +17,6 @@ RunSummary summarise(const Scene& scene, const RenderOptions& options, const Ren
   run.loadMs = loadMs;
   run.buildMs = renderer.buildMs();
   return run;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  const auto index = static_cast<std::size_t>(std::max(1.0, rank)) - 1;
-  return values[std::min(index, values.size() - 1)];
 }
 
 std::vector<double> frameTimes(const RunSummary& run) {

@@ -7,6 +7,7 @@
 
 #include "core/image.h"
 #include "core/options.h"
+#include "core/quantile.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -26,8 +27,7 @@ struct RunSummary {
 RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs);
 
-// The value at rank ceil(share * n) of the sorted values (nearest rank); `share` in (0, 1].
-double quantile(std::vector<double> values, double share);
+using whit::quantile;
 
 // The frame of median duration (the lower of the two middle ones): its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "core/picture_options.h"
 #include "core/quality.h"
 
 namespace whit::cli {
@@ -143,7 +144,7 @@ std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOpti
   std::vector<std::pair<std::string, std::string>> said;
   forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
                              const auto& field) {
-    if (name == "threads" || name == "tile" || name == "queue" || name == "batch") return;
+    if (!changesPicture(name)) return;
     const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
     if (!value.empty()) said.emplace_back(name, value);
   });

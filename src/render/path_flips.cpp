@@ -88,7 +88,7 @@ class RecordingIntersector : public reference::Intersector {
 
 }  // namespace
 
-std::uint64_t countPathFlips(Renderer& renderer, const Camera& camera, const Film& film) {
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
   Renderer::Parts& p = renderer.parts();
   Film scratch = film;
   FrameJob job = p.makeJob(camera, scratch);
@@ -96,6 +96,8 @@ std::uint64_t countPathFlips(Renderer& renderer, const Camera& camera, const Fil
   p.renderObserved(job, observer);
 
   const reference::Settings settings = p.referenceSettings();
+  PathComparison result{scratch.image, film.image, {}, 0};
+  result.flipped.resize(film.image.pixels.size());
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
   std::atomic<std::uint64_t> flips{0};
@@ -106,12 +108,16 @@ std::uint64_t countPathFlips(Renderer& renderer, const Camera& camera, const Fil
     for (int y = nextRow++; y < window.y1; y = nextRow++) {
       for (int x = window.x0; x < window.x1; ++x) {
         intersector.signature = 0;
-        tracer.pixel(job.camera, x, y, counts);
-        if (intersector.signature != observer.signature(x, y)) ++flips;
+        Rgb& pixel = result.reference.at(x, y);
+        pixel = Rgb(tracer.pixel(job.camera, x, y, counts));
+        if (intersector.signature == observer.signature(x, y)) continue;
+        result.flipped[static_cast<std::size_t>(&pixel - result.reference.pixels.data())] = 1;
+        ++flips;
       }
     }
   });
-  return flips;
+  result.flips = flips;
+  return result;
 }
 
 }  // namespace whit

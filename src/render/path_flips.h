@@ -2,14 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "render/renderer.h"
 
 namespace whit {
 
-// Pixels of the film's window whose primary hit (triangle and instance), shadow bits or sequence
-// of impulses differ between packets and reference: there the two saw different surfaces, and no
-// tolerance on values applies.
-std::uint64_t countPathFlips(Renderer& renderer, const Camera& camera, const Film& film);
+// Both pictures of the film's window, with the same options and samples. A pixel has flipped when
+// its hits (triangle and instance), shadow bits or sequence of impulses differ between packets and
+// reference: there the two saw different surfaces, and no tolerance on values applies.
+struct PathComparison {
+  Image packets, reference;
+  std::vector<std::uint8_t> flipped;  // 0 or 1, as the pixels of the images
+  std::uint64_t flips = 0;
+};
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film);
 
 }  // namespace whit

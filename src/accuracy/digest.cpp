@@ -1,0 +1,186 @@
+#include "accuracy/digest.h"
+
+#include <xxhash.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "core/picture_options.h"
+
+namespace whit::accuracy {
+
+struct Digester::State {
+  XXH3_state_t* xxh = XXH3_createState();
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { XXH3_freeState(xxh); }
+};
+
+Digester::Digester() : state_(std::make_unique<State>()) {
+  if (!state_->xxh) throw std::bad_alloc();
+  XXH3_128bits_reset(state_->xxh);
+}
+Digester::~Digester() = default;
+
+void Digester::bytes(const void* data, std::size_t size) {
+  XXH3_128bits_update(state_->xxh, data, size);
+}
+
+void Digester::text(std::string_view text) {
+  const std::uint64_t size = text.size();
+  bytes(&size, sizeof size);
+  bytes(text.data(), text.size());
+}
+
+std::string Digester::hex() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
+  char digits[33];
+  std::snprintf(digits, sizeof digits, "%016llx%016llx",
+                static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return digits;
+}
+
+namespace {
+
+// Types whose bytes are their value: no padding, no pointers.
+template <typename T>
+constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+template <typename T>
+constexpr bool kPlain<Vec3<T>> = sizeof(Vec3<T>) == 3 * sizeof(T);
+template <>
+constexpr bool kPlain<Vec2f> = sizeof(Vec2f) == 2 * sizeof(float);
+template <>
+constexpr bool kPlain<Affine> = sizeof(Affine) == 12 * sizeof(double);
+template <>
+constexpr bool kPlain<TriangleRecord> = sizeof(TriangleRecord) == 16 * sizeof(float);
+template <>
+constexpr bool kPlain<NormalRecord> = sizeof(NormalRecord) == 9 * sizeof(float);
+template <>
+constexpr bool kPlain<ImageSize> = sizeof(ImageSize) == 2 * sizeof(int);
+template <>
+constexpr bool kPlain<Crop> = sizeof(Crop) == 4 * sizeof(int);
+template <>
+constexpr bool kPlain<EffectSet> = sizeof(EffectSet) == sizeof(std::uint32_t);
+template <typename T, std::size_t n>
+constexpr bool kPlain<std::array<T, n>> = kPlain<T>;
+
+template <typename T>
+requires kPlain<T>
+void add(Digester& d, const T& value) { d.bytes(&value, sizeof value); }
+
+void add(Digester& d, const std::string& text) { d.text(text); }
+
+template <typename T>
+void add(Digester& d, const std::optional<T>& value) {
+  add(d, value.has_value());
+  if (value) add(d, *value);
+}
+
+// The bindings below name every member: one that is added does not compile before it is here.
+void add(Digester& d, const Camera& camera) {
+  const auto& [name, eye, at, up, fov] = camera;
+  add(d, eye), add(d, at), add(d, up), add(d, fov);
+}
+void add(Digester& d, const PointLight& light) {
+  const auto& [name, position, intensity, radius] = light;
+  add(d, position), add(d, intensity), add(d, radius);
+}
+void add(Digester& d, const Medium& medium) {
+  const auto& [ior, absorption, priority] = medium;
+  add(d, ior), add(d, absorption), add(d, priority);
+}
+void add(Digester& d, const InstanceRecord& instance) {
+  const auto& [geometry, toWorld] = instance;
+  add(d, geometry), add(d, toWorld);
+}
+void add(Digester& d, const Material& material) {
+  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, emission, normalMap,
+               alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior, absorption,
+               priority, castsShadow] = material;
+  add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
+  add(d, emission), add(d, normalMap), add(d, alphaMap), add(d, alphaCutoff), add(d, mirror);
+  add(d, mirrorGrazing), add(d, transmission), add(d, ior), add(d, absorption), add(d, priority);
+  add(d, castsShadow);
+}
+
+void add(Digester& d, const Texture& texture);
+void add(Digester& d, const Geometry& geometry);
+
+template <typename Table>
+void addTable(Digester& d, const Table& table) {
+  using T = typename Table::value_type;
+  add(d, static_cast<std::uint64_t>(table.size()));
+  if constexpr (kPlain<T>) {
+    d.bytes(table.data(), table.size() * sizeof(T));
+  } else {
+    for (const T& element : table) add(d, element);
+  }
+}
+
+void add(Digester& d, const Texture& texture) {
+  const auto& [name, format, wrapU, wrapV, width, height, texels] = texture;
+  add(d, format), add(d, wrapU), add(d, wrapV), add(d, width), add(d, height);
+  addTable(d, texels);
+}
+void add(Digester& d, const Geometry& geometry) {
+  const auto& [position, index, classBegin, firstTriangle] = geometry;
+  addTable(d, position), addTable(d, index);
+  add(d, classBegin), add(d, firstTriangle);
+}
+void add(Digester& d, const Sky& sky) {
+  const auto& [kind, zenith, horizon, ground, image, scale, rotation] = sky;
+  add(d, kind), add(d, zenith), add(d, horizon), add(d, ground), add(d, scale), add(d, rotation);
+  const auto& [width, height, r, g, b] = image;
+  add(d, width), add(d, height);
+  addTable(d, r), addTable(d, g), addTable(d, b);
+}
+
+}  // namespace
+
+std::string digestOf(const Scene& scene) {
+  const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
+               mediumOfMaterial, media, textures, geometries, instances, triangles, normals, lower,
+               upper, instancedTriangles, effects, reasons] = scene;
+  Digester d;
+  addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
+  addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
+  addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
+  add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
+  return d.hex();
+}
+
+std::string digestOf(const RenderOptions& options) {
+  Digester d;
+  forEachOption(options, [&](const char* name, const char*, const char*, const auto& field) {
+    if (!changesPicture(name) || std::string_view(name) == "quality") return;
+    d.text(name);
+    add(d, field);
+  });
+  return d.hex();
+}
+
+std::string digestOf(const Camera& camera) {
+  Digester d;
+  add(d, camera);
+  return d.hex();
+}
+
+std::string digestOfProgram() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  if (!program) return "unknown";
+  Digester d;
+  std::vector<char> block(std::size_t{1} << 20);
+  while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
+         program.gcount() > 0) {
+    d.bytes(block.data(), static_cast<std::size_t>(program.gcount()));
+  }
+  return d.hex();
+}
+
+}  // namespace whit::accuracy

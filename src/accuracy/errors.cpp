@@ -1,0 +1,90 @@
+#include "accuracy/errors.h"
+
+#include <cmath>
+#include <future>
+#include <limits>
+
+#include "accuracy/digest.h"
+#include "core/quantile.h"
+#include "render/path_flips.h"
+
+namespace whit::accuracy {
+
+namespace {
+
+// In units of the last place of the reference pixel's largest channel.
+double ulpsApart(const Rgb& a, const Rgb& b) {
+  const float largest = maxComponent(abs(b));
+  if (!std::isfinite(largest)) return 0;
+  const float next = std::nextafter(largest, std::numeric_limits<float>::max());
+  return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
+}
+
+}  // namespace
+
+ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film) {
+  PathComparison paths = comparePaths(renderer, camera, film);
+  ArithmeticError error;
+  error.flips = paths.flips;
+  const double pixels = static_cast<double>(paths.flipped.size());
+  error.flipsPerMpx = 1e6 * static_cast<double>(paths.flips) / pixels;
+  std::vector<double> ulps;
+  for (std::size_t i = 0; i < paths.flipped.size(); ++i) {
+    if (paths.flipped[i]) {
+      paths.packets.pixels[i] = paths.reference.pixels[i];
+    } else {
+      ulps.push_back(ulpsApart(paths.packets.pixels[i], paths.reference.pixels[i]));
+    }
+  }
+  error.samePath = compareImages(paths.packets, paths.reference);
+  error.medianUlp = quantile(ulps, 0.5);
+  error.ulp999 = quantile(ulps, 0.999);
+  error.worstUlp = quantile(ulps, 1);
+  return error;
+}
+
+ErrorMeter::ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
+                       const Exactness& exactness, ReferenceCache& cache, int samples,
+                       Progress* progress)
+    : scene_(scene),
+      camera_(camera),
+      base_(base),
+      exactness_(exactness),
+      reference_(&cache.get(referenceOptions(base, samples, exactness), progress)),
+      exact_(&cache.get(exactAtSameSamples(base, exactness), progress)) {}
+
+const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& own) {
+  const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness_);
+  const std::string digest = digestOf(exact);
+  if (digest == digestOf(point.options)) return own;
+  const auto found = exactPackets_.find(digest);
+  if (found != exactPackets_.end()) return found->second;
+  FrameSource frames(scene_, camera_, exact);
+  frames.render();
+  return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
+}
+
+void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
+  point.stats = frames.stats;
+  const Image& image = frames.film.image;
+  const Image& unapproximated = withoutApproximations(point, image);
+  const auto against = [&](const Image& a, const Image& b) {
+    return std::async(std::launch::async, [&a, &b, this] {
+      return compareImages(a, b, base_.exposure, base_.toneCurve);
+    });
+  };
+  auto total = against(image, reference_->image);
+  auto sampling = against(unapproximated, reference_->image);
+  auto algorithm = against(image, unapproximated);
+  // The sampling of the point is the baseline's where the exact options are.
+  if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
+      digestOf(exactAtSameSamples(base_, exactness_))) {
+    point.sameSamples = against(image, exact_->image).get();
+  }
+  point.total = total.get();
+  point.sampling = sampling.get();
+  point.algorithm = algorithm.get();
+  if (arithmetic) point.arithmetic = arithmeticError(frames.renderer, camera_, frames.film);
+}
+
+}  // namespace whit::accuracy

@@ -1,0 +1,39 @@
+// How far a point's picture is off, apart by cause.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "accuracy/measurement.h"
+#include "accuracy/reference_cache.h"
+#include "accuracy/timing.h"
+
+namespace whit::accuracy {
+
+// Of one scene and view.
+class ErrorMeter {
+ public:
+  // `base` gives the samples that the exact picture at equal samples has, and the display.
+  ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
+             const Exactness& exactness, ReferenceCache& cache, int samples, Progress* progress);
+
+  // Fills in the point's errors from its last frame, with what arithmetic does if `arithmetic`.
+  void measure(Point& point, FrameSource& frames, bool arithmetic);
+
+  const ReferencePicture& reference() const { return *reference_; }
+  const Image& exact() const { return exact_->image; }  // at the baseline's samples
+
+ private:
+  const Image& withoutApproximations(const Point& point, const Image& own);
+
+  const Scene& scene_;
+  Camera camera_;
+  RenderOptions base_;
+  Exactness exactness_;
+  const ReferencePicture *reference_, *exact_;
+  std::map<std::string, Image> exactPackets_;  // by digest of their options
+};
+
+ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film);
+
+}  // namespace whit::accuracy

@@ -1,0 +1,69 @@
+#include "accuracy/label_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit::accuracy {
+
+namespace {
+
+Box shifted(const Box& box, double dx, double dy) {
+  return {box.left + dx, box.top + dy, box.right + dx, box.bottom + dy};
+}
+
+bool within(const Box& box, const Box& area) {
+  return box.left >= area.left && box.right <= area.right && box.top >= area.top &&
+         box.bottom <= area.bottom;
+}
+
+bool collides(const Box& box, const std::vector<Box>& taken) {
+  return std::any_of(taken.begin(), taken.end(), [&](const Box& b) { return b.overlaps(box); });
+}
+
+// Right, left, above and below the point, then around it ever further away.
+std::vector<Box> candidates(const LabelRequest& r, double gap) {
+  const double w = r.width, h = r.height;
+  std::vector<Box> boxes;
+  const auto centred = [&](double x, double y) {
+    boxes.push_back({x - w / 2, y - h / 2, x + w / 2, y + h / 2});
+  };
+  centred(r.x + gap + w / 2, r.y);
+  centred(r.x - gap - w / 2, r.y);
+  centred(r.x, r.y - gap - h / 2);
+  centred(r.x, r.y + gap + h / 2);
+  for (double away = gap + 4; away < 150; away += 6) {
+    for (int step = 0; step < 16; ++step) {
+      const double angle = step * 3.14159265358979 / 8;
+      const double c = std::cos(angle), s = std::sin(angle);
+      centred(r.x + c * (away + w / 2), r.y + s * (away + h / 2));
+    }
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<PlacedLabel> placeLabels(const std::vector<LabelRequest>& requests, const Box& area,
+                                     double pointRadius) {
+  std::vector<Box> taken;
+  for (const LabelRequest& r : requests)
+    taken.push_back(shifted({-pointRadius, -pointRadius, pointRadius, pointRadius}, r.x, r.y));
+  std::vector<PlacedLabel> placed;
+  for (const LabelRequest& r : requests) {
+    const double gap = pointRadius + 2;
+    const std::vector<Box> boxes = candidates(r, gap);
+    const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const Box& box) {
+      return within(box, area) && !collides(box, taken);
+    });
+    PlacedLabel label;
+    label.free = found != boxes.end();
+    label.leader = found - boxes.begin() >= 20;  // beyond the first ring
+    label.box = label.free ? *found : boxes.front();
+    if (!label.free) label.leader = false;
+    taken.push_back(label.box);
+    placed.push_back(label);
+  }
+  return placed;
+}
+
+}  // namespace whit::accuracy

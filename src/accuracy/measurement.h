@@ -1,0 +1,86 @@
+// What a sweep finds out, point by point: the common source of table, CSV, charts and report.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/knobs.h"
+#include "metrics/metrics.h"
+#include "render/renderer.h"
+
+namespace whit::accuracy {
+
+enum class PointKind { baseline, knob, preset, joint };
+inline constexpr const char* kPointKindNames[] = {"baseline", "knob", "preset", "joint"};
+
+// Beyond this interquartile range over the median, in per cent, a time is called noisy.
+inline constexpr double kNoisyPct = 5;
+
+struct Timing {
+  int frames = 0;       // that count
+  double medianMs = 0;  // as measured
+  double leastMs = 0;
+  double iqrPct = 0;     // interquartile range over the median
+  double ratio = 1;      // to the baseline's frames before and after, the median of the rounds
+  double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
+  bool noisy() const { return iqrPct > kNoisyPct; }
+};
+
+// Packets against the scalar reference with the same options and samples.
+struct ArithmeticError {
+  ImageDifference samePath;  // pixels whose path flipped count as equal
+  std::uint64_t flips = 0;   // pixels
+  double flipsPerMpx = 0;
+  // |packets - reference| in ulps of the pixel's largest channel, over pixels of the same path.
+  double medianUlp = 0, ulp999 = 0, worstUlp = 0;  // ulp999: 99.9 % are at most that far off
+};
+
+struct Point {
+  PointKind kind = PointKind::knob;
+  std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
+  std::optional<Cause> cause;
+  RenderOptions options;
+
+  Timing timing;
+  FrameStats stats;       // of the last frame: rays by kind
+  ImageDifference total;  // against the reference of all
+  double totalHdrFlip = 0;
+  ImageDifference sampling;   // of the pipeline without approximations, against that reference
+  ImageDifference algorithm;  // against the same pipeline without approximations
+  // Against the scalar reference, exact, with as many samples; where those are the baseline's.
+  std::optional<ImageDifference> sameSamples;
+  std::optional<ArithmeticError> arithmetic;
+  bool onFront = false;             // of `total` over time
+  bool onFrontSameSamples = false;  // of `sameSamples` over time
+  // PNG files, with pictures: the image as it is displayed, its difference from the reference of
+  // all, and from that with as many samples.
+  std::string imagePng, totalMapPng, sameSamplesMapPng;
+
+  // "depth=4", "standard"
+  std::string label() const;
+};
+
+struct IdleKnob {
+  std::string name, because;
+};
+
+struct SceneSweep {
+  std::string scene;
+  int width = 0, height = 0;
+  Machine machine;
+  double loadMs = 0;
+  int referenceSamples = 0;
+  float referenceCutoff = 0;
+  std::string referenceDigest;
+  double referenceMs = 0;
+  bool referenceFromFile = false;
+  std::vector<Point> points;       // the baseline first, then in the order of the knob table
+  std::vector<std::string> order;  // labels in the order in which they were measured
+  std::vector<IdleKnob> idle;
+  std::vector<StageDifference> stages;  // of the baseline
+  std::string referencePng;             // with pictures
+};
+
+}  // namespace whit::accuracy

@@ -1,0 +1,34 @@
+#include "accuracy/pace.h"
+
+#include <cmath>
+
+namespace whit::accuracy {
+
+std::string paceText(const std::string& subject, const std::string& step, double elapsedSeconds,
+                     double fraction) {
+  std::string text = subject;
+  if (fraction > 0.01 && fraction <= 1) {
+    const double left = elapsedSeconds * (1 - fraction) / fraction;
+    text += " " + std::to_string(static_cast<long>(std::ceil(left))) + " s left";
+  }
+  return text + ": " + step;
+}
+
+void Pace::begin(const std::string& step, double work) {
+  step_ = step;
+  current_ = work;
+  report("", 0);
+}
+
+void Pace::end() {
+  done_ += current_;
+  current_ = 0;
+}
+
+void Pace::report(const std::string&, double fraction) {
+  const double all = total_ > 0 ? (done_ + current_ * fraction) / total_ : 0;
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  reportProgress(out_, paceText(subject_, step_, elapsed, all), all);
+}
+
+}  // namespace whit::accuracy

@@ -1,0 +1,35 @@
+// How far a sweep has come, and how long it will still take.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "core/progress.h"
+
+namespace whit::accuracy {
+
+// Work is counted in whatever unit its steps agree on; time left follows from what has been done.
+// While a step runs, it can itself report its fraction.
+class Pace : public Progress {
+ public:
+  Pace(Progress* out, std::string subject) : out_(out), subject_(std::move(subject)) {}
+
+  void plan(double work) { total_ += work; }
+  void begin(const std::string& step, double work);
+  void end();                                 // of the step that was begun
+  void skip(double work) { total_ -= work; }  // planned, but not needed
+  void report(const std::string& phase, double fraction) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Progress* out_;
+  std::string subject_, step_;
+  double total_ = 0, done_ = 0, current_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+// "sponza: depth=4, 35 s left"; no time while nothing is known.
+std::string paceText(const std::string& subject, const std::string& step, double elapsedSeconds,
+                     double fraction);
+
+}  // namespace whit::accuracy

@@ -1,0 +1,115 @@
+#include "accuracy/points.h"
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "accuracy/digest.h"
+#include "core/quality.h"
+
+namespace whit::accuracy {
+
+namespace {
+
+constexpr std::pair<const char*, Quality> kPresets[] = {{"draft", Quality::draft},
+                                                        {"standard", Quality::standard},
+                                                        {"fine", Quality::fine},
+                                                        {"reference", Quality::reference}};
+
+RenderOptions presetOf(const RenderOptions& base, Quality quality) {
+  RenderOptions options = base;
+  options.quality = quality;
+  applyQuality(options, {});
+  return options;
+}
+
+// Keeps the first of points with the same options.
+class PointCollector {
+ public:
+  explicit PointCollector(std::vector<Point>& points) : points_(points) {}
+  void add(PointKind kind, const std::string& knob, const std::string& value,
+           std::optional<Cause> cause, const RenderOptions& options) {
+    if (!seen_.insert(digestOf(options)).second) return;
+    Point point;
+    point.kind = kind;
+    point.knob = knob;
+    point.value = value;
+    point.cause = cause;
+    point.options = options;
+    points_.push_back(std::move(point));
+  }
+
+ private:
+  std::vector<Point>& points_;
+  std::set<std::string> seen_;
+};
+
+// All combinations of the knobs' joint values.
+std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
+                                                                const std::vector<Knob>& knobs) {
+  std::vector<std::pair<std::string, RenderOptions>> all{{"", base}};
+  for (const Knob& knob : knobs) {
+    std::vector<std::pair<std::string, RenderOptions>> more;
+    for (const auto& [label, options] : all) {
+      for (const KnobValue& value : knob.values) {
+        if (!value.joint) continue;
+        RenderOptions changed = options;
+        value.apply(changed);
+        more.emplace_back(label + (label.empty() ? "" : " ") + knob.name + "=" + value.label,
+                          changed);
+      }
+    }
+    if (!more.empty()) all = std::move(more);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string Point::label() const {
+  if (kind == PointKind::joint) return value;
+  if (kind == PointKind::baseline || kind == PointKind::preset) return value;
+  return knob + "=" + value;
+}
+
+PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
+                     std::size_t jointLimit, std::uint32_t seed) {
+  PointList list;
+  PointCollector collector(list.points);
+  const bool standard = digestOf(base) == digestOf(presetOf(base, Quality::standard));
+  collector.add(PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
+  for (const auto& [name, quality] : kPresets) {
+    collector.add(PointKind::preset, "quality", name, {}, presetOf(base, quality));
+  }
+  std::vector<Knob> active;
+  for (const Knob& knob : knobs) {
+    const std::string because = knob.idle(effects);
+    if (!because.empty()) {
+      list.idle.push_back({knob.name, because});
+      continue;
+    }
+    active.push_back(knob);
+    for (const KnobValue& value : knob.values) {
+      const std::string unable = value.idle ? value.idle(effects) : std::string();
+      if (!unable.empty()) {
+        list.idle.push_back({knob.name + "=" + value.label, unable});
+        continue;
+      }
+      RenderOptions options = base;
+      value.apply(options);
+      collector.add(PointKind::knob, knob.name, value.label, knob.cause, options);
+    }
+  }
+  if (jointLimit == 0) return list;
+  auto joint = combinations(base, active);
+  std::mt19937 random(seed);
+  std::shuffle(joint.begin(), joint.end(), random);
+  const std::size_t limit = list.points.size() + jointLimit;
+  for (const auto& [label, options] : joint) {
+    if (list.points.size() >= limit) break;
+    collector.add(PointKind::joint, "", label, {}, options);
+  }
+  return list;
+}
+
+}  // namespace whit::accuracy

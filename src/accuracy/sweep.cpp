@@ -1,0 +1,200 @@
+#include "accuracy/sweep.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include "accuracy/errors.h"
+#include "accuracy/pace.h"
+#include "accuracy/pareto.h"
+#include "accuracy/points.h"
+
+namespace whit::accuracy {
+
+namespace {
+
+// What a quick and a full sweep may take.
+struct Limits {
+  int samples, leastSamples;
+  double referenceRays;  // of the reference of all
+  double scalarRays;     // of a point that is rendered by the scalar reference
+  double pointMs;        // for timing one point
+  std::size_t joint;
+};
+constexpr Limits kQuick{64, 8, 50e6, 20e6, 500, 0};
+constexpr Limits kFull{256, 8, 600e6, 100e6, 4000, 60};
+
+// Work of a packet frame in units of a scalar frame of one sample, roughly.
+constexpr double kPacketFrameWork = 0.1;
+
+class SceneSweeper {
+ public:
+  SceneSweeper(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+               Progress* progress)
+      : scene_(scene),
+        base_(base),
+        settings_(settings),
+        limits_(settings.full ? kFull : kQuick),
+        camera_(chooseCamera(scene, base)),
+        effects_(scene.effects.without(base.disable)),
+        exactness_(exactnessFor(effects_, settings.full)),
+        cache_(scene, camera_, settings.cacheFolder, settings.program),
+        pace_(progress, scene.name) {}
+
+  SceneSweep run() {
+    baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
+    baseline_->render();
+    describe();
+    chooseSamples();
+    choosePoints();
+    ErrorMeter meter = renderReferences();
+    measureBaseline(meter);
+    measurePoints(meter);
+    settle();
+    return std::move(sweep_);
+  }
+
+ private:
+  void describe() {
+    sweep_.scene = scene_.name;
+    sweep_.width = baseline_->film.image.windowWidth();
+    sweep_.height = baseline_->film.image.windowHeight();
+    sweep_.machine = baseline_->renderer.machine();
+    sweep_.referenceCutoff = exactness_.cutoff;
+  }
+
+  // By counting the rays of the exact picture: the number must not depend on the machine's speed.
+  void chooseSamples() {
+    FrameSource probe(scene_, camera_, referenceOptions(base_, 1, exactness_));
+    raysPerSample_ = static_cast<double>(probe.render().allRays());
+    int samples = limits_.samples;
+    while (samples > limits_.leastSamples && samples * raysPerSample_ > limits_.referenceRays) {
+      samples /= 2;
+    }
+    sweep_.referenceSamples = samples;
+  }
+
+  void choosePoints() {
+    PointList list =
+        makePoints(base_, effects_, chooseKnobs(settings_.knobs), limits_.joint, settings_.seed);
+    sweep_.idle = std::move(list.idle);
+    for (Point& point : list.points) {
+      if (point.options.mode == Mode::reference &&
+          point.options.spp * raysPerSample_ > limits_.scalarRays) {
+        sweep_.idle.push_back({point.label(), "the scalar reference would take too long here"});
+      } else if (point.kind != PointKind::baseline &&
+                 point.options.spp > std::max(sweep_.referenceSamples / 2, base_.spp)) {
+        sweep_.idle.push_back({point.label(), "more than half of the reference's samples"});
+      } else {
+        sweep_.points.push_back(std::move(point));
+      }
+    }
+  }
+
+  ErrorMeter renderReferences() {
+    const double work = sweep_.referenceSamples;
+    pace_.plan(work + base_.spp);
+    for (const Point& point : sweep_.points) pace_.plan(workOf(point));
+    pace_.begin("reference", work);
+    ErrorMeter meter(scene_, camera_, base_, exactness_, cache_, sweep_.referenceSamples, &pace_);
+    const ReferencePicture& reference = meter.reference();
+    pace_.end();
+    if (reference.fromFile) pace_.skip(work);
+    sweep_.referenceDigest = reference.digest;
+    sweep_.referenceMs = reference.renderMs;
+    sweep_.referenceFromFile = reference.fromFile;
+    return meter;
+  }
+
+  double workOf(const Point& point) const {
+    const double frame = point.options.spp * kPacketFrameWork;
+    return (point.options.mode == Mode::reference ? point.options.spp : 10 * frame) +
+           (needsArithmetic(point) ? point.options.spp + frame : 0);
+  }
+  static bool needsArithmetic(const Point& point) {
+    if (point.options.mode == Mode::reference) return false;
+    return point.kind == PointKind::baseline || point.cause == Cause::arithmetic;
+  }
+
+  void measureBaseline(ErrorMeter& meter) {
+    Point& point = sweep_.points.front();
+    pace_.begin(point.label(), workOf(point));
+    baseline_->render();
+    meter.measure(point, *baseline_, needsArithmetic(point));
+    if (base_.mode == Mode::packets) {
+      Film scratch = makeFilm(scene_, base_);
+      sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
+    }
+    pace_.end();
+  }
+
+  void measurePoints(ErrorMeter& meter) {
+    std::vector<std::size_t> order(sweep_.points.size() - 1);
+    std::iota(order.begin(), order.end(), std::size_t{1});
+    std::mt19937 random(settings_.seed);
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t i : order) {
+      Point& point = sweep_.points[i];
+      pace_.begin(point.label(), workOf(point));
+      measurePoint(point, meter);
+      sweep_.order.push_back(point.label());
+      pace_.end();
+    }
+  }
+
+  void measurePoint(Point& point, ErrorMeter& meter) {
+    FrameSource frames(scene_, camera_, point.options);
+    frames.render();  // allocates: not a time
+    if (point.options.mode == Mode::packets) {
+      const double ms = frames.render().frameMs, baselineMs = baseline_->render().frameMs;
+      const Rounds rounds = roundsFor(ms, baselineMs, limits_.pointMs, settings_.full);
+      point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
+    } else {
+      point.timing = timingOf({frames.stats.frameMs});
+      point.timing.ratio = frames.stats.frameMs / baseline_->render().frameMs;
+    }
+    meter.measure(point, frames, needsArithmetic(point));
+  }
+
+  // What needs all points: the baseline's time, times without drift, fronts.
+  void settle() {
+    if (baselineMs_.empty()) baselineMs_.push_back(baseline_->render().frameMs);
+    Point& baseline = sweep_.points.front();
+    baseline.timing = timingOf(baselineMs_);
+    std::vector<CostAndError> total, same;
+    std::vector<Point*> withSame;
+    for (Point& point : sweep_.points) {
+      point.timing.settledMs = point.timing.ratio * baseline.timing.medianMs;
+      total.push_back({point.timing.settledMs, point.total.flipMean});
+      if (!point.sameSamples) continue;
+      same.push_back({point.timing.settledMs, point.sameSamples->flipMean});
+      withSame.push_back(&point);
+    }
+    for (const std::size_t i : paretoFront(total)) sweep_.points[i].onFront = true;
+    for (const std::size_t i : paretoFront(same)) withSame[i]->onFrontSameSamples = true;
+  }
+
+  const Scene& scene_;
+  RenderOptions base_;
+  SweepSettings settings_;
+  Limits limits_;
+  Camera camera_;
+  EffectSet effects_;
+  Exactness exactness_;
+  ReferenceCache cache_;
+  Pace pace_;
+  std::unique_ptr<FrameSource> baseline_;
+  double raysPerSample_ = 0;
+  std::vector<double> baselineMs_;
+  SceneSweep sweep_;
+};
+
+}  // namespace
+
+SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+                      Progress* progress) {
+  return SceneSweeper(scene, base, settings, progress).run();
+}
+
+}  // namespace whit::accuracy

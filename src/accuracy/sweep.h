@@ -1,0 +1,26 @@
+// Measures one scene with one choice of options after the other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "accuracy/measurement.h"
+
+namespace whit::accuracy {
+
+struct SweepSettings {
+  bool full = false;
+  std::vector<std::string> knobs;  // none: all
+  std::uint32_t seed = 1;          // of the order of the points
+  std::string cacheFolder;
+  std::string program;   // what identifies the code that renders
+  bool pictures = true;  // keeps those that the report shows
+};
+
+// `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8, where
+// its rays would exceed 600 or 50 million. Throws Error(io) when the cache cannot be written.
+SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+                      Progress* progress);
+
+}  // namespace whit::accuracy

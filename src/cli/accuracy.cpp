@@ -1,0 +1,175 @@
+// whit accuracy: what each step of accuracy costs, and what each saving breaks.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "accuracy/csv.h"
+#include "accuracy/digest.h"
+#include "accuracy/pareto_svg.h"
+#include "accuracy/sweep.h"
+#include "accuracy/sweep_table.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/machine_facts.h"
+#include "cli/open_scene.h"
+#include "cli/program.h"
+#include "cli/progress_bar.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kUsage = "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
+constexpr const char* kSummary =
+    "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
+    "time and in error against a double-precision reference. Writes DIR/sweep.csv and\n"
+    "DIR/pareto-SCENE.svg; references are kept in DIR/cache.";
+constexpr ImageSize kQuickSize{256, 256};
+
+struct AccuracyJob {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string out, knobs, check;
+  bool quick = false, full = false;
+  int seed = 1;
+
+  std::vector<std::string> knobNames() const {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin < knobs.size();) {
+      const std::size_t end = std::min(knobs.find(',', begin), knobs.size());
+      if (end > begin) names.push_back(knobs.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return names;
+  }
+};
+
+std::string knobHelp() {
+  std::string names;
+  for (const accuracy::Knob& knob : accuracy::allKnobs())
+    names += (names.empty() ? "" : ", ") + knob.name;
+  return "knobs to sweep (default: all: " + names + ")";
+}
+
+OptionList listOptions(AccuracyJob& job) {
+  OptionList list;
+  list.group("Measuring");
+  list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
+  list.flag("quick", "256x256 pixels and 64 reference samples, about a minute (the default)",
+            job.quick);
+  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
+  list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
+  list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
+             job.check);
+  list.value({"seed", "N", 0, 1e9}, "of the random order of the measurements", job.seed);
+  listCommonOptions(list, job.common);
+  list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
+                std::numeric_limits<std::size_t>::max(), job.scenes);
+  return list;
+}
+
+void checkJob(AccuracyJob& job) {
+  if (job.out.empty()) throwUsage("whit accuracy expected --out DIR");
+  if (job.quick && job.full) throwUsage("--quick and --full exclude each other: give one of them");
+  if (job.common.render.mode == Mode::reference) {
+    throwUsage("whit accuracy measures packets against the reference: leave out --mode");
+  }
+  accuracy::chooseKnobs(job.knobNames());
+  if (!job.full && !job.common.render.size) job.common.render.size = kQuickSize;
+  std::error_code error;
+  std::filesystem::create_directories(job.out, error);
+  if (error) throwIo("cannot make the folder '" + job.out + "': " + error.message());
+}
+
+std::string readText(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throwIo("cannot read '" + path + "'");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// A name for files: what a scene's name has beyond letters, digits and a few marks becomes '-'.
+std::string fileName(std::string scene) {
+  for (char& c : scene) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
+    if (!plain) c = '-';
+  }
+  return scene;
+}
+
+accuracy::RunFacts factsOf(const AccuracyJob& job) {
+  const MachineFacts machine = machineFacts();
+  accuracy::RunFacts facts;
+  facts.cpu = machine.cpu;
+  facts.cores = machine.cores;
+  facts.compiler = machine.compiler;
+  facts.commit = machine.commit;
+  facts.seed = static_cast<std::uint32_t>(job.seed);
+  facts.full = job.full;
+  facts.describe = pictureOptions;
+  return facts;
+}
+
+std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
+                                              const accuracy::RunFacts& facts) {
+  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  accuracy::SweepSettings settings;
+  settings.full = job.full;
+  settings.knobs = job.knobNames();
+  settings.seed = facts.seed;
+  settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
+  settings.program = std::string(versionText()) + " " + accuracy::digestOfProgram();
+  std::vector<accuracy::SceneSweep> sweeps;
+  for (const std::string& name : job.scenes) {
+    const auto open = openScene(name, job.common, progress.get());
+    openFilm(open->scene, job.common);  // refuses a size that does not fit into memory
+    sweeps.push_back(sweepScene(open->scene, job.common.render, settings, progress.get()));
+  }
+  return sweeps;
+}
+
+void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep>& sweeps,
+                  const std::string& csv) {
+  const WriteScope scope;
+  const std::filesystem::path folder(job.out);
+  writeTextFile((folder / "sweep.csv").string(), csv);
+  for (const accuracy::SceneSweep& sweep : sweeps) {
+    writeTextFile((folder / ("pareto-" + fileName(sweep.scene) + ".svg")).string(),
+                  accuracy::paretoSvg(sweep, accuracy::Against::reference));
+  }
+}
+
+// The exit status.
+int checkAgainst(const AccuracyJob& job, const std::string& csv) {
+  const auto before = accuracy::parseCsv(readText(job.check), job.check);
+  const auto grown =
+      accuracy::grownErrors(before, accuracy::parseCsv(csv, "sweep.csv"), job.knobNames());
+  for (const std::string& line : grown) std::fprintf(stderr, "whit: %s\n", line.c_str());
+  if (grown.empty()) return 0;
+  std::fprintf(stderr, "whit: the check against '%s' failed\n", job.check.c_str());
+  return static_cast<int>(ExitStatus::checkFailed);
+}
+
+}  // namespace
+
+int accuracyCommand(const Words& words) {
+  AccuracyJob job;
+  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  settleOptions(job.common);
+  checkJob(job);
+  if (!job.check.empty()) accuracy::parseCsv(readText(job.check), job.check);  // before the work
+  const accuracy::RunFacts facts = factsOf(job);
+  const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
+  const std::string csv = accuracy::sweepCsv(sweeps, facts);
+  for (const accuracy::SceneSweep& sweep : sweeps)
+    std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
+  writeResults(job, sweeps, csv);
+  return job.check.empty() ? 0 : checkAgainst(job, csv);
+}
+
+}  // namespace whit::cli

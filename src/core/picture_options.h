@@ -1,0 +1,14 @@
+// Which options a picture depends on.
+#pragma once
+
+#include <string_view>
+
+namespace whit {
+
+// Whether the option of this name (as in forEachOption) can change a bit of the picture. The others
+// cannot by design: the bits do not depend on how the work is shared out.
+inline bool changesPicture(std::string_view option) {
+  return option != "threads" && option != "tile" && option != "queue" && option != "batch";
+}
+
+}  // namespace whit
