@@ -15,8 +15,10 @@ namespace whit::accuracy {
 enum class PointKind { baseline, knob, preset, joint };
 inline constexpr const char* kPointKindNames[] = {"baseline", "knob", "preset", "joint"};
 
-// Beyond this interquartile range over the median, in per cent, a time is called noisy.
+// A time is called noisy when the interquartile range of its frames is beyond this share of their
+// median, in per cent, or when there are too few frames to tell.
 inline constexpr double kNoisyPct = 5;
+inline constexpr int kLeastFrames = 3;
 
 struct Timing {
   int frames = 0;       // that count
@@ -25,7 +27,7 @@ struct Timing {
   double iqrPct = 0;     // interquartile range over the median
   double ratio = 1;      // to the baseline's frames before and after, the median of the rounds
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
-  bool noisy() const { return iqrPct > kNoisyPct; }
+  bool noisy() const { return frames < kLeastFrames || iqrPct > kNoisyPct; }
 };
 
 // Packets against the scalar reference with the same options and samples.

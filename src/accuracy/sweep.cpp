@@ -4,6 +4,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "accuracy/errors.h"
 #include "accuracy/pace.h"
@@ -134,18 +135,32 @@ class SceneSweeper {
     std::iota(order.begin(), order.end(), std::size_t{1});
     std::mt19937 random(settings_.seed);
     std::shuffle(order.begin(), order.end(), random);
+    std::set<std::string> same;
     for (const std::size_t i : order) {
       Point& point = sweep_.points[i];
       pace_.begin(point.label(), workOf(point));
-      measurePoint(point, meter);
-      sweep_.order.push_back(point.label());
+      if (measurePoint(point, meter)) {
+        sweep_.order.push_back(point.label());
+      } else {
+        same.insert(point.label());
+      }
       pace_.end();
     }
+    for (const Point& point : sweep_.points) {
+      if (!same.contains(point.label())) continue;
+      sweep_.idle.push_back({point.label(), "the same rays and the same picture as '" +
+                                                sweep_.points.front().label() + "'"});
+    }
+    std::erase_if(sweep_.points, [&](const Point& p) { return same.contains(p.label()); });
   }
 
-  void measurePoint(Point& point, ErrorMeter& meter) {
+  // False: in this view the point is the baseline under another name.
+  bool measurePoint(Point& point, ErrorMeter& meter) {
     FrameSource frames(scene_, camera_, point.options);
     frames.render();  // allocates: not a time
+    if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
+      return false;
+    }
     if (point.options.mode == Mode::packets) {
       const double ms = frames.render().frameMs, baselineMs = baseline_->render().frameMs;
       const Rounds rounds = roundsFor(ms, baselineMs, limits_.pointMs, settings_.full);
@@ -155,6 +170,14 @@ class SceneSweeper {
       point.timing.ratio = frames.stats.frameMs / baseline_->render().frameMs;
     }
     meter.measure(point, frames, needsArithmetic(point));
+    return true;
+  }
+
+  bool isBaseline(const FrameSource& frames) const {
+    for (std::size_t k = 0; k < kRayKindCount; ++k) {
+      if (frames.stats.tally[k].rays != baseline_->stats.tally[k].rays) return false;
+    }
+    return frames.film.image.pixels == baseline_->film.image.pixels;
   }
 
   // What needs all points: the baseline's time, times without drift, fronts.

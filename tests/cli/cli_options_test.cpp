@@ -164,7 +164,7 @@ TEST(Quality, PresetsGiveWayToWhatIsGiven) {
   const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
   EXPECT_EQ(reference.spp, 2);
   EXPECT_EQ(reference.depth, kDepthLimit);
-  EXPECT_EQ(reference.cutoff, 0.0f);
+  EXPECT_EQ(reference.cutoff, 1e-5f);
   EXPECT_EQ(reference.mode, Mode::reference);
 }
 

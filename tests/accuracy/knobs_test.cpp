@@ -1,0 +1,127 @@
+// The table of knobs against the options of the command line.
+#include "accuracy/knobs.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "accuracy/digest.h"
+#include "cli/parse_options.h"
+#include "core/error.h"
+
+namespace whit::accuracy {
+namespace {
+
+RenderOptions parsed(const std::vector<std::string>& words) {
+  cli::CommonOptions common;
+  cli::OptionList list;
+  cli::listCommonOptions(list, common);
+  std::vector<std::string> scenes;
+  list.operands("SCENE", "a scene", 0, 0, scenes);
+  EXPECT_EQ(cli::parseOptions("usage", "summary", list, words), cli::Parsed::run);
+  return common.render;
+}
+
+// Each value does what its label says on the command line, and nothing else.
+TEST(Knobs, LabelsAreWhatTheCommandLineTakes) {
+  for (const Knob& knob : allKnobs()) {
+    for (const KnobValue& value : knob.values) {
+      RenderOptions options;
+      value.apply(options);
+      EXPECT_EQ(cli::pictureOptions(options),
+                cli::pictureOptions(parsed({"--" + knob.name, value.label})))
+          << knob.name << "=" << value.label;
+    }
+  }
+}
+
+TEST(Knobs, ValuesOfAKnobDiffer) {
+  for (const Knob& knob : allKnobs()) {
+    std::set<std::string> digests, labels;
+    for (const KnobValue& value : knob.values) {
+      RenderOptions options;
+      value.apply(options);
+      digests.insert(digestOf(options));
+      labels.insert(value.label);
+    }
+    EXPECT_EQ(digests.size(), knob.values.size()) << knob.name;
+    EXPECT_EQ(labels.size(), knob.values.size()) << knob.name;
+    EXPECT_GE(knob.values.size(), 2u) << knob.name;
+  }
+}
+
+// A default that is on the list leaves the defaults alone.
+TEST(Knobs, DefaultsAreIdempotent) {
+  const std::string defaults = digestOf(RenderOptions());
+  for (const Knob& knob : allKnobs()) {
+    for (const KnobValue& value : knob.values) {
+      RenderOptions once, twice;
+      value.apply(once);
+      value.apply(twice);
+      value.apply(twice);
+      EXPECT_EQ(digestOf(once), digestOf(twice)) << knob.name;
+    }
+    bool has = knob.name == "packet";  // whose default is no width
+    for (const KnobValue& value : knob.values) {
+      RenderOptions options;
+      value.apply(options);
+      has |= digestOf(options) == defaults;
+    }
+    EXPECT_TRUE(has) << knob.name << " has no value that is the default";
+  }
+}
+
+TEST(Knobs, OnlyWhatASceneHasIsSwept) {
+  const auto idle = [](const std::string& name, EffectSet effects) {
+    return !chooseKnobs({name}).front().idle(effects).empty();
+  };
+  const EffectSet matte = EffectSet().with(Effect::lights).with(Effect::shadows);
+  EXPECT_TRUE(idle("depth", matte));
+  EXPECT_TRUE(idle("cutoff", matte));
+  EXPECT_FALSE(idle("depth", matte.with(Effect::mirror)));
+  EXPECT_FALSE(idle("cutoff", matte.with(Effect::transmission)));
+  EXPECT_TRUE(idle("fresnel", matte.with(Effect::mirror)));
+  EXPECT_FALSE(idle("fresnel", matte.with(Effect::transmission)));
+  EXPECT_TRUE(idle("light-cutoff", EffectSet()));
+  EXPECT_FALSE(idle("light-cutoff", matte));
+  EXPECT_FALSE(idle("spp", EffectSet()));
+}
+
+TEST(Knobs, UnknownNamesNameTheNearest) {
+  EXPECT_EQ(chooseKnobs({}).size(), allKnobs().size());
+  EXPECT_EQ(chooseKnobs({"cutoff", "depth"}).front().name, "depth");  // the table's order
+  try {
+    chooseKnobs({"dept"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::usage);
+    EXPECT_NE(std::string(error.what()).find("nearest: 'depth'"), std::string::npos);
+  }
+}
+
+TEST(Knobs, TheReferenceIsExactInEverything) {
+  RenderOptions options;
+  for (const Knob& knob : allKnobs()) knob.values.back().apply(options);
+  options.size = ImageSize{32, 20};
+  const RenderOptions reference = referenceOptions(options, 256, {0});
+  EXPECT_EQ(reference.mode, Mode::reference);
+  EXPECT_EQ(reference.spp, 256);
+  EXPECT_EQ(reference.depth, kDepthLimit);
+  EXPECT_EQ(reference.cutoff, 0.0f);
+  EXPECT_TRUE(reference.robust);
+  EXPECT_EQ(reference.shading, ShadingChoices());
+  EXPECT_EQ(reference.size, options.size);
+  EXPECT_EQ(exactAtSameSamples(options, {0}).spp, options.spp);
+}
+
+// Where rays branch, only a cutoff ends them.
+TEST(Knobs, ExactnessKeepsACutoffWhereRaysBranch) {
+  EXPECT_EQ(exactnessFor(EffectSet().with(Effect::mirror), true).cutoff, 0.0f);
+  const EffectSet glass = EffectSet().with(Effect::transmission);
+  EXPECT_GT(exactnessFor(glass, true).cutoff, 0.0f);
+  EXPECT_GT(exactnessFor(glass, false).cutoff, exactnessFor(glass, true).cutoff);
+  EXPECT_LT(exactnessFor(glass, false).cutoff, RenderOptions().cutoff);
+}
+
+}  // namespace
+}  // namespace whit::accuracy

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "accuracy/csv.h"
+#include "core/error.h"
+
+namespace whit::accuracy {
+namespace {
+
+RunFacts facts() {
+  RunFacts f;
+  f.cpu = "A \"fast\", big one";
+  f.compiler = "g++";
+  f.commit = "abc";
+  f.describe = [](const RenderOptions& o) {
+    return std::vector<std::pair<std::string, std::string>>{{"depth", std::to_string(o.depth)}};
+  };
+  return f;
+}
+
+// Two points of 10x10 pixels with errors that are easy to recognise.
+SceneSweep sweepOfTwo() {
+  SceneSweep sweep;
+  sweep.scene = "room";
+  sweep.width = sweep.height = 10;
+  sweep.referenceSamples = 64;
+  sweep.points.resize(2);
+  Point& base = sweep.points[0];
+  base.kind = PointKind::baseline;
+  base.value = "standard";
+  base.total.rmse = 0.25;
+  base.total.flipMean = 0.02;
+  base.total.psnrDb = std::numeric_limits<double>::infinity();
+  base.sameSamples = ImageDifference();
+  Point& depth = sweep.points[1];
+  depth.knob = "depth";
+  depth.value = "2";
+  depth.cause = Cause::algorithm;
+  depth.options.depth = 2;
+  depth.total.rmse = 0.5;
+  depth.total.pixelsGe1CodePct = 30;
+  depth.arithmetic = ArithmeticError();
+  depth.arithmetic->flips = 3;
+  return sweep;
+}
+
+std::vector<CsvRow> rowsOf(const SceneSweep& sweep) {
+  return parseCsv(sweepCsv({sweep}, facts()), "sweep.csv");
+}
+
+TEST(SweepCsv, WhatIsWrittenIsRead) {
+  const std::vector<CsvRow> rows = rowsOf(sweepOfTwo());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("scene"), "room");
+  EXPECT_EQ(rows[0].at("kind"), "baseline");
+  EXPECT_EQ(rows[0].at("total_rmse"), "0.25");
+  EXPECT_EQ(rows[0].at("total_psnr_db"), "inf");
+  EXPECT_EQ(rows[0].at("same_samples_rmse"), "0");
+  EXPECT_EQ(rows[0].at("arithmetic_rmse"), "");
+  EXPECT_EQ(rows[0].at("cpu"), "A \"fast\", big one");
+  EXPECT_EQ(rows[1].at("knob"), "depth");
+  EXPECT_EQ(rows[1].at("options"), "depth=2");
+  EXPECT_EQ(rows[1].at("path_flips"), "3");
+  EXPECT_EQ(rows[1].at("same_samples_rmse"), "");
+  EXPECT_EQ(rows[1].at("cause"), "algorithm");
+}
+
+TEST(SweepCsv, ARowWithTooFewFieldsNamesItsLine) {
+  try {
+    parseCsv("a,b\n1,2\n3\n", "old.csv");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::badScene);
+    EXPECT_NE(std::string(error.what()).find("old.csv:3"), std::string::npos);
+  }
+}
+
+TEST(CheckErrors, TheSamePasses) {
+  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(sweepOfTwo()), {}).empty());
+}
+
+TEST(CheckErrors, SmallerErrorsAndOtherTimesPass) {
+  SceneSweep better = sweepOfTwo();
+  better.points[1].total.rmse = 0.1;
+  better.points[1].timing.medianMs = 1e6;
+  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(better), {}).empty());
+}
+
+// Just within and just beyond 10 % and the absolute slack.
+TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
+  SceneSweep now = sweepOfTwo();
+  now.points[0].total.rmse = 0.2750;
+  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  now.points[0].total.rmse = 0.2752;
+  const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {});
+  ASSERT_EQ(grown.size(), 1u);
+  EXPECT_NE(grown[0].find("total_rmse was 0.25, is 0.2752"), std::string::npos) << grown[0];
+}
+
+// Of 100 pixels two are 2 %.
+TEST(CheckErrors, SharesHaveTwoPixelsOfSlack) {
+  SceneSweep now = sweepOfTwo();
+  now.points[1].total.pixelsGe1CodePct = 34.9;
+  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  now.points[1].total.pixelsGe1CodePct = 35.1;
+  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+}
+
+TEST(CheckErrors, NonFinitePixelsAndNanFail) {
+  SceneSweep now = sweepOfTwo();
+  now.points[0].total.nonFinite = 1;
+  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+  now = sweepOfTwo();
+  now.points[0].total.rmse = std::nan("");
+  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+}
+
+TEST(CheckErrors, MissingPointsFailUnlessTheirKnobWasLeftOut) {
+  SceneSweep now = sweepOfTwo();
+  now.points.pop_back();
+  EXPECT_EQ(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).size(), 1u);
+  EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {"cutoff"}).empty());
+}
+
+TEST(CheckErrors, AnotherReferenceCannotBeCompared) {
+  SceneSweep now = sweepOfTwo();
+  now.referenceSamples = 16;
+  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  now = sweepOfTwo();
+  now.scene = "other";
+  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+}
+
+}  // namespace
+}  // namespace whit::accuracy

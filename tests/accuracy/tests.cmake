@@ -1,0 +1,11 @@
+whit_test(pareto whit_accuracy)
+whit_test(label_layout whit_accuracy)
+whit_test(knobs whit_cli)
+whit_test(points whit_accuracy)
+whit_test(sweep_csv whit_accuracy)
+whit_test(reference_cache whit_accuracy)
+target_compile_definitions(reference_cache_test PRIVATE WHIT_PROGRAM="")
+# This one runs the program itself.
+whit_test(accuracy_program whit_accuracy)
+target_compile_definitions(accuracy_program_test PRIVATE WHIT_PROGRAM="$<TARGET_FILE:whit>")
+add_dependencies(accuracy_program_test whit)
