@@ -1,0 +1,164 @@
+// One tile of a scene, taken through the stages of depth 0 once, so that each kernel can be run
+// again and again on the input that it has in a frame.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/load_scene.h"
+#include "reference/generate_ray.h"
+#include "render/renderer.h"
+#include "render/renderer_parts.h"
+#include "render/tiles.h"
+#include "simd/kernels.h"
+
+namespace whit::bench {
+
+inline constexpr std::size_t kTileRays = 32 * 32;
+inline constexpr float kCutoff = 3.0e-4f;
+
+// A scene with its tables, and the columns of the tile.
+class BenchTile {
+ public:
+  explicit BenchTile(const std::string& name, ImageSize size = {480, 300})
+      : scene_(load(name)), options_(optionsFor(size)), renderer_(scene_, options_) {
+    const Groups& groups = plan().groups;
+    rays.allocate(kTileRays, groups);
+    hits.allocate(kTileRays, groups);
+    surfels.allocate(kTileRays, groups);
+    radiance.allocate(kTileRays, groups);
+    unshadowed.allocate(kTileRays, groups);
+    shadows.allocate(kTileRays, groups);
+    children.allocate(2 * kTileRays, groups);
+    codes.resize(kTileRays + kBlock);
+    pixels = pickTile(size);
+    run();
+  }
+
+  // All stages of depth 0, from the beginning.
+  void run() {
+    generate();
+    TraceMeter meter{&tally_, 0, nullptr};
+    accel().findHits(*rays, n(), true, *hits, meter);
+    interpolate();
+    writeEmitted();
+    findShadowRays();
+    accel().checkShadows(*shadows, shadowCount, true, unshadowed->visible, meter);
+    simd::addShading(*unshadowed, n(), *radiance);
+    reflections = reflect();
+    refractions = refract(reflections);
+    simd::encodeDisplay(1, ToneCurve::none, *radiance, n(), codes.data());
+  }
+
+  void generate() { simd::generateRays(camera_, pixels.data(), n(), *rays); }
+  void interpolate() {
+    simd::interpolateSurfels(tables(), plan().effects, *rays, *hits, n(), *surfels);
+  }
+  void writeEmitted() {
+    simd::writeEmittedAndReflectiveAmbient(tables(), plan().effects, *rays, *surfels, n(),
+                                           *radiance);
+  }
+  void findShadowRays() {
+    shadowCount = simd::findRadianceAndShadowRays(tables(), plan().effects, tables().lights.front(),
+                                                  *rays, *surfels, n(), *unshadowed, *shadows);
+  }
+  std::size_t reflect() {
+    if (!plan().traceReflections) return 0;
+    return simd::addReflections(tables(), plan().effects, kCutoff, *rays, *surfels, n(), *children,
+                                0);
+  }
+  std::size_t refract(std::size_t first) {
+    if (!plan().traceRefractions) return 0;
+    return simd::addRefractions(tables(), plan().effects, kCutoff, *rays, *surfels, n(), *children,
+                                first);
+  }
+
+  // The bits of everything that the kernels write.
+  std::vector<std::uint32_t> bits() const {
+    std::vector<std::uint32_t> all;
+    append(all, *rays, n());
+    append(all, *surfels, n());
+    append(all, *radiance, n());
+    append(all, *unshadowed, n());
+    append(all, *shadows, shadowCount);
+    append(all, *children, reflections + refractions);
+    all.insert(all.end(), codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(n()));
+    return all;
+  }
+
+  std::size_t n() const { return pixels.size(); }
+  const Plan& plan() const { return renderer_.plan(); }
+  const ShadingTables& tables() { return renderer_.parts().tables; }
+  const Accel& accel() { return *renderer_.parts().accel; }
+  Renderer& renderer() { return renderer_; }
+  Camera camera() const { return chooseCamera(scene_, options_); }
+  Film film() const { return makeFilm(scene_, options_); }
+
+  std::vector<std::uint32_t> pixels;
+  ColumnStore<RayColumns> rays, children;
+  ColumnStore<HitColumns> hits;
+  ColumnStore<SurfelColumns> surfels;
+  ColumnStore<RadianceColumns> radiance;
+  ColumnStore<UnshadowedColumns> unshadowed;
+  ColumnStore<ShadowColumns> shadows;
+  std::vector<std::uint32_t> codes;
+  std::size_t shadowCount = 0, reflections = 0, refractions = 0;
+
+ private:
+  static Scene load(const std::string& name) {
+    Warnings warnings;
+    return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+  }
+  static RenderOptions optionsFor(ImageSize size) {
+    RenderOptions o;
+    o.size = size;
+    o.threads = 1;
+    return o;
+  }
+
+  // The tile whose surfels have the most children: there every kernel has work.
+  std::vector<std::uint32_t> pickTile(ImageSize size) {
+    const CameraFrame frame = makeCameraFrame(camera(), size.width, size.height);
+    camera_ = {Vec3f(frame.eye),
+               Vec3f(frame.forward),
+               Vec3f(frame.right),
+               Vec3f(frame.up),
+               static_cast<float>(size.width) / 2,
+               static_cast<float>(size.height) / 2,
+               0.5f,
+               0.5f};
+    std::vector<std::uint32_t> best;
+    std::size_t most = 0;
+    for (auto& tile : makeTiles(Crop{0, 0, size.width, size.height}, 32)) {
+      if (tile.size() != kTileRays) continue;
+      pixels = tile;
+      run();
+      if (best.empty() || reflections + refractions > most) {
+        best = tile;
+        most = reflections + refractions;
+      }
+    }
+    return best;
+  }
+
+  template <typename Columns>
+  static void append(std::vector<std::uint32_t>& all, const Columns& columns, std::size_t count) {
+    Columns::forEachColumn(columns, [&](const char*, const auto* column, Group) {
+      if (!column) return;
+      const std::size_t old = all.size();
+      all.resize(old + count);
+      if (count > 0) std::memcpy(all.data() + old, column, count * sizeof(std::uint32_t));
+    });
+  }
+
+  Scene scene_;
+  RenderOptions options_;
+  Renderer renderer_;
+  simd::CameraRays camera_;
+  RayTally tally_;
+};
+
+}  // namespace whit::bench
