@@ -60,7 +60,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
     addGeometry(i, scene, options);
     if (i != 0) commit(scenes_[i], progress);
   }
-  addInstances(scene);
+  if (options.instances) addInstances(scene);
   commit(scenes_[0], progress);
   const Geometry& world = scene.geometries[0];
   plain_ = scene.instances.empty() && world.firstTriangle == 0 &&

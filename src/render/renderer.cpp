@@ -62,6 +62,12 @@ void chooseSimd(const std::string& name) {
   throwUsage("--simd " + name + " is not available here; there are: auto" + have);
 }
 
+// What the acceleration structure has built in of a plan's effects.
+EffectSet builtIn(const Plan& plan) {
+  constexpr EffectSet kBuiltIn = EffectSet().with(Effect::alphaMasks).with(Effect::instances);
+  return EffectSet(plan.effects.bits() & kBuiltIn.bits());
+}
+
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* progress)
@@ -75,6 +81,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.robust = options.robust;
   accel.quality = options.bvh;
   accel.alphaMasks = p.plan.effects.has(Effect::alphaMasks);
+  accel.instances = p.plan.effects.has(Effect::instances);
   accel.threads = p.machine.threads;
   accel.packet = options.packet;
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
@@ -224,8 +231,10 @@ void Renderer::shadingChanged() {
 void Renderer::setOptions(const RenderOptions& options) {
   Parts& p = *parts_;
   const Plan plan = makePlan(p.scene, options);
-  if (plan.effects.has(Effect::alphaMasks) != p.plan.effects.has(Effect::alphaMasks)) {
-    throwUsage("alpha masks are part of the acceleration structure: it has to be built anew");
+  if (builtIn(plan) != builtIn(p.plan)) {
+    throwUsage(
+        "alpha masks and instances are part of the acceleration structure: it has to be built "
+        "anew");
   }
   if (plan.effects != p.plan.effects) p.tables = buildTables(p.scene, plan.effects);
   p.tables.shading = options.shading;
@@ -238,8 +247,7 @@ bool Renderer::canSetOptions(const RenderOptions& options) const {
   RenderOptions reached = p.options;
   takeOver(options, reached);
   takeOverFrame(options, reached);
-  const bool masks = makePlan(p.scene, options).effects.has(Effect::alphaMasks);
-  return reached == options && masks == p.plan.effects.has(Effect::alphaMasks);
+  return reached == options && builtIn(makePlan(p.scene, options)) == builtIn(p.plan);
 }
 
 FrameStats Renderer::render(const Camera& camera, Film& film) {

@@ -51,8 +51,8 @@ class Renderer {
 
   // For frames to come: spp, depth, cutoff, shading, exposure, tone curve, effects and disable are
   // taken from `options`, the others stay. Plans anew where needed and keeps the acceleration
-  // structure. Throws Error(usage) when alpha masks would come or go, which are built into it. Not
-  // while rendering.
+  // structure. Throws Error(usage) when alpha masks or instances would come or go, which are built
+  // into it. Not while rendering.
   void setOptions(const RenderOptions& options);
   // Whether setOptions() is enough for frames with these options. Otherwise they need a renderer of
   // their own: what differs is part of the acceleration structure or of the workers.

@@ -24,7 +24,7 @@ TEST(Program, TellsItsVersion) {
 TEST(Program, EveryCommandHasHelp) {
   const Outcome all = runWhit({"--help"});
   EXPECT_EQ(all.status, 0);
-  for (const std::string command : {"render", "bench", "compare", "info", "merge"}) {
+  for (const std::string command : {"render", "bench", "compare", "info", "merge", "effects"}) {
     EXPECT_NE(all.out.find("  " + command), std::string::npos) << all.out;
     const Outcome help = runWhit({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;

@@ -1,6 +1,7 @@
 // Only the effects that a scene calls for.
 #include <gtest/gtest.h>
 
+#include "metrics/metrics.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {
@@ -23,6 +24,18 @@ const char* sceneWith(Effect effect) {
     default:
       return "whitted";
   }
+}
+
+// Not misplaced, not seen in part: gone, as in the reference.
+TEST(Instances, leftOutAreNotThereAsInTheReference) {
+  const Scene scene = load("landscape?triangles=20000");
+  RenderOptions o = smallOptions();
+  o.disable = EffectSet().with(Effect::instances);
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0.1);
 }
 
 class EffectLaw : public testing::TestWithParam<int> {};

@@ -2,6 +2,9 @@
 // SIMD target and packet width of this machine.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "io/paths.h"
 #include "metrics/metrics.h"
 #include "render/shipped_scene.h"
 #include "simd/kernels.h"
@@ -12,6 +15,21 @@ namespace {
 // What a picture may differ from the reference by: the gate for defaults.
 constexpr double kPixelsGe2CodesPct = 0.1;
 constexpr double kFlipMean = 0.01;
+
+void expectPictureAgrees(const std::string& name) {
+  const Scene scene = load(name);
+  RenderOptions o = smallOptions();
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  const ImageDifference d = compareImages(packets.image, reference.image);
+  std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
+              name.c_str(), d.pixelsGe2CodesPct, kPixelsGe2CodesPct, d.flipMean, kFlipMean);
+  EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct);
+  EXPECT_LE(d.flipMean, kFlipMean);
+  EXPECT_EQ(d.nonFinite, 0u);
+}
 
 class Twins : public testing::TestWithParam<std::string> {
  protected:
@@ -34,19 +52,15 @@ TEST_P(Twins, everyStageAgreesWithItsTwinOnEveryTarget) {
   }
 }
 
-TEST_P(Twins, picturesAgreeWithTheReference) {
-  const Scene scene = load(GetParam());
-  RenderOptions o = smallOptions();
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
-  const ImageDifference d = compareImages(packets.image, reference.image);
-  std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
-              GetParam().c_str(), d.pixelsGe2CodesPct, kPixelsGe2CodesPct, d.flipMean, kFlipMean);
-  EXPECT_LE(d.pixelsGe2CodesPct, kPixelsGe2CodesPct);
-  EXPECT_LE(d.flipMean, kFlipMean);
-  EXPECT_EQ(d.nonFinite, 0u);
+TEST_P(Twins, picturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
+
+TEST(LargeScenes, atriumAgreesWithTheReference) { expectPictureAgrees("atrium"); }
+
+TEST(LargeScenes, sponzaAgreesWithTheReference) {
+  if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
+    GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
+  }
+  expectPictureAgrees("sponza-mirror");
 }
 
 TEST_P(Twins, targetsAgreeWithEachOther) {
