@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "accuracy/digest.h"
+#include "core/display.h"
 #include "core/quantile.h"
+#include "io/image_file.h"
 #include "render/path_flips.h"
 
 namespace whit::accuracy {
@@ -85,6 +87,16 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   point.sampling = sampling.get();
   point.algorithm = algorithm.get();
   if (arithmetic) point.arithmetic = arithmeticError(frames.renderer, camera_, frames.film);
+}
+
+std::string ErrorMeter::pngOf(const Image& image) const {
+  return encodePng(toDisplay(image, base_.exposure, base_.toneCurve));
+}
+
+void ErrorMeter::depict(Point& point, const Image& image) const {
+  point.imagePng = pngOf(image);
+  point.totalMapPng = encodePng(heatMap(image, reference_->image));
+  if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_->image));
 }
 
 }  // namespace whit::accuracy

@@ -19,6 +19,9 @@ class ErrorMeter {
 
   // Fills in the point's errors from its last frame, with what arithmetic does if `arithmetic`.
   void measure(Point& point, FrameSource& frames, bool arithmetic);
+  // Fills in its pictures. Not for more than a few hundred points: they stay in memory.
+  void depict(Point& point, const Image& image) const;
+  std::string pngOf(const Image& image) const;  // as it is displayed
 
   const ReferencePicture& reference() const { return *reference_; }
   const Image& exact() const { return exact_->image; }  // at the baseline's samples

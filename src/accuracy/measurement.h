@@ -57,7 +57,8 @@ struct Point {
   bool onFront = false;             // of `total` over time
   bool onFrontSameSamples = false;  // of `sameSamples` over time
   // PNG files, with pictures: the image as it is displayed, its difference from the reference of
-  // all, and from that with as many samples.
+  // all, and from that with as many samples. Empty where the picture is the baseline's, and of
+  // combinations off the front.
   std::string imagePng, totalMapPng, sameSamplesMapPng;
 
   // "depth=4", "standard"

@@ -127,6 +127,10 @@ class SceneSweeper {
       Film scratch = makeFilm(scene_, base_);
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
+    if (settings_.pictures) {
+      meter.depict(point, baseline_->film.image);
+      sweep_.referencePng = meter.pngOf(meter.reference().image);
+    }
     pace_.end();
   }
 
@@ -170,6 +174,8 @@ class SceneSweeper {
       point.timing.ratio = frames.stats.frameMs / baseline_->render().frameMs;
     }
     meter.measure(point, frames, needsArithmetic(point));
+    const bool another = frames.film.image.pixels != baseline_->film.image.pixels;
+    if (settings_.pictures && another) meter.depict(point, frames.film.image);
     return true;
   }
 
@@ -196,6 +202,10 @@ class SceneSweeper {
     }
     for (const std::size_t i : paretoFront(total)) sweep_.points[i].onFront = true;
     for (const std::size_t i : paretoFront(same)) withSame[i]->onFrontSameSamples = true;
+    for (Point& point : sweep_.points) {
+      if (point.kind != PointKind::joint || point.onFront) continue;
+      point.imagePng.clear(), point.totalMapPng.clear(), point.sameSamplesMapPng.clear();
+    }
   }
 
   const Scene& scene_;

@@ -9,6 +9,7 @@
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
 #include "accuracy/pareto_svg.h"
+#include "accuracy/report.h"
 #include "accuracy/sweep.h"
 #include "accuracy/sweep_table.h"
 #include "cli/commands.h"
@@ -27,8 +28,8 @@ namespace {
 constexpr const char* kUsage = "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
 constexpr const char* kSummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
-    "time and in error against a double-precision reference. Writes DIR/sweep.csv and\n"
-    "DIR/pareto-SCENE.svg; references are kept in DIR/cache.";
+    "time and in error against a double-precision reference. Writes DIR/report.html,\n"
+    "DIR/sweep.csv and DIR/pareto-SCENE.svg; references are kept in DIR/cache.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
@@ -134,10 +135,11 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
 }
 
 void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep>& sweeps,
-                  const std::string& csv) {
+                  const accuracy::RunFacts& facts, const std::string& csv) {
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "sweep.csv").string(), csv);
+  writeTextFile((folder / "report.html").string(), accuracy::reportHtml(sweeps, facts));
   for (const accuracy::SceneSweep& sweep : sweeps) {
     writeTextFile((folder / ("pareto-" + fileName(sweep.scene) + ".svg")).string(),
                   accuracy::paretoSvg(sweep, accuracy::Against::reference));
@@ -168,7 +170,7 @@ int accuracyCommand(const Words& words) {
   const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
-  writeResults(job, sweeps, csv);
+  writeResults(job, sweeps, facts, csv);
   return job.check.empty() ? 0 : checkAgainst(job, csv);
 }
 

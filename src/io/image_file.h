@@ -46,6 +46,8 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
 ImageMetadata readExrMetadata(const std::string& path);
 // sRGB PNG with the metadata as text chunks; alpha is left out. Keywords are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
+// The bytes of such a file without metadata.
+std::string encodePng(const DisplayImage& image);
 
 // A texture of the given format. Colour textures decode sRGB from 8-bit codes; data textures take
 // codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing

@@ -5,7 +5,9 @@
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -81,23 +83,50 @@ bool write(Writer& writer, std::FILE* file, const DisplayImage& image, const png
 
 }  // namespace
 
-void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
-  if (image.width < 1 || image.height < 1 ||
-      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
-                               static_cast<std::size_t>(image.height))
-    throwUsage("cannot write '" + path + "': the image has no pixels");
-  AtomicFile target(path);
-  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
-  if (file == nullptr) throwIo("cannot write '" + path + "': " + std::strerror(errno));
+namespace {
+
+// Throws Error(io) naming `what`; closes the file in any case.
+void writeTo(std::FILE* file, const std::string& what, const DisplayImage& image,
+             const ImageMetadata& metadata) {
   std::vector<std::string> keywords;
   const std::vector<png_text> texts = textChunks(metadata, keywords);
   Writer writer;
   const bool written = write(writer, file, image, texts.data(), static_cast<int>(texts.size()));
   png_destroy_write_struct(&writer.png, &writer.info);
   const bool closed = std::fclose(file) == 0;
-  if (!written) throwIo("cannot write '" + path + "': " + writer.message);
-  if (!closed) throwIo("cannot write '" + path + "': " + std::strerror(errno));
+  if (!written) throwIo("cannot write '" + what + "': " + writer.message);
+  if (!closed) throwIo("cannot write '" + what + "': " + std::strerror(errno));
+}
+
+void requirePixels(const std::string& what, const DisplayImage& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
+                               static_cast<std::size_t>(image.height))
+    throwUsage("cannot write '" + what + "': the image has no pixels");
+}
+
+}  // namespace
+
+void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
+  requirePixels(path, image);
+  AtomicFile target(path);
+  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
+  if (file == nullptr) throwIo("cannot write '" + path + "': " + std::strerror(errno));
+  writeTo(file, path, image, metadata);
   target.commit();
+}
+
+std::string encodePng(const DisplayImage& image) {
+  requirePixels("a PNG", image);
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  std::FILE* file = open_memstream(&bytes, &size);
+  if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
+  // The buffer belongs to this function as soon as the stream has been flushed, thrown or not.
+  const auto release = [](char** buffer) { std::free(*buffer); };
+  const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
+  writeTo(file, "a PNG", image, {});
+  return {bytes, size};
 }
 
 }  // namespace whit
