@@ -13,7 +13,7 @@ namespace {
 constexpr double kWidth = 920, kHeight = 560;
 constexpr Box kPlot{70, 64, 900, 500};
 constexpr double kZeroY = 488;  // where an error of 0 stands
-constexpr double kRadius = 4, kCharWidth = 6.3, kLineHeight = 13;
+constexpr double kRadius = 4, kCharWidth = 6.9, kLineHeight = 13;
 
 // A logarithmic scale over whole steps of 1, 2 and 5.
 struct LogScale {
@@ -168,16 +168,22 @@ std::string labels(const std::vector<Mark>& marks) {
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (!isLabelled(marks[i])) continue;
     const Box& box = placed[i].box;
-    const double x = (box.left + box.right) / 2, y = (box.top + box.bottom) / 2;
+    // Written from the end that is next to the point, as fonts differ in width.
+    const bool right = box.left >= marks[i].x, left = box.right <= marks[i].x;
+    const double x = right ? box.left : left ? box.right : (box.left + box.right) / 2;
+    const double y = (box.top + box.bottom) / 2;
     if (placed[i].leader) {
       const double endX = std::clamp(marks[i].x, box.left, box.right);
       const double endY = std::clamp(marks[i].y, box.top, box.bottom);
       svg += formatted("<line class=\"lead\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>\n",
                        marks[i].x, marks[i].y, endX, endY);
     }
-    svg +=
-        formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
-                  marks[i].front ? "f" : "d", x, y + 4, escaped(marks[i].point->label()).c_str());
+    svg += formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
+                     marks[i].front ? "f" : "d", x, y + 4,
+                     right  ? "start"
+                     : left ? "end"
+                            : "middle",
+                     escaped(marks[i].point->label()).c_str());
   }
   return svg;
 }

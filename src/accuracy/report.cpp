@@ -14,7 +14,7 @@ std::string machineList(const std::vector<SceneSweep>& sweeps, const RunFacts& f
   const Machine& machine = sweeps.front().machine;
   std::string html = "<h2>Machine and measurement</h2>\n<dl>\n";
   const auto row = [&](const char* name, const std::string& value) {
-    html += formatted("<dt>%s</dt><dd>", name) + escaped(value) + "</dd>\n";
+    html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
   };
   row("processor", facts.cpu);
   row("cores, threads", formatted("%d, %d", facts.cores, machine.threads));

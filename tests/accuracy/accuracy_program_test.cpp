@@ -35,6 +35,10 @@ TEST(AccuracyProgram, SweepsATinyScene) {
   const std::string svg = cli::readFile(out + "/pareto-tiny.svg");
   EXPECT_NE(svg.find("<title>depth=0"), std::string::npos);
 
+  const std::string html = cli::readFile(out + "/report.html");
+  EXPECT_NE(html.find("</html>"), std::string::npos);
+  EXPECT_GT(html.size(), svg.size());
+
   const cli::Outcome again = runWhit(words);
   EXPECT_NE(again.out.find("(by an earlier run)"), std::string::npos) << again.out;
 }

@@ -3,6 +3,7 @@ whit_test(label_layout whit_accuracy)
 whit_test(knobs whit_cli)
 whit_test(points whit_accuracy)
 whit_test(sweep_csv whit_accuracy)
+whit_test(accuracy_report whit_accuracy)
 whit_test(reference_cache whit_accuracy)
 target_compile_definitions(reference_cache_test PRIVATE WHIT_PROGRAM="")
 # This one runs the program itself.

@@ -1,0 +1,181 @@
+// The report and the chart: well-formed, self-contained, and true to the numbers.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "accuracy/pareto_svg.h"
+#include "accuracy/report.h"
+#include "accuracy/report_parts.h"
+
+namespace whit::accuracy {
+namespace {
+
+Point pointOf(PointKind kind, const std::string& knob, const std::string& value, double ms,
+              double flip) {
+  Point point;
+  point.kind = kind;
+  point.knob = knob;
+  point.value = value;
+  point.timing.settledMs = ms;
+  point.timing.frames = 9;
+  point.timing.ratio = ms / 10;
+  point.total.flipMean = flip;
+  point.imagePng = point.totalMapPng = "png";
+  return point;
+}
+
+SceneSweep sweepOfThree() {
+  SceneSweep sweep;
+  sweep.scene = "a<b & \"c\"";
+  sweep.width = 32, sweep.height = 20;
+  sweep.referenceSamples = 64;
+  sweep.referencePng = "png";
+  sweep.points = {pointOf(PointKind::baseline, "", "standard", 10, 0.02),
+                  pointOf(PointKind::knob, "depth", "2", 8, 0.03),
+                  pointOf(PointKind::knob, "depth", "16", 12, 0.025)};
+  sweep.points[0].onFront = sweep.points[1].onFront = true;
+  sweep.points[0].sameSamples = ImageDifference();
+  sweep.points[0].sameSamplesMapPng = "png";
+  sweep.points[0].arithmetic = ArithmeticError();
+  sweep.points[1].sameSamples = ImageDifference();
+  sweep.points[1].sameSamples->flipMean = 0.001;
+  sweep.idle = {{"fresnel", "nothing in the scene is transparent"}};
+  sweep.stages.push_back({Stage::findIntersections, "position", 640, 1.5, 4, 3, 2, 1});
+  return sweep;
+}
+
+std::string page() {
+  RunFacts facts;
+  facts.cpu = "A <fast> processor";
+  facts.describe = [](const RenderOptions&) {
+    return std::vector<std::pair<std::string, std::string>>();
+  };
+  return reportHtml({sweepOfThree()}, facts);
+}
+
+// Every element that is not void is closed, in order; attributes hold no bare '<'.
+void expectBalanced(std::string text) {
+  for (const char* raw : {"<style>[^]*?</style>", "<script>[^]*?</script>"})
+    text = std::regex_replace(text, std::regex(raw), "");
+  static const std::set<std::string> empty{"meta", "img", "input", "br"};
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([a-zA-Z][a-zA-Z0-9]*)([^<>]*?)(/?)>");
+  for (std::sregex_iterator it(text.begin(), text.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (empty.contains(name) || (*it)[4] == "/") continue;
+    if ((*it)[1] != "/") {
+      open.push_back(name);
+      continue;
+    }
+    ASSERT_FALSE(open.empty()) << name;
+    ASSERT_EQ(open.back(), name) << "at " << it->position();
+    open.pop_back();
+  }
+  EXPECT_TRUE(open.empty());
+  const auto opened = std::count(text.begin(), text.end(), '<');
+  const auto closed = std::count(text.begin(), text.end(), '>');
+  EXPECT_EQ(opened, closed);
+}
+
+TEST(AccuracyReport, IsWellFormed) { expectBalanced(page()); }
+
+TEST(AccuracyReport, LoadsNothingFromAnywhere) {
+  const std::string html = page();
+  const std::regex link("(src|href|action|data)=\"([^\"]*)\"");
+  int links = 0;
+  for (std::sregex_iterator it(html.begin(), html.end(), link), end; it != end; ++it, ++links) {
+    const std::string target = (*it)[2];
+    EXPECT_TRUE(target.rfind("data:image/png;base64,", 0) == 0 || target[0] == '#') << target;
+  }
+  EXPECT_GT(links, 5);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  EXPECT_EQ(html.find("url("), std::string::npos);
+  EXPECT_EQ(html.find("fetch("), std::string::npos);
+  // The name space of SVG is a name, not a place.
+  const std::string rest =
+      std::regex_replace(html, std::regex("xmlns=\"http://www.w3.org/2000/svg\""), "");
+  EXPECT_EQ(rest.find("http"), std::string::npos);
+}
+
+TEST(AccuracyReport, SaysWhatWasMeasured) {
+  const std::string html = page();
+  for (const char* said :
+       {"a&lt;b &amp; &quot;c&quot;", "depth=2", "8.00 ms", "nothing in the scene is transparent",
+        "findIntersections", "A &lt;fast&gt; processor", "prefers-color-scheme:dark",
+        "@media print", "64 samples a pixel"}) {
+    EXPECT_NE(html.find(said), std::string::npos) << said;
+  }
+}
+
+// Bounds that are broken are told as such.
+TEST(AccuracyReport, VerdictsFollowTheNumbers) {
+  SceneSweep sweep = sweepOfThree();
+  EXPECT_EQ(verdictList(sweep).find("class=\"fails\"><b>&#10007;</b> <i>"), std::string::npos);
+  sweep.points[0].sameSamples->pixelsGe2CodesPct = 0.2;
+  EXPECT_NE(verdictList(sweep).find("class=\"fails\"><b>&#10007;</b> <i>"), std::string::npos);
+  sweep = sweepOfThree();
+  sweep.points[0].arithmetic->samePath.maxCode = 2;
+  EXPECT_NE(verdictList(sweep).find("&#10007;</b> arithmetic alone"), std::string::npos);
+  // 8 of 10 ms is not half.
+  EXPECT_NE(verdictList(sweep).find("&#10007;</b> half the time"), std::string::npos);
+  sweep.points[1].timing.ratio = 0.5;
+  EXPECT_NE(verdictList(sweep).find("&#10003;</b> half the time"), std::string::npos);
+}
+
+// RFC 4648, section 10.
+TEST(AccuracyReport, Base64) {
+  const std::string head = "data:image/png;base64,";
+  EXPECT_EQ(dataUri(""), head);
+  EXPECT_EQ(dataUri("f"), head + "Zg==");
+  EXPECT_EQ(dataUri("fo"), head + "Zm8=");
+  EXPECT_EQ(dataUri("foo"), head + "Zm9v");
+  EXPECT_EQ(dataUri("foob"), head + "Zm9vYg==");
+  EXPECT_EQ(dataUri(std::string("\xff\x00\xfe", 3)), head + "/wD+");
+}
+
+TEST(ParetoSvg, IsWellFormedAndShowsEveryPoint) {
+  const std::string svg = paretoSvg(sweepOfThree(), Against::reference);
+  expectBalanced(svg);
+  const std::regex circle("<circle class=\"(p|q)\"");
+  int front = 0, grey = 0;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it)
+    ++((*it)[1] == "p" ? front : grey);
+  EXPECT_EQ(front, 2);
+  EXPECT_EQ(grey, 1);
+  EXPECT_NE(svg.find("<title>depth=16: 12.00 ms"), std::string::npos);
+}
+
+// The scale is logarithmic: equal ratios are equal distances; what is better is lower, what is
+// dearer further right.
+TEST(ParetoSvg, PlacesPointsOnLogarithmicScales) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[0].timing.settledMs = 10, sweep.points[0].total.flipMean = 0.01;
+  sweep.points[1].timing.settledMs = 20, sweep.points[1].total.flipMean = 0.02;
+  sweep.points[2].timing.settledMs = 40, sweep.points[2].total.flipMean = 0.04;
+  const std::string svg = paretoSvg(sweep, Against::reference);
+  std::map<std::string, std::pair<double, double>> at;
+  const std::regex circle("cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"4\"><title>([a-z0-9=]+):");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it)
+    at[(*it)[3]] = {std::stod((*it)[1]), std::stod((*it)[2])};
+  ASSERT_EQ(at.size(), 3u);
+  const auto [x0, y0] = at["standard"];
+  const auto [x1, y1] = at["depth=2"];
+  const auto [x2, y2] = at["depth=16"];
+  EXPECT_NEAR(x2 - x1, x1 - x0, 0.2);  // printed to 0.1
+  EXPECT_NEAR(y2 - y1, y1 - y0, 0.2);
+  EXPECT_LT(x0, x1);
+  EXPECT_GT(y0, y1);
+}
+
+// Without an error at all, a point stands below the scale, not at minus infinity.
+TEST(ParetoSvg, NoErrorHasALineOfItsOwn) {
+  const std::string svg = paretoSvg(sweepOfThree(), Against::sameSamples);
+  expectBalanced(svg);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_NE(svg.find(">0</text>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace whit::accuracy
