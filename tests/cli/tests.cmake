@@ -9,3 +9,5 @@ foreach(name cli_program cli_images cli_json cli_effects)
   target_compile_definitions(${name}_test PRIVATE WHIT_PROGRAM="$<TARGET_FILE:whit>")
   add_dependencies(${name}_test whit)
 endforeach()
+add_test(NAME install.works_where_it_is_put
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/install_test.sh ${CMAKE_BINARY_DIR})
