@@ -163,8 +163,8 @@ void App::askForFrame() {
   resolution_.setSpp(settings_.options.spp);
   const bool still = restSeconds_ >= kSettleSeconds;
   // More samples would only blur what is to be compared or looked into.
-  const bool refine = settings_.compare == CompareMode::off && settings_.view == DebugView::none &&
-                      !settings_.measureKnobs;
+  const bool refine = settings_.supersample && settings_.compare == CompareMode::off &&
+                      settings_.view == DebugView::none && !settings_.measureKnobs;
   if (!still || !refine) resolution_.restartSharpening();
   const double pixels = static_cast<double>(window.width) * window.height;
   FrameRequest request =

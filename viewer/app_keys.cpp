@@ -142,6 +142,10 @@ void App::handlePictureKey(int key) {
       say(std::string("view: ") + kDebugViewNames[static_cast<std::size_t>(settings_.view)]);
       break;
     }
+    case GLFW_KEY_N:
+      settings_.supersample = !settings_.supersample;
+      say(settings_.supersample ? "supersamples at rest" : "no more samples at rest");
+      break;
     case GLFW_KEY_M:
       settings_.measureKnobs = true;
       say("measuring what each knob and effect costs");

@@ -79,6 +79,7 @@ void drawPicture(PanelSettings& settings) {
   if (ImGui::SliderFloat("frames/s", &rate, kLeastRate, kLargestRate, "%.0f")) {
     settings.rate = static_cast<double>(rate);
   }
+  ImGui::Checkbox("supersample at rest (N)", &settings.supersample);
 }
 
 void drawEffectColours() {
@@ -100,7 +101,7 @@ void drawView(const TracedFrame& frame, PanelSettings& settings) {
                    static_cast<int>(kDebugViewNames.size()))) {
     settings.view = static_cast<DebugView>(view);
   }
-  if (!frame.legend.empty()) ImGui::TextDisabled("%s", frame.legend.c_str());
+  if (!frame.legend.empty()) ImGui::TextWrapped("%s", frame.legend.c_str());
   if (settings.view == DebugView::effects) drawEffectColours();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::Combo("reference (X)", &compare, "not compared\0side by side\0differences\0")) {
@@ -196,7 +197,7 @@ bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingE
 
 bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings,
                  ShadingEdit& scene) const {
-  constexpr float kMargin = 10, kWidth = 27;  // pixels; heights of the font
+  constexpr float kMargin = 10, kWidth = 29;  // pixels; heights of the font
   const float width = ImGui::GetFontSize() * kWidth;
   const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);

@@ -18,8 +18,9 @@ inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels c
 // What the user can change here.
 struct PanelSettings {
   bool shown = true;
-  std::string tab;   // of kPanelTabs, to be turned to by the next frame; empty: it stays
-  double rate = 60;  // frames a second to hold
+  std::string tab;          // of kPanelTabs, to be turned to by the next frame; empty: it stays
+  double rate = 60;         // frames a second to hold
+  bool supersample = true;  // at rest
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;

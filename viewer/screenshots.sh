@@ -35,9 +35,12 @@ shot() {
   echo "$folder/$name.png"
 }
 
-settle=("wait 30 frames" "wait sharp" "wait 260 frames")  # messages have gone
-shot viewer atrium 800x500 "key W 0.2" "${settle[@]}"
-shot viewer-knobs whitted 800x500 "wait sharp" "panel knobs" "${settle[@]}"
-shot viewer-reference whitted 800x500 "key X" "panel picture" "mouse left 120 0" "${settle[@]}"
-shot viewer-cost glass 800x500 "key V" "key V" "key V" "key V" "key V" "panel picture" \
-  "${settle[@]}"
+sharp=("wait 30 frames" "wait sharp")
+gone=("wait 250 frames" "wait sharp")  # messages
+shot viewer atrium 760x475 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
+shot viewer-knobs whitted 1280x720 "key N" "panel knobs" "${sharp[@]}" "key M" "${sharp[@]}" \
+  "${gone[@]}"
+shot viewer-reference whitted 1280x720 "key X" "panel effects" "${sharp[@]}" "mouse left 120 0" \
+  "${gone[@]}"
+shot viewer-rays whitted 800x500 "key V" "key V" "key V" "key V" "panel picture" "${sharp[@]}" \
+  "${gone[@]}"

@@ -36,7 +36,7 @@ void setStyle(float scale) {
   style.ItemSpacing = ImVec2(8, 5);
   style.WindowBorderSize = 0;
   style.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 1);
-  style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.19f, 0.24f, 1);
+  style.Colors[ImGuiCol_FrameBg] = ImVec4(0.24f, 0.28f, 0.35f, 1);
   style.Colors[ImGuiCol_TitleBg] = style.Colors[ImGuiCol_TitleBgActive] =
       ImVec4(0.11f, 0.15f, 0.22f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.16f, 0.24f, 0.36f, 1);
