@@ -167,8 +167,9 @@ void App::askForFrame() {
                       settings_.view == DebugView::none && !settings_.measureKnobs;
   if (!still || !refine) resolution_.restartSharpening();
   const double pixels = static_cast<double>(window.width) * window.height;
+  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kBandMs : 0;
   FrameRequest request =
-      requestFor(still ? resolution_.still() : resolution_.moving(pixels), still);
+      requestFor(still ? resolution_.still() : resolution_.moving(pixels, waitMs), still);
   while (still && shown_.scene && samePicture(request, shown_.request)) {
     if (!refine || !resolution_.sharpen()) {
       sharp_ = !thread_.busy();

@@ -9,11 +9,8 @@ namespace whit::view {
 
 namespace {
 
-// Bands of interruptible frames are meant to take so long: what a new request waits at most, if the
-// answer is to be there with the next frame but one.
-constexpr double kBandMs = 8;
 constexpr double kReferenceBandMs = 80;  // of the reference, each of which is shown
-constexpr int kBandRows = 8;             // bands are multiples of it
+constexpr int kBandRows = 4;             // bands are multiples of it
 
 ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
 

@@ -9,6 +9,9 @@
 
 namespace whit::view {
 
+// Bands of interruptible frames are meant to take so long: what a new request waits at most.
+inline constexpr double kBandMs = 5;
+
 class FrameTracer {
  public:
   // Builds the renderer; throws as Renderer does.

@@ -32,8 +32,8 @@ double ResolutionControl::predictMs(std::size_t level, double windowPixels) cons
   return msPerSample_ * windowPixels * kScales[level] * kScales[level] * spp_;
 }
 
-Sharpness ResolutionControl::moving(double windowPixels) {
-  const double frameMs = 1000 / rate_;
+Sharpness ResolutionControl::moving(double windowPixels, double waitMs) {
+  const double frameMs = 1000 / rate_ - waitMs;
   const std::size_t coarsest = kScales.size() - 1;
   if (level_ > largest_ && predictMs(level_ - 1, windowPixels) < kHeadroom * frameMs) {
     --level_;

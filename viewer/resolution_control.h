@@ -36,8 +36,9 @@ class ResolutionControl {
   // What a frame of so many pixels (times samples) took to trace.
   void learn(double ms, double samples);
 
-  // For a window of so many pixels.
-  Sharpness moving(double windowPixels);
+  // For a window of so many pixels. The frame has to wait `waitMs` for its turn, and is coarser for
+  // it, so that it is there in time all the same.
+  Sharpness moving(double windowPixels, double waitMs = 0);
   Sharpness still() const;
   // To the next step at rest; false when there is none.
   bool sharpen();
