@@ -53,7 +53,8 @@ ErrorMeter::ErrorMeter(const Scene& scene, const Camera& camera, const RenderOpt
       base_(base),
       exactness_(exactness),
       reference_(&cache.get(referenceOptions(base, samples, exactness), progress)),
-      exact_(&cache.get(exactAtSameSamples(base, exactness), progress)) {}
+      exact_(&cache.get(exactAtSameSamples(base, exactness), progress)),
+      hdrFlip_(reference_->image) {}
 
 const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& own) {
   const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness_);
@@ -75,6 +76,7 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
       return compareImages(a, b, base_.exposure, base_.toneCurve);
     });
   };
+  auto hdrFlip = std::async(std::launch::async, [&] { return hdrFlip_.mean(image); });
   auto total = against(image, reference_->image);
   auto sampling = against(unapproximated, reference_->image);
   auto algorithm = against(image, unapproximated);
@@ -84,6 +86,7 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
     point.sameSamples = against(image, exact_->image).get();
   }
   point.total = total.get();
+  point.totalHdrFlip = hdrFlip.get();
   point.sampling = sampling.get();
   point.algorithm = algorithm.get();
   if (arithmetic) point.arithmetic = arithmeticError(frames.renderer, camera_, frames.film);

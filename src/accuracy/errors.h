@@ -7,6 +7,7 @@
 #include "accuracy/measurement.h"
 #include "accuracy/reference_cache.h"
 #include "accuracy/timing.h"
+#include "metrics/hdr_flip.h"
 
 namespace whit::accuracy {
 
@@ -34,6 +35,7 @@ class ErrorMeter {
   RenderOptions base_;
   Exactness exactness_;
   const ReferencePicture *reference_, *exact_;
+  HdrFlip hdrFlip_;                            // against the reference
   std::map<std::string, Image> exactPackets_;  // by digest of their options
 };
 

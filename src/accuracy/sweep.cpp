@@ -23,8 +23,8 @@ struct Limits {
   double pointMs;        // for timing one point
   std::size_t joint;
 };
-constexpr Limits kQuick{64, 8, 50e6, 20e6, 500, 0};
-constexpr Limits kFull{256, 8, 600e6, 100e6, 4000, 60};
+constexpr Limits kQuick{64, 8, 30e6, 20e6, 500, 0};
+constexpr Limits kFull{256, 8, 400e6, 100e6, 4000, 40};
 
 // Work of a packet frame in units of a scalar frame of one sample, roughly.
 constexpr double kPacketFrameWork = 0.1;
@@ -165,18 +165,40 @@ class SceneSweeper {
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
-    if (point.options.mode == Mode::packets) {
-      const double ms = frames.render().frameMs, baselineMs = baseline_->render().frameMs;
-      const Rounds rounds = roundsFor(ms, baselineMs, limits_.pointMs, settings_.full);
-      point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
-    } else {
-      point.timing = timingOf({frames.stats.frameMs});
-      point.timing.ratio = frames.stats.frameMs / baseline_->render().frameMs;
+    time(point, frames);
+    if (frames.film.image.pixels == baseline_->film.image.pixels) {
+      takeErrors(point, sweep_.points.front());
+      point.stats = frames.stats;
+      return true;
     }
     meter.measure(point, frames, needsArithmetic(point));
-    const bool another = frames.film.image.pixels != baseline_->film.image.pixels;
-    if (settings_.pictures && another) meter.depict(point, frames.film.image);
+    if (settings_.pictures) meter.depict(point, frames.film.image);
     return true;
+  }
+
+  // Combinations are many: they are timed as in a quick sweep.
+  void time(Point& point, FrameSource& frames) {
+    const double first = frames.stats.frameMs;
+    if (point.options.mode == Mode::reference || first > limits_.pointMs) {
+      point.timing = timingOf({first});
+      point.timing.ratio = first / baseline_->render().frameMs;
+      return;
+    }
+    const bool joint = point.kind == PointKind::joint;
+    const double ms = frames.render().frameMs, baselineMs = baseline_->render().frameMs;
+    const Rounds rounds = roundsFor(ms, baselineMs, joint ? kQuick.pointMs : limits_.pointMs,
+                                    settings_.full && !joint);
+    point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
+  }
+
+  // Of the same picture.
+  static void takeErrors(Point& point, const Point& from) {
+    point.total = from.total;
+    point.totalHdrFlip = from.totalHdrFlip;
+    point.sampling = from.sampling;
+    point.algorithm = from.algorithm;
+    point.sameSamples = from.sameSamples;
+    point.arithmetic = from.arithmetic;
   }
 
   bool isBaseline(const FrameSource& frames) const {

@@ -19,7 +19,7 @@ struct SweepSettings {
 };
 
 // `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8, where
-// its rays would exceed 600 or 50 million. Throws Error(io) when the cache cannot be written.
+// its rays would exceed 400 or 30 million. Throws Error(io) when the cache cannot be written.
 SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
                       Progress* progress);
 

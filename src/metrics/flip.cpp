@@ -9,6 +9,7 @@
 #include "core/vec3.h"
 #include "metrics/codes.h"
 #include "metrics/filter.h"
+#include "metrics/flip_side.h"
 
 namespace whit {
 
@@ -68,16 +69,24 @@ Vec3f xyzOfOpponent(const Vec3f& o) {
 
 using Planes = std::array<Plane, 3>;
 
-Planes opponentPlanes(const DisplayImage& image) {
+std::vector<Rgb> linearOf(const DisplayImage& image) {
   std::array<float, 256> linear{};
   for (std::size_t code = 0; code < 256; ++code)
     linear[code] = static_cast<float>(srgbToLinear(static_cast<double>(code) / 255));
+  std::vector<Rgb> pixels(image.rgba.size() / 4);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::uint8_t* code = image.rgba.data() + 4 * i;
+    pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+  }
+  return pixels;
+}
+
+Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
   const Matrix& toXyz = colourSpace().toXyz;
   Planes planes;
-  planes.fill(Plane(image.width, image.height));
-  for (std::size_t i = 0; i < planes[0].values.size(); ++i) {
-    const std::uint8_t* code = image.rgba.data() + 4 * i;
-    const Vec3f o = opponentOfXyz(toXyz * Vec3f(linear[code[0]], linear[code[1]], linear[code[2]]));
+  planes.fill(Plane(width, height));
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Vec3f o = opponentOfXyz(toXyz * pixels[i]);
     for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values[i] = o[c];
   }
   return planes;
@@ -194,10 +203,6 @@ FeatureTaps makeFeatureTaps() {
   return {normalised(gaussian), balanced(edge), balanced(point)};
 }
 
-struct Features {
-  std::vector<float> edge, point;  // magnitudes
-};
-
 std::vector<float> magnitudes(const Plane& x, const Plane& y) {
   std::vector<float> result(x.values.size());
   for (std::size_t i = 0; i < result.size(); ++i)
@@ -205,33 +210,43 @@ std::vector<float> magnitudes(const Plane& x, const Plane& y) {
   return result;
 }
 
-Features findFeatures(const Plane& achromatic) {
+void findFeatures(const Plane& achromatic, FlipSide& side) {
   const FeatureTaps taps = makeFeatureTaps();
   Plane luminance = achromatic;
   for (float& value : luminance.values) value = (value + 16) / 116;
   const Plane smooth = filterAlongX(luminance, taps.gaussian);
-  return {magnitudes(filterAlongY(filterAlongX(luminance, taps.edge), taps.gaussian),
-                     filterAlongY(smooth, taps.edge)),
-          magnitudes(filterAlongY(filterAlongX(luminance, taps.point), taps.gaussian),
-                     filterAlongY(smooth, taps.point))};
+  side.edge = magnitudes(filterAlongY(filterAlongX(luminance, taps.edge), taps.gaussian),
+                         filterAlongY(smooth, taps.edge));
+  side.point = magnitudes(filterAlongY(filterAlongX(luminance, taps.point), taps.gaussian),
+                          filterAlongY(smooth, taps.point));
 }
 
 }  // namespace
 
-std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
-  const Planes opponentA = opponentPlanes(a), opponentB = opponentPlanes(b);
-  const std::vector<Vec3f> labA = filteredLab(opponentA), labB = filteredLab(opponentB);
-  const Features featuresA = findFeatures(opponentA[0]), featuresB = findFeatures(opponentB[0]);
-  std::vector<float> flip(labA.size());
+FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height) {
+  const Planes opponent = opponentPlanes(pixels, width, height);
+  FlipSide side;
+  side.lab = filteredLab(opponent);
+  findFeatures(opponent[0], side);
+  return side;
+}
+
+std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
+  std::vector<float> flip(a.lab.size());
   for (std::size_t i = 0; i < flip.size(); ++i) {
-    const float colour = redistribute(hyAb(labA[i], labB[i]));
-    const float feature = std::max(std::abs(featuresA.edge[i] - featuresB.edge[i]),
-                                   std::abs(featuresA.point[i] - featuresB.point[i]));
+    const float colour = redistribute(hyAb(a.lab[i], b.lab[i]));
+    const float feature =
+        std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i]));
     const float scaled = std::pow(feature / std::sqrt(2.0f), kFeatureExponent);
     // 3.3
     flip[i] = std::pow(colour, 1 - std::min(scaled, 1.0f));
   }
   return flip;
+}
+
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
+  return flipBetween(flipSide(linearOf(a), a.width, a.height),
+                     flipSide(linearOf(b), b.width, b.height));
 }
 
 }  // namespace whit
