@@ -45,7 +45,10 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   const double nl = dot(n, toLight), nh = dot(n, h), vh = dot(surfel.view, h);
   const double nv = std::max(dot(n, surfel.view), 1e-4);
   const double a2 = surfel.alpha * surfel.alpha;
-  const double spread = nh * nh * (a2 - 1) + 1;
+  // nh^2 (a2 - 1) + 1, but next to the highlight of a narrow lobe the cosine alone loses it: to a
+  // normal that is a unit vector in float only, for one.
+  const Vec3d across = cross(n, h);
+  const double spread = nh * nh * a2 + dot(across, across);
   const double distribution = a2 / (kPi * spread * spread);
   const double visibility =
       0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));

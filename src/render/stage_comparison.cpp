@@ -26,11 +26,11 @@ constexpr double kNormalLimit = 4;     // cross product by differences of produc
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
 // the contrast between two of them it is a visible number of ulps of the colour (numerics H68).
 constexpr double kTexturedLimit = 4096;
-constexpr double kSkyLimit = 512;       // likewise, for azimuth and elevation
-constexpr double kRadianceLimit = 256;  // a dozen factors, some of them squared
-constexpr double kWeightLimit = 4096;   // Fresnel's root at the critical angle: 4e-4 (H37)
-constexpr double kChildLimit = 512;     // the refracted direction there: 3e-5 (H37)
-constexpr double kSumLimit = 1;         // one addition
+constexpr double kSkyLimit = 512;      // likewise, for azimuth and elevation
+constexpr double kRadianceLimit = 32;  // a dozen factors, some of them squared
+constexpr double kWeightLimit = 4096;  // Fresnel's root at the critical angle: 4e-4 (H37)
+constexpr double kChildLimit = 512;    // the refracted direction there: 3e-5 (H37)
+constexpr double kSumLimit = 1;        // one addition
 constexpr double kExact = 0;
 
 double ulpOf(double magnitude) {
