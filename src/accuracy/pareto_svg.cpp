@@ -178,11 +178,9 @@ std::string labels(const std::vector<Mark>& marks) {
       svg += formatted("<line class=\"lead\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>\n",
                        marks[i].x, marks[i].y, endX, endY);
     }
-    svg += formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
-                     marks[i].front ? "f" : "d", x, y + 4,
-                     right  ? "start"
-                     : left ? "end"
-                            : "middle",
+    const char* const anchor = right ? "start" : left ? "end" : "middle";
+    svg += formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n",
+                     marks[i].front ? "f" : "d", x, y + 4, anchor,
                      escaped(marks[i].point->label()).c_str());
   }
   return svg;

@@ -144,6 +144,8 @@ TEST(ParetoSvg, IsWellFormedAndShowsEveryPoint) {
   EXPECT_EQ(front, 2);
   EXPECT_EQ(grey, 1);
   EXPECT_NE(svg.find("<title>depth=16: 12.00 ms"), std::string::npos);
+  for (const char* label : {">standard</text>", ">depth=2</text>", ">depth=16</text>"})
+    EXPECT_NE(svg.find(label), std::string::npos) << label;
 }
 
 // The scale is logarithmic: equal ratios are equal distances; what is better is lower, what is

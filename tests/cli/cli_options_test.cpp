@@ -154,13 +154,15 @@ TEST(Quality, StandardIsTheDefaults) {
   EXPECT_EQ(standard.spp, defaults.spp);
   EXPECT_EQ(standard.depth, defaults.depth);
   EXPECT_EQ(standard.cutoff, defaults.cutoff);
+  EXPECT_EQ(standard.shading, defaults.shading);
   EXPECT_EQ(standard.mode, defaults.mode);
 }
 
 TEST(Quality, PresetsGiveWayToWhatIsGiven) {
   const RenderOptions draft = parsed({"--depth", "6", "--quality", "draft"}).render;
   EXPECT_EQ(draft.depth, 6);
-  EXPECT_EQ(draft.cutoff, 4.0e-3f);
+  EXPECT_EQ(draft.cutoff, 1.6e-2f);
+  EXPECT_EQ(draft.shading.lightCutoff, 1e-3f);
   const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
   EXPECT_EQ(reference.spp, 2);
   EXPECT_EQ(reference.depth, kDepthLimit);
