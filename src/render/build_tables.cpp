@@ -48,7 +48,7 @@ void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) 
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     tables.materials.push_back(recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects));
   }
-  if (tables.materials.empty()) tables.materials.push_back({});
+  if (tables.materials.empty()) tables.materials.push_back(recordOf(Material{}, 0, effects));
 }
 
 void addMedia(const Scene& scene, ShadingTables& tables) {
