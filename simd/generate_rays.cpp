@@ -31,7 +31,7 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, static_cast<uint32_t>(i)), du, rays.parent + i);
-    if (rays.media) hn::Store(hn::Zero(du), du, rays.media + i);
+    if (rays.media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
   }
 }
 

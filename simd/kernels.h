@@ -24,10 +24,11 @@ struct CameraRays {
   Vec3f eye, forward, right, up;
   float halfWidth = 0, halfHeight = 0;
   float sampleX = 0.5f, sampleY = 0.5f;
+  std::uint32_t media = 0;  // CameraFrame's
 };
 
 // Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =
-// slot, media 0.
+// slot, and the media around the eye.
 void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
                   const RayColumns& rays) noexcept;
 

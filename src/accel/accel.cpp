@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "accel/bad_rays.h"
 #include "accel/embree_scene.h"
 #include "accel/parts.h"
 #include "core/error.h"
@@ -93,6 +94,7 @@ void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, 
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
     emptyLanes<kWidth>(packet.ray, group.valid[group.count], end - i);
+    leaveOutBadRays<kWidth>(packet.ray);
   }
 }
 
@@ -156,6 +158,7 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
       loadRay<kWidth>(packet, shadows, i);
       std::memcpy(packet.tfar, shadows.tFar + i, sizeof(packet.tfar));
       emptyLanes<kWidth>(packet, group.valid[group.count], end - i);
+      leaveOutBadRays<kWidth>(packet);
     }
     const Clock::time_point start = Clock::now();
     for (std::size_t p = 0; p < group.count; ++p) {
@@ -183,6 +186,12 @@ RTCRay singleRay(const Vec3f& origin, const Vec3f& direction, float tFar, unsign
   ray.dir_z = direction.z;
   ray.tfar = tFar;
   ray.mask = mask;
+  if (!isTraceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z)) {
+    ray.org_x = ray.org_y = ray.org_z = kNowhere;
+    ray.dir_x = ray.dir_y = 0;
+    ray.dir_z = 1;
+    ray.tfar = -1;
+  }
   return ray;
 }
 
@@ -270,6 +279,7 @@ void Accel::findHits(const RayColumns& rays, std::size_t n, bool coherent, const
       meter.tally->lanes += n;
     }
   }
+  if (enclosed_) retryMisses(rays, n, hits);
 }
 
 void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coherent, float* visible,
@@ -302,8 +312,8 @@ void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coher
   meter.tally->lanes += n;
 }
 
-bool Accel::closest(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
-                    std::uint32_t& instance, float& u, float& v) const noexcept {
+bool Accel::findHit(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
+                    std::uint32_t& instance, float& t, float& u, float& v) const noexcept {
   RTCRayHit r = singleRayHit(origin, direction);
   QueryContext context(false);
   intersect(nullptr, parts_->embree.top(), context, r);
@@ -311,6 +321,7 @@ bool Accel::closest(const Vec3f& origin, const Vec3f& direction, std::uint32_t& 
   const bool placed = r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   instance = placed ? r.hit.instID[0] - kFirstInstanceId : kMiss;
   triangle = parts_->embree.triangleBase(placed ? 1 + instance : 0)[r.hit.geomID] + r.hit.primID;
+  t = r.ray.tfar;
   u = r.hit.u;
   v = r.hit.v;
   return true;

@@ -4,13 +4,15 @@
 #include <thread>
 #include <vector>
 
+#include "reference/eye_media.h"
 #include "reference/reference.h"
 
 namespace whit::reference {
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
-  const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+  CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+  frame.media = mediaAround(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
   std::atomic<int> nextRow{image.window.y0}, rowsDone{0};
 

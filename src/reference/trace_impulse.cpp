@@ -82,7 +82,7 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   for (const Vec2f& sample : samples_) {
     ++counts.primary;
     const Ray ray = generateRay(camera, x + double{sample.x}, y + double{sample.y});
-    mean += (traceImpulse(ray, 0, 1.0, 0, counts) - mean) / ++taken;
+    mean += (traceImpulse(ray, 0, 1.0, camera.media, counts) - mean) / ++taken;
   }
   return mean;
 }

@@ -9,8 +9,8 @@
 namespace whit {
 
 bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
-  float u = 0, v = 0;
-  if (!accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), c.triangle, c.instance, u, v)) {
+  float t = 0, u = 0, v = 0;
+  if (!accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), c.triangle, c.instance, t, u, v)) {
     return false;
   }
   c.u = static_cast<double>(u);

@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "reference/eye_media.h"
 #include "render/build_tables.h"
+#include "render/embree_intersector.h"
+#include "render/enclosure.h"
 #include "render/renderer_parts.h"
 #include "render/tiles.h"
 
@@ -86,6 +89,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.packet = options.packet;
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
+  p.accel->setEnclosed(options.robust && isEnclosed(scene, *p.accel));
   p.tables = buildTables(scene, p.plan.effects);
   p.tables.shading = options.shading;
   p.pool.emplace(p.machine.threads);
@@ -149,6 +153,8 @@ FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film) {
   job.tables = &tables;
   job.accel = &*accel;
   job.camera = makeCameraFrame(camera, film.image.width, film.image.height);
+  job.camera.media =
+      reference::mediaAround(scene, plan.effects, EmbreeIntersector(*accel), job.camera.eye);
   job.samples = samplePattern(options.spp);
   job.cutoff = options.cutoff;
   job.exposureScale = std::exp2(options.exposure);

@@ -41,7 +41,8 @@ simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample) {
           static_cast<float>(camera.width) / 2,
           static_cast<float>(camera.height) / 2,
           sample.x,
-          sample.y};
+          sample.y,
+          camera.media};
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const double asked = camera.fov;
   const double fov = asked > kSmallestFov ? std::min(asked, kLargestFov) : kSmallestFov;
   const double pixel = 2 * std::tan(fov * (kPi / 360)) / height;
-  return {eye, forward, right * pixel, cross(right, forward) * pixel, width, height};
+  return {eye, forward, right * pixel, cross(right, forward) * pixel, width, height, 0};
 }
 
 }  // namespace whit

@@ -1,6 +1,7 @@
 // Pinhole cameras and camera paths.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time);
 struct CameraFrame {
   Vec3d eye, forward, right, up;
   int width = 0, height = 0;
+  // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
+  // renders looks for them (reference/eye_media.h).
+  std::uint32_t media = 0;
 };
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 

@@ -8,9 +8,6 @@
 
 namespace whit {
 
-// Embree ignores triangles with a corner coordinate beyond this (its FLT_LARGE).
-inline constexpr float kLargestCoordinate = 1.844e18f;
-
 // Throws Error(badScene), naming the thing at fault, for anything but triangles that cannot be
 // rendered; mends and counts what has an obvious nearest sensible value.
 void validate(SceneDescription& description, Warnings& warnings);

@@ -19,6 +19,10 @@
 
 namespace whit {
 
+// Embree ignores triangles with a corner coordinate beyond this (its FLT_LARGE), and takes no rays
+// from there.
+inline constexpr float kLargestCoordinate = 1.844e18f;
+
 struct SceneDescription {
   std::string name;               // the bare name of the file
   int width = 480, height = 300;  // the scene's own image size

@@ -1,0 +1,41 @@
+#include "render/enclosure.h"
+
+#include <cmath>
+
+namespace whit {
+
+namespace {
+
+// Points of a Fibonacci lattice on the sphere: none lies in a plane of symmetry that a model is
+// likely to have.
+Vec3f latticeDirection(int i, int n) {
+  constexpr double kGoldenAngle = 2.399963229728653;
+  const double y = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - y * y), turn = kGoldenAngle * i + 0.3;
+  return Vec3f(Vec3d{r * std::cos(turn), y, r * std::sin(turn)});
+}
+
+bool seesSomethingAllAround(const Accel& accel, const Vec3f& eye) {
+  constexpr int kDirections = 256;
+  for (int i = 0; i < kDirections; ++i) {
+    std::uint32_t triangle = kMiss, instance = kMiss;
+    float t = 0, u = 0, v = 0;
+    if (!accel.closest(eye, latticeDirection(i, kDirections), triangle, instance, t, u, v)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool isEnclosed(const Scene& scene, const Accel& accel) {
+  for (const Camera& camera : scene.cameras) {
+    if (!seesSomethingAllAround(accel, camera.eye)) return false;
+  }
+  for (const Keyframe& key : scene.cameraPath) {
+    if (!seesSomethingAllAround(accel, key.camera.eye)) return false;
+  }
+  return true;
+}
+
+}  // namespace whit
