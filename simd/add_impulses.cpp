@@ -104,8 +104,8 @@ HWY_INLINE V3 ChildOrigin(const ShadingTables& tables, const SurfelColumns& surf
                           const ImpulseLanes& lanes, size_t i, float side) {
   const FloatTag d;
   const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-  return RayOrigin(tables.shading.offset, position, lanes.ng, hn::Load(d, surfels.offset + i),
-                   side);
+  return RayOrigin(tables.shading.offset, position, lanes.ng, lanes.direction,
+                   hn::Load(d, surfels.offset + i), side);
 }
 
 size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cutoff,

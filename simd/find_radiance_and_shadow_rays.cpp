@@ -109,7 +109,8 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     }
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
-        RayOrigin(choices.offset, position, ng, hn::Load(d, surfels.offset + i), 1.0f);
+        RayOrigin(choices.offset, position, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
+                  hn::Load(d, surfels.offset + i), 1.0f);
     const V3 direction = Sub3(lightPosition, origin);
     const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);
     const Compactor lit(live);

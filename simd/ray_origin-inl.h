@@ -25,15 +25,19 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
   return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
 }
 
-// `side` is 1 for the viewer's side of the surface, -1 for the other; `bound` the surfels' offset.
-HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, VF bound,
-                        float side) {
+// `side` is 1 for the viewer's side of the surface, -1 for the other; `direction` the viewer's ray,
+// `bound` the surfels' offset.
+HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, const V3& direction,
+                        VF bound, float side) {
   const FloatTag d;
   const VF sign = hn::Set(d, side);
   if (method == OffsetMethod::wachterBinder) {
     const V3 n = Scale3(ng, sign);
     return {MovedByUlps(position.x, n.x), MovedByUlps(position.y, n.y),
             MovedByUlps(position.z, n.z)};
+  }
+  if (method == OffsetMethod::bound && side > 0) {
+    return MulAdd3(MulAdd3(direction, hn::Set(d, -kTowardsViewer), ng), bound, position);
   }
   const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : bound;
   return MulAdd3(ng, hn::Mul(offset, sign), position);

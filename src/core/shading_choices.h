@@ -11,7 +11,10 @@ enum class FresnelModel { exact, schlick };
 
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {
-  // The surfel's own bound on the rounding error of its position (numerics of makeSurfel).
+  // The surfel's own bound on the rounding error of its position (numerics of makeSurfel). On the
+  // viewer's side, kTowardsViewer of it back along the ray as well: the way there is clear, so a
+  // point that has been rounded onto or beyond a wall which meets the surface in an edge comes back
+  // inside of that, and no light leaks in (numerics H7).
   bound,
   // kFixedOffset, whatever the size of the scene.
   fixed,
@@ -21,6 +24,8 @@ enum class OffsetMethod {
   wachterBinder,
 };
 inline constexpr float kFixedOffset = 1e-3f;
+// Less than the whole, because the surface that the viewer's ray started on may be that close.
+inline constexpr float kTowardsViewer = 0.5f;
 
 struct ShadingChoices {
   // A light that adds less than this to the pixel, at most, is left out, shadow ray and all. The
