@@ -15,6 +15,7 @@ int infoCommand(const Words& words);
 int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
 int accuracyCommand(const Words& words);
+int stressCommand(const Words& words);
 
 struct Command {
   const char *name, *summary;
@@ -28,6 +29,7 @@ inline constexpr Command kCommands[] = {
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
     {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
     {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
+    {"stress", "the catalogue of hard cases on this machine", stressCommand},
     {"merge", "crops of one image, put together", mergeCommand},
 };
 

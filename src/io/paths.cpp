@@ -156,4 +156,18 @@ fs::path findScene(const std::string& file) {
                               : "; did you mean \"" + nearest + "\"?"));
 }
 
+std::vector<fs::path> hardScenes() {
+  std::vector<fs::path> scenes;
+  for (const fs::path& folder : sceneFolders()) {
+    std::error_code error;
+    for (fs::directory_iterator i(folder / "hard", error), end; !error && i != end;
+         i.increment(error)) {
+      if (i->path().extension() == ".json") scenes.push_back(i->path());
+    }
+    if (!scenes.empty()) break;
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
 }  // namespace whit

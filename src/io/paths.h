@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace whit {
 
@@ -44,5 +45,7 @@ SceneName parseSceneName(const std::string& name);
 // A path for names that look like one (a separator or an extension), a shipped scene for bare
 // names. Throws Error(usage) for a bare name that is not shipped, naming the nearest.
 std::filesystem::path findScene(const std::string& file);
+// The scenes of hard cases to look at, shipped in the folder `hard`; in order of their names.
+std::vector<std::filesystem::path> hardScenes();
 
 }  // namespace whit

@@ -1,0 +1,114 @@
+// whit stress: the catalogue of hard cases on this machine and build.
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "cli/image_output.h"
+#include "cli/interrupt.h"
+#include "cli/parse_options.h"
+#include "cli/progress_bar.h"
+#include "cli/stress_report.h"
+#include "cli/stress_sheet.h"
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "io/atomic_file.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kUsage = "whit stress [options]";
+constexpr const char* kSummary =
+    "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
+    "Exit status 1 when a bound is broken.";
+
+struct StressJob {
+  CommonOptions common;
+  std::vector<std::string> only, operands;
+  std::string json, html, sheet;
+};
+
+std::vector<std::string> namesOf(const std::vector<std::string>& lists) {
+  std::vector<std::string> names, known;
+  for (const stress::Family& family : stress::families()) {
+    for (const stress::Case& c : family.cases) known.emplace_back(c.name);
+  }
+  for (const std::string& list : lists) {
+    std::istringstream words(list);
+    for (std::string name; std::getline(words, name, ',');) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throwUsage("there is no case '" + name + "'; nearest: '" + nearestName(name, known) + "'");
+      }
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::vector<StressRow> runAll(const std::vector<std::string>& only, Progress* progress) {
+  std::vector<StressRow> rows;
+  const std::vector<stress::Family> families = stress::families();
+  std::size_t count = 0, done = 0;
+  for (const stress::Family& family : families) count += family.cases.size();
+  for (const stress::Family& family : families) {
+    for (const stress::Case& c : family.cases) {
+      reportProgress(progress, std::string(c.name),
+                     static_cast<double>(done++) / static_cast<double>(count));
+      if (!only.empty() && std::find(only.begin(), only.end(), c.name) == only.end()) continue;
+      for (const stress::Setup& setup : stress::setupsOf(c.runs)) {
+        rows.push_back({family.name, &c, setup, stress::runCase(c, setup)});
+      }
+    }
+  }
+  return rows;
+}
+
+Machine thisMachine() {
+  Warnings warnings;
+  const Scene nothing = Scene::finalize({}, warnings);
+  return Renderer(nothing, RenderOptions{}).machine();
+}
+
+}  // namespace
+
+int stressCommand(const Words& words) {
+  StressJob job;
+  OptionList list;
+  list.group("Running");
+  list.many({"only", "H1,H2a"}, "these cases; may be given more than once", job.only);
+  list.value({"json", "FILE"}, "all runs for machines; - is standard output", job.json);
+  list.value({"html", "FILE.html"}, "the table as a page", job.html);
+  list.value({"sheet", "FILE.png"}, "instead, pictures of the scenes in scenes/hard on one sheet",
+             job.sheet);
+  listReportOptions(list, job.common);
+  list.operands("Cases", "tests/README.md has the list", 0, 0, job.operands);
+  if (parseOptions(kUsage, kSummary, list, words) == Parsed::helpShown) return 0;
+  requireJsonWritable(job.json);
+  if (!job.html.empty()) requireWritable(job.html, {".html"});
+  if (!job.sheet.empty()) requireWritable(job.sheet, {".png"});
+  const std::vector<std::string> only = namesOf(job.only);
+  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  if (!job.sheet.empty()) {
+    const std::vector<std::string> names = writeStressSheet(job.sheet, progress.get());
+    progress.reset();
+    for (const std::string& name : names) std::printf("%s\n", name.c_str());
+    return 0;
+  }
+  const std::vector<StressRow> rows = runAll(only, progress.get());
+  progress.reset();
+  FILE* const people = job.json == "-" ? stderr : stdout;
+  if (people == stdout || !job.common.quiet) std::fprintf(people, "%s", stressTable(rows).c_str());
+  const Machine machine = thisMachine();
+  if (!job.json.empty()) writeJson(job.json, stressJson(machine, rows));
+  if (!job.html.empty()) {
+    const WriteScope scope;
+    writeTextFile(job.html, stressHtml(machine, rows));
+  }
+  const bool allHold = std::all_of(rows.begin(), rows.end(),
+                                   [](const StressRow& row) { return row.finding.holds(); });
+  return static_cast<int>(allHold ? ExitStatus::done : ExitStatus::checkFailed);
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,138 @@
+#include "cli/stress_report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace whit::cli {
+
+namespace {
+
+bool closer(const StressRow& a, const StressRow& b) {
+  if (a.finding.holds() != b.finding.holds()) return !a.finding.holds();
+  return a.finding.worst() > b.finding.worst();
+}
+
+std::string number(double value) {
+  if (std::isinf(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+
+std::string packetText(const stress::Setup& setup) {
+  return setup.packet == 0 ? "auto" : std::to_string(setup.packet);
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else if (c == '&') {
+      result += "&amp;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+constexpr const char* kStyle =
+    "<style>:root{color-scheme:light dark}"
+    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem}"
+    "table{border-collapse:collapse;width:100%}"
+    "th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #8884;vertical-align:top}"
+    "td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}"
+    "small{opacity:.7}code{font-size:.8em;overflow-wrap:anywhere}"
+    "tr.broken td{background:#d3222233}tr.family th{padding-top:1.2rem}</style>";
+
+}  // namespace
+
+std::vector<StressRow> worstRows(const std::vector<StressRow>& rows) {
+  std::vector<StressRow> worst;
+  for (const StressRow& row : rows) {
+    if (worst.empty() || worst.back().hardCase != row.hardCase) {
+      worst.push_back(row);
+    } else if (closer(row, worst.back())) {
+      worst.back() = row;
+    }
+  }
+  return worst;
+}
+
+std::string stressTable(const std::vector<StressRow>& rows) {
+  std::string text = "case   worst       bound       simd   packet  what must hold\n";
+  for (const StressRow& row : worstRows(rows)) {
+    char line[256];
+    std::snprintf(line, sizeof(line), "%-6s %-11s %-11s %-6s %-7s %s%.*s\n",
+                  std::string(row.hardCase->name).c_str(), number(row.finding.worst()).c_str(),
+                  number(row.finding.bound()).c_str(), row.setup.simd.c_str(),
+                  packetText(row.setup).c_str(), row.finding.holds() ? "" : "BROKEN: ",
+                  static_cast<int>(row.hardCase->title.size()), row.hardCase->title.data());
+    text += line;
+    if (!row.finding.holds()) text += "       input: " + row.finding.input() + "\n";
+  }
+  return text;
+}
+
+Json stressJson(const Machine& machine, const std::vector<StressRow>& rows) {
+  Json cases = Json::array();
+  for (const StressRow& row : rows) {
+    const double worst = row.finding.worst(), bound = row.finding.bound();
+    const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    cases.push_back({{"case", row.hardCase->name},
+                     {"title", row.hardCase->title},
+                     {"family", row.family},
+                     {"input", row.finding.input()},
+                     {"worst", finite(worst)},
+                     {"bound", finite(bound)},
+                     {"margin", finite(bound - worst)},
+                     {"simd", row.setup.simd},
+                     {"packet", row.setup.packet == 0 ? Json("auto") : Json(row.setup.packet)},
+                     {"tried", row.finding.seen()},
+                     {"holds", row.finding.holds()}});
+  }
+  return {{"machine", machineJson(machine)}, {"cases", cases}};
+}
+
+std::string stressHtmlTable(const std::vector<StressRow>& rows) {
+  std::string html =
+      "<table><thead><tr><th>case<th>what must hold<th>worst<th>bound<th>at<th>worst input"
+      "</tr></thead><tbody>\n";
+  std::string_view family;
+  for (const StressRow& row : worstRows(rows)) {
+    if (row.family != family) {
+      family = row.family;
+      html += "<tr class=family><th colspan=6>" + escaped(family) + "</th></tr>\n";
+    }
+    html += std::string("<tr") + (row.finding.holds() ? "" : " class=broken") + "><td>" +
+            escaped(row.hardCase->name) + "<td>" + escaped(row.hardCase->title) + "<br><small>" +
+            escaped(row.hardCase->construction) + "</small><td class=n>" +
+            number(row.finding.worst()) + "<td class=n>" + number(row.finding.bound()) + "<td>" +
+            row.setup.simd + ", " + packetText(row.setup) + "<td><code>" +
+            escaped(row.finding.input()) + "</code></tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string stressHtml(const Machine& machine, const std::vector<StressRow>& rows) {
+  std::size_t broken = 0;
+  for (const StressRow& row : worstRows(rows)) broken += !row.finding.holds();
+  const Json facts = machineJson(machine);
+  std::string html =
+      "<!doctype html><html lang=en><meta charset=utf-8>"
+      "<meta name=viewport content=\"width=device-width,initial-scale=1\">"
+      "<title>whit: hard cases</title>" +
+      std::string(kStyle) + "<h1>Hard cases</h1><p>";
+  for (const auto& [key, value] : facts.items()) {
+    html +=
+        escaped(key + ": " + (value.is_string() ? value.get<std::string>() : value.dump())) + "; ";
+  }
+  html += std::to_string(rows.size()) + " runs, " + std::to_string(broken) + " cases broken.</p>\n";
+  return html + stressHtmlTable(rows) + "</html>\n";
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,82 @@
+// Closed bodies and rays onto them.
+#pragma once
+
+#include "reference/triangle.h"
+#include "scene/shapes/icosphere.h"
+#include "stress/probe.h"
+#include "stress/scene_builder.h"
+
+namespace whit::stress {
+
+// Subdivided icosahedron, corners rounded to float; with the sphere's normals if smooth.
+inline Mesh sphereMesh(int level, const Vec3d& centre, double radius, std::uint32_t material,
+                       bool smooth = false) {
+  const auto [points, triangles] = procedural::icosphereMesh(level);
+  Mesh mesh;
+  for (const Vec3d& p : points) {
+    mesh.positions.emplace_back(centre + p * radius);
+    if (smooth) mesh.normals.emplace_back(p);
+  }
+  mesh.triangles = triangles;
+  mesh.materials = {material};
+  return mesh;
+}
+
+// Every triangle with corners of its own.
+inline Mesh unshared(const Mesh& mesh) {
+  Mesh result;
+  result.materials = mesh.materials;
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(result.positions.size());
+    for (const std::uint32_t corner : triangle) result.positions.push_back(mesh.positions[corner]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+// 64 x 64 cells of the plane y = 0, between -32 and 32.
+inline Mesh grid() {
+  Mesh mesh;
+  mesh.materials = {0};
+  constexpr int kCells = 64;
+  for (int y = 0; y <= kCells; ++y) {
+    for (int x = 0; x <= kCells; ++x) {
+      mesh.positions.emplace_back(Vec3d(x - kCells / 2, 0, y - kCells / 2));
+    }
+  }
+  for (std::uint32_t y = 0; y < kCells; ++y) {
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
+      mesh.triangles.push_back({a, c, d});
+      mesh.triangles.push_back({a, d, b});
+    }
+  }
+  return mesh;
+}
+
+inline Scene sceneOf(const Mesh& mesh, const Material& material) {
+  SceneBuilder builder;
+  builder.add(material);
+  builder.add(mesh);
+  return builder.build();
+}
+
+inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
+  return {origin, Vec3f(normalized(Vec3d(target) - Vec3d(origin)))};
+}
+
+// From all around at three radii, through the inside.
+inline std::vector<ProbeRay> raysOnto(const Vec3d& centre, double radius, std::size_t n,
+                                      std::uint64_t seed) {
+  Numbers numbers(seed);
+  std::vector<ProbeRay> rays;
+  while (rays.size() < n) {
+    const Vec3f from(centre + numbers.direction() * (3 * radius));
+    rays.push_back(rayThrough(from, Vec3f(centre + numbers.direction() * (0.95 * radius))));
+  }
+  return rays;
+}
+
+inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
+
+}  // namespace whit::stress

@@ -1,0 +1,112 @@
+// The catalogue of hard cases: situations in which ray tracers go wrong, each with its
+// construction, a measure of how wrong, and the bound that it must keep. `whit stress` runs them on
+// the user's machine, tests/hard as tests. The numbers H1 to H79 are those of the table in
+// tests/README.md.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace whit::stress {
+
+// What one run of a case is made with; names as in --simd and --packet.
+struct Setup {
+  std::string simd = "auto";
+  int packet = 0;
+};
+
+// Which setups a case is run with: the default one, every SIMD target (each with its Embree ISA),
+// or every target with packets of 1, 4, 8 and 16.
+enum class Runs : std::uint8_t { once, targets, packets };
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+// The worst of what a run has seen, and where.
+class Finding {
+ public:
+  // `bound`: the largest worst value that is all right; kNoBound for what is only reported.
+  explicit Finding(double bound) : bound_(bound) {}
+
+  // An error; `describe()` gives its input as text, numbers as hex floats. NaN is worse than any.
+  template <typename Describe>
+  void note(double error, const Describe& describe) {
+    ++seen_;
+    const double e = std::isnan(error) ? kNoBound : error;
+    if (e <= worst_ && !input_.empty()) return;
+    worst_ = std::max(e, worst_);
+    input_ = describe();
+  }
+  // Counts failures instead; the input is that of the first.
+  template <typename Describe>
+  void count(bool failed, const Describe& describe) {
+    ++seen_;
+    if (!failed) return;
+    if (worst_ == 0) input_ = describe();
+    worst_ += 1;
+  }
+  // Takes over another finding of the same kind: errors by their maximum, counts by their sum.
+  void merge(const Finding& other, bool counts);
+
+  double worst() const { return worst_; }
+  double bound() const { return bound_; }
+  std::uint64_t seen() const { return seen_; }  // inputs tried
+  const std::string& input() const { return input_; }
+  // A case that has tried nothing has shown nothing.
+  bool holds() const { return seen_ > 0 && worst_ <= bound_; }
+
+ private:
+  double worst_ = 0, bound_ = 0;
+  std::uint64_t seen_ = 0;
+  std::string input_;
+};
+
+struct Case {
+  std::string_view name;          // "H13", with a letter behind it where a number has several
+  std::string_view title;         // what must hold
+  std::string_view construction;  // how the input is made and what it is held against
+  Runs runs = Runs::packets;
+  Finding (*run)(const Setup& setup) = nullptr;
+
+  int number() const;
+};
+
+// A family a file.
+std::span<const Case> leavingSurfaceCases();
+std::span<const Case> thinPlaceCases();
+std::span<const Case> watertightnessCases();
+std::span<const Case> oddDirectionCases();
+std::span<const Case> degenerateGeometryCases();
+std::span<const Case> shadingNormalCases();
+std::span<const Case> refractionCases();
+std::span<const Case> nestedDielectricCases();
+std::span<const Case> rangeCases();
+std::span<const Case> invarianceCases();
+std::span<const Case> recursionCases();
+std::span<const Case> lightAndFilmCases();
+
+struct Family {
+  std::string_view name;
+  std::span<const Case> cases;
+};
+std::vector<Family> families();
+
+// Of this machine and build, at least one.
+std::vector<Setup> setupsOf(Runs runs);
+
+// One run; leaves the SIMD target as it found it ("auto").
+Finding runCase(const Case& c, const Setup& setup);
+
+// Inputs as text that can be pasted back into C++.
+std::string hexText(double value);
+std::string hexText(const Vec3f& v);
+std::string hexText(const Vec3f& origin, const Vec3f& direction);
+
+}  // namespace whit::stress

@@ -1,0 +1,280 @@
+// H59 to H61: laws that hold bit for bit and need no oracle.
+#include <cstring>
+
+#include "stress/bodies.h"
+
+namespace whit::stress {
+
+namespace {
+
+// A room with something of everything: mirror, glass, smooth normals, texture, two lights.
+SceneDescription room() {
+  SceneBuilder builder;
+  Material checked = diffuseMaterial(1);
+  checked.diffuseMap = builder.add(
+      makeTexture(TexelFormat::colour, 2, 2, {0x3fffffffu, 0x000003ffu, 0x0ff00000u, 0x3fffffffu}));
+  checked.mirror = Rgb(0.125f);
+  Material shiny = diffuseMaterial(0.5f);
+  shiny.specular = Rgb(0.25f);
+  const auto floor = builder.add(checked), wall = builder.add(diffuseMaterial(0.5f));
+  const auto mirror = builder.add(mirrorMaterial(0.75f)), glass = builder.add(glassMaterial(1.5f));
+  const auto glossy = builder.add(shiny);
+  builder.add(floorAt(0, 4, floor));
+  builder.add(box({-4, -1, -4}, {4, 5, 4}, wall));
+  builder.add(sphereMesh(3, {-1, 1, -0.5}, 0.9, mirror, true));
+  builder.add(sphereMesh(3, {1.1, 0.8, 0.4}, 0.75, glass, true));
+  builder.add(sphereMesh(2, {0.2, 0.5, 1.4}, 0.4, glossy));
+  PointLight second = lightAt({2.5f, 4.25f, 2}, 20);
+  second.intensity = {20, 15, 10};
+  builder.description.lights = {lightAt({-2.2f, 4, 2.7f}, 30), second};
+  builder.description.sky.kind = Sky::Kind::gradient;
+  builder.description.sky.zenith = {0.2f, 0.3f, 0.6f};
+  Camera camera;
+  camera.eye = {0.4f, 2, 3.9f};
+  camera.at = {0, 0.8f, 0};
+  camera.fov = 60;
+  builder.description.cameras = {camera};
+  return builder.describe();
+}
+
+Scene finalized(SceneDescription&& description) {
+  Warnings warnings;
+  return Scene::finalize(std::move(description), warnings);
+}
+
+RenderOptions small(const Setup& setup, int width = 49, int height = 31) {
+  RenderOptions options = optionsOf(setup);
+  options.size = ImageSize{width, height};
+  return options;
+}
+
+Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options) {
+  const Scene scene = finalized(std::move(description));
+  return pictureOf(scene, scene.cameras[0], options);
+}
+
+// Pixels whose bits differ; `mirrored`: column x of one is column w - 1 - x of the other.
+void compare(Finding& finding, const Image& a, const Image& b, const std::string& what,
+             bool mirrored = false) {
+  for (int y = a.window.y0; y < a.window.y1; ++y) {
+    for (int x = a.window.x0; x < a.window.x1; ++x) {
+      const Rgb &p = a.at(x, y), &q = b.at(mirrored ? b.width - 1 - x : x, y);
+      finding.count(std::memcmp(&p, &q, sizeof(Rgb)) != 0, [&] {
+        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y) + ": " + hexText(p) +
+               " against " + hexText(q);
+      });
+    }
+  }
+}
+
+// Each pixel of odd sizes against the same pixel traced alone.
+Finding partialPackets(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = finalized(room());
+  for (const ImageSize& size : {ImageSize{1, 1}, {15, 1}, {17, 3}, {1, 257}, {16, 16}}) {
+    RenderOptions options = small(setup, size.width, size.height);
+    const Image whole = pictureOf(scene, scene.cameras[0], options);
+    Numbers numbers(59);
+    for (int k = 0; k < 6; ++k) {
+      const int x = static_cast<int>(numbers.in(0, size.width));
+      const int y = static_cast<int>(numbers.in(0, size.height));
+      options.crop = Crop{x, y, x + 1, y + 1};
+      compare(finding, pictureOf(scene, scene.cameras[0], options), whole,
+              std::to_string(size.width) + "x" + std::to_string(size.height));
+    }
+  }
+  return finding;
+}
+
+// Queues of 1 to 33 rays; what lies behind the last one is poison.
+Finding poisonedLanes(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = finalized(room());
+  std::vector<ProbeRay> rays = raysOnto({0, 1.5, 0}, 1, 33, 60);
+  for (ProbeRay& ray : rays) ray.origin = {0, 2.5f, 0.25f};
+  Probe whole(scene, setup);
+  whole.cast(rays);
+  const std::vector<ProbeChild> expected = whole.reflections();
+  constexpr std::uint32_t kPoison = 0x7fc00000u;  // a NaN, and an index far out of range
+  for (std::size_t n = 1; n <= rays.size(); ++n) {
+    Probe probe(scene, setup);
+    // Fills the block behind the rays that follow with a full set of others.
+    probe.cast(std::vector<ProbeRay>(48, rays[n - 1]));
+    probe.poison(kPoison);
+    probe.cast(std::vector<ProbeRay>(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)));
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool same = probe.hits().triangle[i] == whole.hits().triangle[i] &&
+                        probe.hits().t[i] == whole.hits().t[i] && probe.ns(i) == whole.ns(i) &&
+                        probe.position(i) == whole.position(i);
+      finding.count(!same, [&] { return std::to_string(n) + " rays: " + describeRay(rays[i]); });
+    }
+    const std::vector<ProbeChild> got = probe.reflections();
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      const bool same = i < expected.size() && got[i].parent == expected[i].parent &&
+                        got[i].ray.direction == expected[i].ray.direction &&
+                        got[i].weight == expected[i].weight;
+      finding.count(!same,
+                    [&] { return "child " + std::to_string(i) + " of " + std::to_string(n); });
+    }
+  }
+  return finding;
+}
+
+Finding packetWidths(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = finalized(room());
+  const Image single = pictureOf(scene, scene.cameras[0], small({setup.simd, 1}));
+  compare(finding, pictureOf(scene, scene.cameras[0], small(setup)), single, "packets");
+  return finding;
+}
+
+Finding schedule(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = finalized(room());
+  const Image expected = pictureOf(scene, scene.cameras[0], small(setup));
+  const auto check = [&](const RenderOptions& options, const std::string& what) {
+    compare(finding, pictureOf(scene, scene.cameras[0], options), expected, what);
+  };
+  check(small(setup), "second run");
+  for (const int threads : {2, 3, 8}) {
+    RenderOptions options = small(setup);
+    options.threads = threads;
+    check(options, std::to_string(threads) + " threads");
+  }
+  for (const int tile : {7, 8, 64}) {
+    RenderOptions options = small(setup);
+    options.tile = tile;
+    check(options, "tile " + std::to_string(tile));
+  }
+  for (const int queue : {16, 1000, 65536}) {
+    RenderOptions options = small(setup);
+    options.queue = queue;
+    check(options, "queue " + std::to_string(queue));
+  }
+  RenderOptions frame = small(setup);
+  frame.batch = Batch::frame;
+  frame.threads = 2;
+  check(frame, "whole frames");
+  return finding;
+}
+
+Vec3f scaled(const Vec3f& v, int k) {
+  return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
+}
+
+Finding scaling(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  for (const int k : {-20, -3, 1, 20}) {
+    SceneDescription d = room();
+    for (Mesh& mesh : d.objects[0].meshes) {
+      for (Vec3f& p : mesh.positions) p = scaled(p, k);
+    }
+    for (PointLight& light : d.lights) {
+      light.position = scaled(light.position, k);
+      light.intensity = scaled(light.intensity, 2 * k);
+      light.radius = std::ldexp(light.radius, k);
+    }
+    d.cameras[0].eye = scaled(d.cameras[0].eye, k);
+    d.cameras[0].at = scaled(d.cameras[0].at, k);
+    compare(finding, pictureOfRoom(std::move(d), small(setup)), expected,
+            "times 2^" + std::to_string(k));
+  }
+  return finding;
+}
+
+// Without glass: whether a surface is entered or left depends on the winding.
+Finding mirroring(const Setup& setup) {
+  Finding finding(0);
+  const auto opaque = [] {
+    SceneDescription d = room();
+    for (Material& m : d.materials) m.transmission = Rgb(0.0f);
+    return d;
+  };
+  SceneDescription d = opaque();
+  for (Mesh& mesh : d.objects[0].meshes) {
+    for (Vec3f& p : mesh.positions) p.x = -p.x;
+    for (Vec3f& n : mesh.normals) n = {n.x, -n.y, -n.z};  // the winding has turned as well
+  }
+  for (PointLight& light : d.lights) light.position.x = -light.position.x;
+  d.cameras[0].eye.x = -d.cameras[0].eye.x;
+  d.cameras[0].at.x = -d.cameras[0].at.x;
+  compare(finding, pictureOfRoom(opaque(), small(setup)), pictureOfRoom(std::move(d), small(setup)),
+          "mirrored", true);
+  return finding;
+}
+
+// How far pixels move, in ulps of 1, and how many by more (rays on edges).
+Finding relativeChange(const Image& a, const Image& b, double bound) {
+  Finding finding(bound);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const double largest = std::max(1e-6, static_cast<double>(maxComponent(a.pixels[i])));
+    const double change = static_cast<double>(maxComponent(abs(a.pixels[i] - b.pixels[i])));
+    finding.note(change / largest, [&] { return "pixel " + std::to_string(i); });
+  }
+  return finding;
+}
+
+Finding lightOrder(const Setup& setup) {
+  SceneDescription d = room();
+  std::swap(d.lights[0], d.lights[1]);
+  // One sum in another order at each of the surfaces that a path meets.
+  return relativeChange(pictureOfRoom(room(), small(setup)),
+                        pictureOfRoom(std::move(d), small(setup)), 16 * 0x1p-24);
+}
+
+Finding meshOrder(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  SceneDescription d = room();
+  std::reverse(d.objects[0].meshes.begin(), d.objects[0].meshes.end());
+  for (Mesh& mesh : d.objects[0].meshes) {
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  }
+  compare(finding, pictureOfRoom(std::move(d), small(setup)), expected, "reversed");
+  return finding;
+}
+
+Finding unreachableObject(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  SceneDescription d = room();
+  d.objects[0].meshes.push_back(sphereMesh(3, {30, 20, -10}, 2, 1));
+  compare(finding, pictureOfRoom(std::move(d), small(setup)), expected, "with a far sphere");
+  return finding;
+}
+
+Finding superfluousEffects(const Setup& setup) {
+  Finding finding(0);
+  RenderOptions all = small(setup);
+  all.effects = EffectChoice::all;
+  compare(finding, pictureOfRoom(room(), all), pictureOfRoom(room(), small(setup)), "all effects");
+  return finding;
+}
+
+constexpr Case kCases[] = {
+    {"H59", "a pixel traced alone has the bits of the whole image",
+     "images of 1x1, 15x1, 17x3, 1x257, 16x16", Runs::packets, partialPackets},
+    {"H59a", "dead lanes do not matter", "queues of 1 to 33 rays with NaN behind them",
+     Runs::packets, poisonedLanes},
+    {"H59b", "every packet width gives the bits of single rays", "room with mirror and glass",
+     Runs::packets, packetWidths},
+    {"H60", "the same bits for any threads, tiles, queues, batches", "room with mirror and glass",
+     Runs::targets, schedule},
+    {"H61", "scaled by a power of two: the same bits", "2^-20 to 2^20", Runs::packets, scaling},
+    {"H61b", "mirrored: the mirrored picture, bit for bit", "x negated, without glass",
+     Runs::packets, mirroring},
+    {"H61d", "lights in another order", "relative change", Runs::targets, lightOrder},
+    {"H61e", "meshes and triangles in another order: the same bits", "both reversed", Runs::packets,
+     meshOrder},
+    {"H61f", "an object that nothing reaches: the same bits", "far sphere behind a wall",
+     Runs::packets, unreachableObject},
+    {"H61g", "effects that the scene has none of: the same bits", "kernels with every effect",
+     Runs::packets, superfluousEffects},
+};
+
+}  // namespace
+
+std::span<const Case> invarianceCases() { return kCases; }
+
+}  // namespace whit::stress

@@ -1,0 +1,252 @@
+// H1 to H4 and H9 to H11: rays that start on a surface.
+#include <array>
+
+#include "stress/bodies.h"
+
+namespace whit::stress {
+
+namespace {
+
+constexpr std::size_t kRays = 1500;
+// Rays that leave a facet more flatly than this may meet its neighbour, as far as floats can tell.
+constexpr double kLeast = 1e-3;
+
+// Reflected and shadow rays that meet the convex body which they leave.
+Finding selfHits(const Scene& scene, const Vec3d& centre, double radius, const Setup& setup,
+                 std::uint64_t seed) {
+  Finding finding(0);
+  Probe probe(scene, setup);
+  probe.cast(raysOnto(centre, radius, kRays, seed));
+  std::vector<ProbeRay> spawned;
+  for (const ProbeChild& child : probe.reflections()) {
+    if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
+      spawned.push_back(child.ray);
+    }
+  }
+  const PointLight light = lightAt(Vec3f(centre + Vec3d{3, 2.5, -2} * radius), 1);
+  probe.light(light);
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    if (maxComponent(probe.unshadowed(i)) <= 0 || !probe.isHit(i)) continue;
+    const Vec3d l = normalized(Vec3d(light.position) - Vec3d(probe.position(i)));
+    if (dot(l, Vec3d(probe.ng(i))) <= kLeast) continue;
+    finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
+  }
+  Probe next(scene, setup);
+  next.cast(spawned);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    finding.count(next.isHit(i), [&] { return describeRay(spawned[i]); });
+  }
+  return finding;
+}
+
+Material shiny() {
+  Material m = mirrorMaterial(1);
+  m.diffuse = Rgb(1.0f);
+  return m;
+}
+
+Finding sphereSelfHits(const Vec3d& centre, double radius, const Setup& setup) {
+  const Scene scene = sceneOf(sphereMesh(3, centre, radius, 0), shiny());
+  return selfHits(scene, centre, radius, setup, 1);
+}
+
+Finding scaleSweep(const Setup& setup) {
+  Finding finding(0);
+  for (const double size : {1e-4, 1e-2, 1.0, 1e3, 1e6}) {
+    finding.merge(sphereSelfHits({}, size, setup), true);
+  }
+  return finding;
+}
+
+Finding farFromOrigin(const Setup& setup) {
+  Finding finding(0);
+  for (const double away : {1e2, 1e4, 1e6}) {
+    for (const double ratio : {1.0, 1e-2, 1e-4}) {
+      finding.merge(sphereSelfHits(Vec3d{1, 0.7, -1.3} * away, away * ratio, setup), true);
+    }
+  }
+  return finding;
+}
+
+// gamma(7) * sum of magnitudes bounds a point interpolated in float (pbrt-v4, section 6.8.5).
+constexpr double kGamma7 = 7 * 0x1p-24 / (1 - 7 * 0x1p-24);
+
+Finding pointsFromFarAway(const Setup& setup) {
+  Finding finding(1);
+  SceneBuilder builder;
+  const std::array<Vec3f, 4> p{
+      Vec3f{0, 0.1f, 0}, {1, 0.2f, 0.1f}, {1.1f, 0.7f, 1}, {0.1f, 0.6f, 0.9f}};
+  builder.add(quad(p[0], p[1], p[2], p[3], builder.add(diffuseMaterial(1))));
+  const Scene scene = builder.build();
+  Numbers numbers(3);
+  std::vector<ProbeRay> rays;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const Vec3d target{numbers.in(0.2, 0.8), numbers.in(0.3, 0.5), numbers.in(0.2, 0.8)};
+    const Vec3d towards = normalized(Vec3d{1, numbers.in(0.02, 1.5), numbers.in(-0.5, 0.5)});
+    rays.push_back(rayThrough(Vec3f(target + towards * 1e5), Vec3f(target)));
+  }
+  Probe probe(scene, setup);
+  probe.cast(rays);
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    if (!probe.isHit(i)) continue;
+    const reference::Corners c =
+        reference::worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
+    const Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
+    const Vec3d at(probe.position(i));
+    const double sum = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z);
+    finding.note(std::fabs(dot(at - c[0], n)) / (kGamma7 * sum),
+                 [&] { return describeRay(rays[i]); });
+  }
+  return finding;
+}
+
+// In long double and from the corner next to the origin: the sizes of the corners differ by up to
+// 1e16.
+double distanceToPlane(const reference::Corners& c, const Vec3d& point) {
+  using Vec = Vec3<long double>;
+  const Vec n = normalized(cross(Vec(c[1]) - Vec(c[0]), Vec(c[2]) - Vec(c[0])));
+  const Vec3d* base = &c[0];
+  for (const Vec3d& corner : c) {
+    if (maxComponent(abs(corner)) < maxComponent(abs(*base))) base = &corner;
+  }
+  return static_cast<double>(std::fabs(dot(Vec(point) - Vec(*base), n)));
+}
+
+// Hits are given, so that every triangle has some whatever its shape.
+Finding offsetBoundsTheError(const Setup& setup) {
+  Finding finding(1);
+  SceneBuilder builder;
+  builder.add(diffuseMaterial(1));
+  Numbers numbers(4);
+  Mesh mesh;
+  mesh.materials = {0};
+  constexpr std::uint32_t kTriangles = 4096;
+  for (std::uint32_t i = 0; i < 3 * kTriangles; ++i) {
+    const double size = std::pow(10, numbers.in(-8, 8));
+    mesh.positions.emplace_back(numbers.direction() * size);
+    if (i % 3 == 2) mesh.triangles.push_back({i - 2, i - 1, i});
+  }
+  builder.add(mesh);
+  const Scene scene = builder.build();
+  Probe probe(scene, setup);
+  probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const double u = numbers.in(0, 1), v = numbers.in(0, 1 - u);
+    probe.hit(i, i, 1, static_cast<float>(u), static_cast<float>(v));
+  }
+  probe.interpolate();
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const reference::Corners c = reference::worldCorners(scene, i, reference::kNoHit);
+    const double u = static_cast<double>(probe.hits().u[i]),
+                 v = static_cast<double>(probe.hits().v[i]);
+    // What counts is the distance to the plane: along it 1 - u - v, rounded, moves the point more.
+    const double error = distanceToPlane(c, Vec3d(probe.position(i)));
+    finding.note(error / static_cast<double>(probe.surfels().offset[i]), [&] {
+      return hexText(Vec3f(c[0])) + ", " + hexText(Vec3f(c[1])) + ", " + hexText(Vec3f(c[2])) +
+             " at " + hexText(u) + " " + hexText(v);
+    });
+  }
+  return finding;
+}
+
+// Views from straight above to 0.06 degrees over the plane, onto corners, edges and anywhere.
+Finding startOnAPlane(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = sceneOf(floorAt(0, 1, 0), shiny());
+  Numbers numbers(9);
+  std::vector<ProbeRay> rays;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    Vec3d target{numbers.in(-1, 1), 0, numbers.in(-1, 1)};
+    if (i % 3 == 0) target = {std::floor(target.x), 0, std::floor(target.z)};
+    const double elevation = std::pow(10, numbers.in(-3, 0)), turn = numbers.in(0, 6.28);
+    const Vec3d back{std::cos(turn), i % 7 == 0 ? 1e6 : elevation, std::sin(turn)};
+    rays.push_back(rayThrough(Vec3f(target + normalized(back) * 2.0), Vec3f(target)));
+  }
+  Probe probe(scene, setup), again(scene, setup);
+  probe.cast(rays);
+  std::vector<ProbeRay> spawned;
+  for (const ProbeChild& child : probe.reflections()) spawned.push_back(child.ray);
+  again.cast(spawned);
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    finding.count(again.isHit(i), [&] { return describeRay(spawned[i]); });
+  }
+  return finding;
+}
+
+// A refracted ray that starts on the wrong side meets its own face again.
+Finding sideOfTheOffset(const Setup& setup) {
+  Finding finding(0);
+  SceneBuilder builder;
+  addSlab(builder, 0, -0.25f, builder.add(glassMaterial(1.5f)), 40);
+  const Scene scene = builder.build();
+  std::vector<ProbeRay> rays;
+  Numbers numbers(10);
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const double angle = numbers.in(0, 1.5);
+    rays.push_back({{0, 1, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
+  }
+  Probe probe(scene, setup);
+  for (const int expected : {0, 2, -1}) {
+    probe.cast(rays);
+    for (std::size_t i = 0; i < probe.size(); ++i) {
+      const int got = probe.isHit(i) ? static_cast<int>(probe.hits().triangle[i] / 2) * 2 : -1;
+      finding.count(got != expected, [&] { return describeRay(probe.ray(i)); });
+    }
+    if (expected < 0) break;
+    const Vec3f up{0, 1, 0};
+    for (const ProbeChild& child : probe.reflections()) {
+      const bool above =
+          dot(child.ray.direction, up) > 0 && child.ray.origin.y > probe.position(child.parent).y;
+      const bool below =
+          dot(child.ray.direction, up) < 0 && child.ray.origin.y < probe.position(child.parent).y;
+      finding.count(!above && !below, [&] { return describeRay(child.ray); });
+    }
+    rays.clear();
+    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+  }
+  return finding;
+}
+
+Finding instanced(const Setup& setup) {
+  Finding finding(0);
+  const Affine turn = Affine::rotation({1, 2, 3}, 40);
+  const std::array<std::pair<Affine, double>, 4> maps{
+      {{Affine::scaling({1e-3, 1e-3, 1e-3}), 1e-3},
+       {Affine::scaling({1e3, 1e3, 1e3}), 1e3},
+       {turn * Affine::scaling({1, 3, 0.3}), 1},
+       {Affine::translation({30, -20, 10}) * turn * Affine::scaling({-2, 1, 1}), 1}}};
+  for (const auto& [map, size] : maps) {
+    SceneBuilder builder;
+    const auto material = builder.add(shiny());
+    // The second one, far away, makes instances of both.
+    const Affine elsewhere = Affine::translation(map.p + Vec3d{1e5, 1e5, 1e5} * size) * map;
+    builder.place({"ball", {sphereMesh(3, {}, 1, material)}}, {map, elsewhere});
+    finding.merge(selfHits(builder.build(), map.p, size, setup, 11), true);
+  }
+  return finding;
+}
+
+constexpr Case kCases[] = {
+    {"H1", "no ray meets the convex body that it leaves, at any size",
+     "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
+    {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
+     Runs::packets, farFromOrigin},
+    {"H3", "hit points lie on the triangle, whatever the distance of the eye",
+     "patch seen from 1e5; distance to its plane over gamma(7) times the coordinates",
+     Runs::packets, pointsFromFarAway},
+    {"H4", "the offset bounds the error of the hit point",
+     "4096 triangles with coordinates of 1e-8 to 1e8; distance to the plane over offset",
+     Runs::targets, offsetBoundsTheError},
+    {"H9", "rays that start on a plane leave it", "views from vertical to 0.06 degrees",
+     Runs::packets, startOnAPlane},
+    {"H10", "children start on the side that they go to", "slab of glass: two faces, then out",
+     Runs::packets, sideOfTheOffset},
+    {"H11", "no self-hits on instances", "scaled by 1e-3 and 1e3, stretched, mirrored",
+     Runs::packets, instanced},
+};
+
+}  // namespace
+
+std::span<const Case> leavingSurfaceCases() { return kCases; }
+
+}  // namespace whit::stress

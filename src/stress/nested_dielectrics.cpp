@@ -1,0 +1,272 @@
+// H45 to H50: dielectrics in dielectrics, around the eye, without a far side, and absorbing.
+#include <array>
+
+#include "reference/media.h"
+#include "stress/bodies.h"
+
+namespace whit::stress {
+
+namespace {
+
+std::uint32_t depthOf(std::uint32_t media) {
+  std::uint32_t depth = 0;
+  for (; media != 0; media >>= 8) depth += (media & 0xFFu) != 0;
+  return depth;
+}
+
+// Follows refracted rays through the scene until all have left it; `visit` sees each that has.
+template <typename Visit>
+void follow(const Scene& scene, const Setup& setup, std::vector<ProbeRay> rays,
+            const Visit& visit) {
+  Probe probe(scene, setup);
+  for (int crossing = 0; crossing < 16 && !rays.empty(); ++crossing) {
+    probe.cast(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!probe.isHit(i)) visit(rays[i]);
+    }
+    rays.clear();
+    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+  }
+}
+
+// Glass on water: apart and overlapping. Whatever the faces in between do, a ray leaves in
+// the direction in which it came, and in no medium.
+Finding glassOnWater(const Setup& setup) {
+  Finding finding(1e-5);
+  for (const float gap : {1e-2f, 1e-3f, -1e-3f, -1e-2f}) {
+    SceneBuilder builder;
+    const auto glass = builder.add(glassMaterial(1.5f, 2)),
+               water = builder.add(glassMaterial(1.33f, 1));
+    addSlab(builder, 1, 0, glass, 50);
+    addSlab(builder, -gap, -1, water, 50);
+    const Scene scene = builder.build();
+    std::vector<ProbeRay> rays;
+    for (int i = 0; i < 200; ++i) {
+      const double angle = 1.2 * i / 200;
+      rays.push_back({{0, 2, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0.1})});
+      rays.back().direction = Vec3f(normalized(Vec3d(rays.back().direction)));
+    }
+    const std::vector<ProbeRay> start = rays;
+    std::size_t left = 0;
+    follow(scene, setup, rays, [&](const ProbeRay& ray) {
+      ++left;
+      double turned = 10;
+      for (const ProbeRay& s : start) {
+        turned = std::min(turned, length(Vec3d(ray.direction) - Vec3d(s.direction)));
+      }
+      finding.note(ray.media == 0 ? turned : 1,
+                   [&] { return "gap " + hexText(double{gap}) + " " + describeRay(ray); });
+    });
+    finding.note(left == start.size() ? 0 : 1, [&] { return "some never left"; });
+  }
+  return finding;
+}
+
+// Faces in one place: a ray meets one of them and starts beyond the other. Solids are to overlap.
+Finding coincidentFaces(const Setup& setup) {
+  Finding finding(kNoBound);
+  SceneBuilder builder;
+  addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f)), 50);
+  addSlab(builder, 0, -1, builder.add(glassMaterial(1.33f)), 50);
+  std::vector<ProbeRay> rays;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 1.2 * i / 200;
+    rays.push_back({{0, 2, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
+  }
+  follow(builder.build(), setup, rays, [&](const ProbeRay& ray) {
+    finding.count(ray.media != 0, [&] { return describeRay(ray); });
+  });
+  return finding;
+}
+
+// The interface of an overlap is the one of water and glass, not of either with the vacuum.
+Finding overlapIsOneInterface(const Setup& setup) {
+  Finding finding(16 * 0x1p-24);
+  SceneBuilder builder;
+  addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f, 2)), 50);
+  addSlab(builder, 0.01f, -1, builder.add(glassMaterial(1.33f, 1)), 50);
+  const Scene scene = builder.build();
+  Probe probe(scene, setup);
+  std::vector<ProbeRay> rays{{{0, 2, 0}, {0, -1, 0}}};
+  for (int face = 0; face < 3; ++face) {
+    probe.cast(rays);
+    const std::vector<ProbeChild> refracted = probe.refractions(), reflected = probe.reflections();
+    if (refracted.size() != 1) break;
+    // From above: into glass, into the overlap (hidden), out of glass into water.
+    const double r = face == 0 ? 0.04 : face == 1 ? 0 : std::pow((1.5 - 1.33) / (1.5 + 1.33), 2);
+    const double got = reflected.empty() ? 0 : static_cast<double>(reflected[0].weight.x);
+    finding.note(r == 0 ? got : std::fabs(got / r - 1),
+                 [&] { return "face " + std::to_string(face); });
+    rays = {refracted[0].ray};
+  }
+  return finding;
+}
+
+// Four spheres around different centres: the stack holds as many media as spheres hold the point.
+Finding stackCountsSpheres(const Setup& setup) {
+  Finding finding(0);
+  const std::array<Vec3d, 4> centre{Vec3d{}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0.05, 0.1, 0.1}};
+  SceneBuilder builder;
+  for (int i = 0; i < 4; ++i) {
+    // Straight through: the paths are lines, so that the oracle is a point in spheres.
+    const auto m = builder.add(glassMaterial(1, i));
+    builder.add(sphereMesh(4, centre[static_cast<std::size_t>(i)], 1 - 0.2 * i, m));
+  }
+  const Scene scene = builder.build();
+  Probe probe(scene, setup);
+  std::vector<ProbeRay> rays = raysOnto({}, 1, 2000, 46);
+  for (int crossing = 0; crossing < 12 && !rays.empty(); ++crossing) {
+    probe.cast(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!probe.isHit(i)) {
+        finding.count(rays[i].media != 0, [&] { return describeRay(rays[i]); });
+        continue;
+      }
+      const Vec3d middle = (Vec3d(rays[i].origin) + Vec3d(probe.position(i))) * 0.5;
+      std::uint32_t inside = 0;
+      double clear = 1;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double r = 1 - 0.2 * static_cast<double>(k), d = length(middle - centre[k]);
+        inside += d < r;
+        clear = std::min(clear, std::fabs(d - r));
+      }
+      // Facets lie up to 0.003 inside the sphere.
+      if (clear < 0.004) continue;
+      finding.count(depthOf(rays[i].media) != inside, [&] { return describeRay(rays[i]); });
+    }
+    rays.clear();
+    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+  }
+  return finding;
+}
+
+// From the middle of a ball of glass in a white room: all rays leave along the normal, and what is
+// still inside at the deepest impulse is missing.
+Finding eyeInGlass(const Setup& setup) {
+  // Facets are up to 2 degrees off, where F differs from 0.04 by 1e-6.
+  Finding finding(1e-5);
+  SceneBuilder builder;
+  builder.add(sphereMesh(4, {}, 1, builder.add(glassMaterial(1.5f))));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  Camera camera;
+  camera.eye = {0, 0, 0};
+  camera.at = {0.3f, 0.2f, -1};
+  for (const int depth : {1, 4}) {
+    RenderOptions options = optionsOf(setup);
+    options.size = ImageSize{33, 21};
+    options.depth = depth;
+    options.cutoff = 0;
+    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+      finding.note(std::fabs(1 - std::pow(0.04, depth) - static_cast<double>(pixel.x)),
+                   [&] { return "depth " + std::to_string(depth); });
+    }
+  }
+  return finding;
+}
+
+// A ball of glass in a white room, rim and all.
+Finding whiteRim(const Setup& setup) {
+  // Smooth normals: between flat facets rays really stay inside by total reflection.
+  Finding finding(1e-4);
+  SceneBuilder builder;
+  builder.add(sphereMesh(5, {}, 1, builder.add(glassMaterial(1.5f)), true));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  Camera camera;
+  camera.eye = {0, 0, 5};
+  camera.fov = 26;
+  RenderOptions options = optionsOf(setup);
+  options.size = ImageSize{32, 32};
+  options.depth = 16;
+  options.cutoff = 1e-5f;
+  const Image image = pictureOf(scene, camera, options);
+  double mean = 0;
+  for (const Rgb& pixel : image.pixels) {
+    mean += static_cast<double>(pixel.x) / static_cast<double>(image.pixels.size());
+    if (pixel.x > 1.00001f) finding.note(1, [] { return "brighter than white"; });
+  }
+  finding.note(1 - mean, [] { return "mean of the picture"; });
+  return finding;
+}
+
+// A single sheet of glass bounds a medium that nothing ends.
+Finding openGlass(const Setup& setup) {
+  Finding finding(1e-6);
+  SceneBuilder builder;
+  const auto glass = builder.add(glassMaterial(1.5f));
+  for (int i = 0; i < 6; ++i) builder.add(floorAt(-static_cast<float>(i), 50, glass));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  Camera camera;
+  camera.eye = {0, 3, 0};
+  camera.up = {0, 0, -1};
+  RenderOptions options = optionsOf(setup);
+  options.size = ImageSize{17, 11};
+  options.depth = 12;
+  options.cutoff = 0;
+  for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+    finding.note(std::fabs(1 - static_cast<double>(pixel.x)), [] { return "six sheets"; });
+  }
+  return finding;
+}
+
+// exp(-sigma t) of the kernel, the product from 0 to beyond underflow, and 0 times infinity.
+Finding absorption(const Setup& setup) {
+  // Highway's exp is good to 2 ulp; the rounding of the product, amplified by its size, adds 88.
+  Finding finding(100 * 0x1p-23);
+  Material m = glassMaterial(1);
+  m.absorption = {0, 1, 1e-8f};
+  const Scene scene = sceneOf(floorAt(0, 1, 0), m);
+  Probe probe(scene, setup);
+  std::vector<float> distances{0, 1e-8f, 1, 50, 87, 88, 104, 1e4f, 1e30f};
+  distances.push_back(std::numeric_limits<float>::infinity());
+  const std::uint32_t medium = probe.tables().materials[0].medium;
+  probe.load(std::vector<ProbeRay>(distances.size(), {{0, 1, 0}, {0, -1, 0}, medium}));
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    // Infinity is how far a ray goes that leaves the scene.
+    const bool leaves = std::isinf(distances[i]);
+    probe.hit(i, leaves ? kMiss : 0, distances[i], 0.25f, 0.25f);
+  }
+  probe.interpolate();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double t = static_cast<double>(distances[i]);
+    const std::array<double, 3> sigma{0, 1, static_cast<double>(1e-8f)};
+    const std::array<float, 3> got{probe.rays().weightR[i], probe.rays().weightG[i],
+                                   probe.rays().weightB[i]};
+    for (std::size_t c = 0; c < 3; ++c) {
+      // Below the least normal float there is nothing.
+      const double exact = sigma[c] == 0 ? 1 : std::exp(-sigma[c] * t);
+      const double least = 0x1p-125, g = static_cast<double>(got[c]);
+      const double error = exact < least ? (g > least ? 1 : 0) : std::fabs(g / exact - 1);
+      finding.note(error, [&] { return "sigma " + hexText(sigma[c]) + ", t " + hexText(t); });
+    }
+  }
+  return finding;
+}
+
+constexpr Case kCases[] = {
+    {"H45", "glass on water, apart and overlapping: rays leave as they came",
+     "200 angles; how far the direction has turned", Runs::packets, glassOnWater},
+    {"H45a", "an overlap is the interface of the two media", "relative error of F at each face",
+     Runs::packets, overlapIsOneInterface},
+    {"H45b", "faces of glass and water in one place (reported only: solids are to overlap)",
+     "rays that leave in a medium, of 200", Runs::packets, coincidentFaces},
+    {"H46", "the stack of media counts the spheres around a point",
+     "four spheres that do not share a centre; 2000 paths", Runs::packets, stackCountsSpheres},
+    {"H47", "an eye inside glass",
+     "white room from inside a ball, depths 1 and 4; against 1 - 0.04^depth", Runs::packets,
+     eyeInGlass},
+    {"H48", "no dark rim", "ball of glass in a white room; what is missing of the mean",
+     Runs::packets, whiteRim},
+    {"H49", "sheets of glass without a far side", "six of them in a white room", Runs::packets,
+     openGlass},
+    {"H50", "absorption from nothing to everything",
+     "sigma t from 0 to 1e30 and infinity; relative error", Runs::targets, absorption},
+};
+
+}  // namespace
+
+std::span<const Case> nestedDielectricCases() { return kCases; }
+
+}  // namespace whit::stress

@@ -1,0 +1,90 @@
+// Rays by the handful through the parts of the vector pipeline: Embree and the kernels, one stage
+// after the other, on the very columns that a frame uses.
+#pragma once
+
+#include <vector>
+
+#include "render/renderer_parts.h"
+#include "stress/case.h"
+
+namespace whit::stress {
+
+struct ProbeRay {
+  Vec3f origin, direction;
+  std::uint32_t media = 0;
+};
+
+struct ProbeChild {
+  ProbeRay ray;
+  Rgb weight;
+  std::uint32_t parent = 0;
+};
+
+RenderOptions optionsOf(const Setup& setup);
+
+class Probe {
+ public:
+  // With every effect compiled in, so that all columns are there. `scene` must outlive the probe.
+  Probe(const Scene& scene, const Setup& setup, bool robust = true);
+
+  // generateRays' output, made by hand; then findIntersections.
+  void cast(const std::vector<ProbeRay>& rays);
+  // The same from hits that are given: interpolateSurfels alone.
+  void load(const std::vector<ProbeRay>& rays);
+  void hit(std::size_t i, std::uint32_t triangle, float t, float u, float v);
+  void interpolate();
+  // Surfels made by hand: one of `material` with these normals at the origin, for kernels that do
+  // not look at geometry.
+  void surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns);
+
+  // addImpulses of all surfels.
+  std::vector<ProbeChild> reflections(float cutoff = 0);
+  std::vector<ProbeChild> refractions(float cutoff = 0);
+  // findRadianceAndShadowRays and checkShadows: shadow rays, of which `visible` were not blocked.
+  std::size_t light(const PointLight& light);
+
+  // Overwrites every slot of every column with these bits.
+  void poison(std::uint32_t bits);
+
+  std::size_t size() const { return count_; }
+  bool isHit(std::size_t i) const { return hits_->triangle[i] != kMiss; }
+  Vec3f position(std::size_t i) const {
+    return {surfels_->posX[i], surfels_->posY[i], surfels_->posZ[i]};
+  }
+  Vec3f ng(std::size_t i) const { return {surfels_->ngX[i], surfels_->ngY[i], surfels_->ngZ[i]}; }
+  Vec3f ns(std::size_t i) const { return {surfels_->nsX[i], surfels_->nsY[i], surfels_->nsZ[i]}; }
+  ProbeRay ray(std::size_t i) const;
+  Rgb unshadowed(std::size_t i) const {
+    return {unshadowed_->r[i], unshadowed_->g[i], unshadowed_->b[i]};
+  }
+  bool visible(std::size_t i) const { return unshadowed_->visible[i] > 0; }
+
+  const RayColumns& rays() const { return *rays_; }
+  const HitColumns& hits() const { return *hits_; }
+  const SurfelColumns& surfels() const { return *surfels_; }
+  const ShadowColumns& shadows() const { return *shadows_; }
+  const ShadingTables& tables() { return renderer_.parts().tables; }
+  const Accel& accel() { return *renderer_.parts().accel; }
+  EffectSet effects() { return renderer_.parts().plan.effects; }
+
+ private:
+  void reserve(std::size_t count);
+  std::vector<ProbeChild> childrenOf(std::size_t n) const;
+
+  Renderer renderer_;
+  FlushDenormals flush_;  // as in a frame's workers
+  std::size_t count_ = 0;
+  ColumnStore<RayColumns> rays_, children_;
+  ColumnStore<HitColumns> hits_;
+  ColumnStore<SurfelColumns> surfels_;
+  ColumnStore<UnshadowedColumns> unshadowed_;
+  ColumnStore<ShadowColumns> shadows_;
+};
+
+// What most cases look at: the picture from one camera.
+Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                FrameStats* stats = nullptr);
+// The same by the scalar reference.
+Image referencePictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+}  // namespace whit::stress

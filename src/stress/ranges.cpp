@@ -1,0 +1,190 @@
+// H51 to H58: very small and very large numbers in vectors, intensities and textures.
+#include <array>
+#include <limits>
+
+#include "simd/kernels.h"
+#include "stress/bodies.h"
+
+namespace whit::stress {
+
+namespace {
+
+// Unit length of what the kernels hand on, however large the scene.
+Finding unitNormals(const Setup& setup) {
+  Finding finding(3 * 0x1p-24);
+  SceneBuilder builder;
+  builder.add(diffuseMaterial(1));
+  Numbers numbers(51);
+  Mesh mesh;
+  mesh.materials = {0};
+  constexpr std::uint32_t kTriangles = 4000;
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    // Below 1e-14 edges are less than the least normal float apart at places.
+    const double size = std::pow(10, numbers.in(-14, 17.5));
+    for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(numbers.direction() * size);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  builder.add(mesh);
+  const Scene scene = builder.build();
+  Probe probe(scene, setup);
+  probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
+  for (std::uint32_t i = 0; i < kTriangles; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
+  probe.interpolate();
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    finding.note(std::fabs(length(Vec3d(probe.ng(i))) - 1),
+                 [&] { return "first corner " + hexText(mesh.positions[3 * i]); });
+  }
+  return finding;
+}
+
+// 64 reflections in a box of mirrors: directions keep their length.
+Finding lengthAfter64Reflections(const Setup& setup) {
+  Finding finding(3 * 0x1p-24);
+  const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), mirrorMaterial(1));
+  Numbers numbers(52);
+  std::vector<ProbeRay> rays;
+  for (int i = 0; i < 64; ++i) rays.push_back({{0.1f, 0.2f, 0.3f}, Vec3f(numbers.direction())});
+  Probe probe(scene, setup);
+  for (int bounce = 0; bounce < 64; ++bounce) {
+    probe.cast(rays);
+    rays.clear();
+    for (const ProbeChild& child : probe.reflections()) rays.push_back(child.ray);
+  }
+  for (const ProbeRay& ray : rays) {
+    finding.note(std::fabs(length(Vec3d(ray.direction)) - 1), [&] { return describeRay(ray); });
+  }
+  return finding;
+}
+
+SceneDescription litFloor(float intensity) {
+  SceneBuilder builder;
+  builder.add(floorAt(0, 4, builder.add(diffuseMaterial(0.5f))));
+  builder.add(sphereMesh(3, {0, 1, 0}, 0.7, 0, true));
+  builder.description.lights = {lightAt({1, 3, 1}, intensity)};
+  Camera camera;
+  camera.eye = {0, 3, 5};
+  camera.at = {0, 0.5f, 0};
+  builder.description.cameras = {camera};
+  return builder.describe();
+}
+
+Image litPicture(float intensity, const Setup& setup) {
+  Warnings warnings;
+  const Scene scene = Scene::finalize(litFloor(intensity), warnings);
+  RenderOptions options = optionsOf(setup);
+  options.size = ImageSize{33, 21};
+  return pictureOf(scene, scene.cameras[0], options);
+}
+
+// Light of 1e-39: what the workers flush to zero is all that is lost.
+Finding denormalLight(const Setup& setup) {
+  Finding finding(1e-37);
+  const float intensity = 1e-39f;
+  const Image image = litPicture(intensity, setup), unit = litPicture(1, setup);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const double exact = static_cast<double>(unit.pixels[i].x) * static_cast<double>(intensity);
+    finding.note(std::fabs(static_cast<double>(image.pixels[i].x) - exact),
+                 [&] { return "pixel " + std::to_string(i); });
+  }
+  return finding;
+}
+
+// The picture over the intensity: the same bits for powers of two, ulps for others.
+Finding extremeIntensities(const Setup& setup) {
+  Finding finding(4);
+  const Image unit = litPicture(1, setup);
+  for (const float intensity : {0x1p-90f, 0x1p90f, 1e-30f, 1e-10f, 1e10f, 1e30f}) {
+    const Image image = litPicture(intensity, setup);
+    const bool power = std::fabs(std::log2(intensity)) == 90;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const double one = static_cast<double>(unit.pixels[i].x);
+      const double got = static_cast<double>(image.pixels[i].x) / static_cast<double>(intensity);
+      const double ulps = one == 0 ? std::fabs(got) : std::fabs(got / one - 1) / 0x1p-23;
+      finding.note(power && ulps > 0 ? 100 : ulps,
+                   [&] { return "intensity " + hexText(double{intensity}); });
+    }
+  }
+  return finding;
+}
+
+// A sky texel that is no number: mended when the scene is made, at most its neighbours affected.
+Finding badSkyTexels(const Setup& setup) {
+  Finding finding(0);
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInf, -kInf, -1.0f}) {
+    SceneBuilder builder;
+    builder.add(floorAt(0, 1, builder.add(mirrorMaterial(1))));
+    const std::vector<float> white(16, 1.0f);
+    EnvironmentImage image{4, 4, white, white, white};
+    image.r[5] = image.g[5] = image.b[5] = bad;
+    builder.description.sky.kind = Sky::Kind::image;
+    builder.description.sky.image = std::move(image);
+    Warnings warnings;
+    const Scene scene = Scene::finalize(builder.describe(), warnings);
+    finding.count(warnings.entries().empty(),
+                  [&] { return "not counted: " + hexText(double{bad}); });
+    RenderOptions options = optionsOf(setup);
+    options.size = ImageSize{33, 21};
+    Camera camera;
+    camera.eye = {0, 1, 3};
+    camera.fov = 120;
+    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+      finding.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > 1.00001f,
+                    [&] { return "texel " + hexText(double{bad}); });
+    }
+  }
+  return finding;
+}
+
+// What Min and Max make of a NaN differs from CPU to CPU; codes must not.
+Finding oddRadiance(const Setup&) {
+  Finding finding(0);
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::array<std::pair<float, std::uint32_t>, 8> cases{{{kNan, 0},
+                                                              {-kNan, 0},
+                                                              {kInf, 255},
+                                                              {-kInf, 0},
+                                                              {-1.0f, 0},
+                                                              {-0.0f, 0},
+                                                              {1e-40f, 0},
+                                                              {3e38f, 255}}};
+  for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic, ToneCurve::reinhard}) {
+    ColumnStore<RadianceColumns> radiance(64, Groups{});
+    for (std::size_t i = 0; i < 64; ++i) {
+      radiance->r[i] = radiance->g[i] = radiance->b[i] = cases[i % 8].first;
+    }
+    std::array<std::uint32_t, 96> codes{};
+    simd::encodeDisplay(1, curve, *radiance, 64, codes.data());
+    for (std::size_t i = 0; i < 64; ++i) {
+      const auto& [value, code] = cases[i % 8];
+      const std::uint32_t got = codes[i] & 255u;
+      // Tone curves end where they end; what matters is which end.
+      const bool right = curve == ToneCurve::none || code == 0 ? got == code : got > 250;
+      finding.count(!right, [&, v = value] { return "radiance " + hexText(double{v}); });
+    }
+  }
+  return finding;
+}
+
+constexpr Case kCases[] = {
+    {"H51", "normals have unit length for corners from 1e-14 to 3e17",
+     "4000 triangles of all shapes", Runs::targets, unitNormals},
+    {"H52", "directions keep their length over 64 reflections", "box of mirrors, 64 rays",
+     Runs::packets, lengthAfter64Reflections},
+    {"H55", "light of 1e-39", "against the picture for light 1, scaled; absolute error",
+     Runs::packets, denormalLight},
+    {"H56", "light of 1e-30 to 1e30",
+     "against the picture for light 1; ulps, none allowed for powers of two", Runs::packets,
+     extremeIntensities},
+    {"H57", "sky texels that are no numbers", "NaN, infinities, -1 among 16 texels", Runs::packets,
+     badSkyTexels},
+    {"H58", "codes of radiance that is no number", "NaN, infinities, negative; all tone curves",
+     Runs::targets, oddRadiance},
+};
+
+}  // namespace
+
+std::span<const Case> rangeCases() { return kCases; }
+
+}  // namespace whit::stress

@@ -1,0 +1,51 @@
+// whit stress: the table, its JSON and page, and the sheet of scenes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+
+namespace whit::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Stress, TellsWorstAndBoundOfEveryRun) {
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "hard.html").string();
+  const Outcome outcome =
+      runWhit({"stress", "--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_TRUE(json["machine"].contains("simd"));
+  ASSERT_FALSE(json["cases"].empty());
+  for (const Json& row : json["cases"]) {
+    for (const char* key :
+         {"case", "title", "input", "worst", "bound", "margin", "simd", "packet", "holds"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+    EXPECT_EQ(row["holds"], true);
+    EXPECT_EQ(row["bound"].is_null(), row["case"] == "H16") << "reported only";
+  }
+  const std::string html = readFile(page);
+  EXPECT_NE(html.find("<td>H58"), std::string::npos);
+  EXPECT_EQ(html.find("http"), std::string::npos) << "needs nothing from elsewhere";
+}
+
+TEST(Stress, UnknownCasesNameTheNearest) {
+  const Outcome outcome = runWhit({"stress", "--only", "H380"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("'H38'"), std::string::npos) << outcome.err;
+}
+
+TEST(Stress, ASheetOfAllScenes) {
+  const TemporaryFolder folder;
+  const std::string sheet = (folder.path() / "hard.png").string();
+  const Outcome outcome = runWhit({"stress", "--sheet", sheet});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("closed-room\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,63 @@
+// Where the hard cases that are not in src/stress are tested, or why they cannot occur.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace whit::test {
+
+// Exactly one of `test` and `cannot` is there. `test` is the full name in `file`, without the
+// instantiation's prefix.
+struct Accounted {
+  int number;
+  std::string_view title, file, test, cannot;
+};
+
+inline constexpr std::array kAccounted{
+    Accounted{11, "instances are their meshes, moved", "tests/reference/reference_surfel_test.cpp",
+              "Surfel.InstancesMatchBakedGeometry", ""},
+    Accounted{23, "degenerate triangles are counted", "tests/unit/mending_test.cpp",
+              "Mending.DegenerateTrianglesAreDroppedAndCounted", ""},
+    Accounted{27, "bad corners are counted and refused by --strict", "tests/unit/mending_test.cpp",
+              "Mending.BadVerticesTakeOnlyTheirTriangles", ""},
+    Accounted{29, "random bits never reach the tables", "tests/unit/mending_test.cpp",
+              "Mending.GarbageNeverReachesTheTables", ""},
+    Accounted{31, "equal positions stay equal through transforms", "tests/unit/bake_test.cpp",
+              "Bake.UnsharedVerticesStayTogether", ""},
+    Accounted{34, "normals of no use become the face's", "tests/unit/mending_test.cpp",
+              "Mending.NormalsOfNoUseBecomeTheFaces", ""},
+    Accounted{51, "normalising from the smallest to the largest float", "tests/unit/vec3_test.cpp",
+              "Normalized.UnitLengthFromTheSmallestToTheLargestFloat", ""},
+    Accounted{53, "approximate reciprocals and roots", "", "",
+              "no kernel uses any: division and square root are IEEE's on every target"},
+    Accounted{54, "contraction and targets", "tests/render/twins_test.cpp",
+              "Twins.targetsAgreeWithEachOther", ""},
+    Accounted{55, "workers flush denormals, nobody else does", "tests/unit/worker_pool_test.cpp",
+              "WorkerPool.H55_denormalsAreFlushedInEveryWorkerAndNowhereElse", ""},
+    Accounted{57, "sky and image texels are mended and counted", "tests/images/exr_test.cpp",
+              "ExrTest.OddValuesAreMendedInTexturesOnly", ""},
+    Accounted{67, "cones of spot lights, directional lights", "", "",
+              "there are point lights only; a light at no distance is H65"},
+    Accounted{68, "far texture coordinates are recentred", "tests/unit/mending_test.cpp",
+              "Mending.FarTextureCoordinatesAreRecentredWhereTheyRepeat", ""},
+    Accounted{69, "coordinates just below 0", "tests/reference/reference_texture_test.cpp",
+              "TextureSampling.TinyNegativeCoordinates", ""},
+    Accounted{70, "mip levels and cones", "", "",
+              "there are no mip maps: lookups are bilinear in the full texture"},
+    Accounted{71, "analytic spheres", "", "", "every surface is made of triangles"},
+    Accounted{72, "every sRGB code comes back", "tests/images/display_test.cpp",
+              "Srgb.EveryCodeComesBack", ""},
+    Accounted{73, "halves are read; files are written as floats", "tests/images/exr_test.cpp",
+              "ExrTest.HalvesAndAlphaAreRead", ""},
+    Accounted{74, "image files come back", "tests/images/png_test.cpp",
+              "PngTest.All256CodesSurviveTheWholeWay", ""},
+    Accounted{75, "odd cameras give a picture", "tests/unit/camera_test.cpp",
+              "CameraFrame.SenselessCamerasStillGiveAPicture", ""},
+    Accounted{77, "a hundred rotations undone", "tests/unit/affine_test.cpp",
+              "Affine.HundredNestedRotationsUndone", ""},
+    Accounted{77, "transforms that flatten are refused", "tests/unit/validate_test.cpp",
+              "Validate.RefusesNamingTheThingAtFault", ""},
+    Accounted{78, "a real model", "tests/io/sponza_test.cpp", "Sponza.LoadsCompletely", ""},
+};
+
+}  // namespace whit::test

@@ -1,0 +1,39 @@
+// The catalogue of hard cases (src/stress), a test a case: Hard/Case.holds/H13.
+#include <gtest/gtest.h>
+
+#include "stress/case.h"
+
+namespace whit::stress {
+
+// For the names that ctest shows.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+namespace {
+
+std::vector<Case> allCases() {
+  std::vector<Case> cases;
+  for (const Family& family : families()) {
+    cases.insert(cases.end(), family.cases.begin(), family.cases.end());
+  }
+  return cases;
+}
+
+class CaseTest : public testing::TestWithParam<Case> {};
+
+TEST_P(CaseTest, holds) {
+  const Case& c = GetParam();
+  for (const stress::Setup& setup : setupsOf(c.runs)) {
+    const Finding finding = runCase(c, setup);
+    std::printf("%s, %s, packet %d: worst %.4g, bound %.4g of %llu\n", std::string(c.name).c_str(),
+                setup.simd.c_str(), setup.packet, finding.worst(), finding.bound(),
+                static_cast<unsigned long long>(finding.seen()));
+    EXPECT_TRUE(finding.holds()) << c.title << "\n  " << c.construction << "\n  input "
+                                 << finding.input();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Hard, CaseTest, testing::ValuesIn(allCases()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace whit::stress
