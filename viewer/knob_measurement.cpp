@@ -1,5 +1,6 @@
 #include "viewer/knob_measurement.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -9,7 +10,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr int kTurns = 2;
+constexpr int kTurns = 3;
 
 // The cheapest setting that still makes a picture of the scene.
 constexpr std::array<std::pair<const char*, const char*>, 6> kCheapest{{{"depth", "0"},
@@ -49,14 +50,23 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
   return candidates;
 }
 
-// Keeps the quickest. The first frame after a change fills new queues and does not count.
-void render(Renderer& renderer, const RenderOptions& options, const Camera& camera, Film& film,
-            FrameStats& best) {
-  renderer.setOptions(options);
-  renderer.render(camera, film);
-  const FrameStats stats = renderer.render(camera, film);
-  if (best.frameMs == 0 || stats.frameMs < best.frameMs) best = stats;
-}
+// Frames of the same settings. The first after a change fills new queues and does not count.
+class Turns {
+ public:
+  void take(Renderer& renderer, const RenderOptions& options, const Camera& camera, Film& film) {
+    renderer.setOptions(options);
+    renderer.render(camera, film);
+    const FrameStats stats = renderer.render(camera, film);
+    longestMs_ = std::max(longestMs_, stats.frameMs);
+    if (quickest.frameMs == 0 || stats.frameMs < quickest.frameMs) quickest = stats;
+  }
+  double spreadMs() const { return longestMs_ - quickest.frameMs; }
+
+  FrameStats quickest;
+
+ private:
+  double longestMs_ = 0;
+};
 
 }  // namespace
 
@@ -65,13 +75,14 @@ std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& opti
                                    const std::function<bool()>& superseded) {
   std::vector<KnobCost> costs;
   for (const Candidate& candidate : candidatesOf(renderer, options)) {
-    KnobCost cost{candidate.name, candidate.other, {}, {}};
+    Turns now, then;
     for (int turn = 0; turn < kTurns; ++turn) {
       if (superseded()) return {};
-      render(renderer, candidate.options, camera, film, cost.then);
-      render(renderer, options, camera, film, cost.now);
+      then.take(renderer, candidate.options, camera, film);
+      now.take(renderer, options, camera, film);
     }
-    costs.push_back(std::move(cost));
+    costs.push_back({candidate.name, candidate.other, now.quickest, then.quickest,
+                     std::max(now.spreadMs(), then.spreadMs())});
   }
   return costs;
 }

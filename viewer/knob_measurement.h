@@ -1,6 +1,7 @@
 // What each knob and each effect costs now: the present view with it and without it.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,8 +14,11 @@ struct KnobCost {
   std::string name;   // of the option, or of the effect
   std::string other;  // the setting that is compared with, "off" for an effect
   FrameStats now, then;
+  double spreadMs = 0;  // by how much frames of the same settings differed, at most
 
   double ms() const { return now.frameMs - then.frameMs; }
+  // Whether the difference is more than what the machine's other work may have made.
+  bool significant() const { return std::abs(ms()) > spreadMs; }
   double rays() const {
     return static_cast<double>(now.allRays()) - static_cast<double>(then.allRays());
   }

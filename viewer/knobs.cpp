@@ -94,7 +94,11 @@ void drawCost(const KnobCosts& costs, const std::string& name) {
   if (!measured && found == costs.changes().end()) return;
   ImGui::SameLine();
   if (measured) {
-    ImGui::TextDisabled("costs %.2f ms", measured->ms());
+    if (measured->significant()) {
+      ImGui::TextDisabled("costs %.2f ms", measured->ms());
+    } else {
+      ImGui::TextDisabled("0 +- %.2f ms", measured->spreadMs);
+    }
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s: %+.0f rays, against %s", name.c_str(), measured->rays(),
                         measured->other.c_str());
