@@ -25,6 +25,11 @@ void Pace::end() {
   current_ = 0;
 }
 
+void Pace::skip() {
+  total_ -= current_;
+  current_ = 0;
+}
+
 void Pace::report(const std::string&, double fraction) {
   const double all = total_ > 0 ? (done_ + current_ * fraction) / total_ : 0;
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();

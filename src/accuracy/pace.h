@@ -16,8 +16,8 @@ class Pace : public Progress {
 
   void plan(double work) { total_ += work; }
   void begin(const std::string& step, double work);
-  void end();                                 // of the step that was begun
-  void skip(double work) { total_ -= work; }  // planned, but not needed
+  void end();   // of the step that was begun
+  void skip();  // instead of end(): the step turned out not to be needed
   void report(const std::string& phase, double fraction) override;
 
  private:

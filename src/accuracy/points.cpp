@@ -44,7 +44,7 @@ class PointCollector {
   std::set<std::string> seen_;
 };
 
-// All combinations of the knobs' joint values.
+// All combinations of the knobs' joint values, named by what differs from `base`.
 std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
                                                                 const std::vector<Knob>& knobs) {
   std::vector<std::pair<std::string, RenderOptions>> all{{"", base}};
@@ -53,10 +53,13 @@ std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOpti
     for (const auto& [label, options] : all) {
       for (const KnobValue& value : knob.values) {
         if (!value.joint) continue;
-        RenderOptions changed = options;
+        RenderOptions changed = options, alone = base;
         value.apply(changed);
-        more.emplace_back(label + (label.empty() ? "" : " ") + knob.name + "=" + value.label,
-                          changed);
+        value.apply(alone);
+        std::string name = label;
+        if (digestOf(alone) != digestOf(base))
+          name += (name.empty() ? "" : " ") + knob.name + "=" + value.label;
+        more.emplace_back(name, changed);
       }
     }
     if (!more.empty()) all = std::move(more);

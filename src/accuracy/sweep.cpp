@@ -100,8 +100,7 @@ class SceneSweeper {
     pace_.begin("reference", work);
     ErrorMeter meter(scene_, camera_, base_, exactness_, cache_, sweep_.referenceSamples, &pace_);
     const ReferencePicture& reference = meter.reference();
-    pace_.end();
-    if (reference.fromFile) pace_.skip(work);
+    reference.fromFile ? pace_.skip() : pace_.end();
     sweep_.referenceDigest = reference.digest;
     sweep_.referenceMs = reference.renderMs;
     sweep_.referenceFromFile = reference.fromFile;

@@ -67,6 +67,8 @@ TEST(Points, CombinationsAreLimitedAndRepeatable) {
     return all;
   };
   EXPECT_EQ(labels(1).size(), 10u);
+  for (const std::string& label : labels(1))
+    EXPECT_EQ(label.find("depth=8"), std::string::npos) << label << ": 8 is the default";
   EXPECT_EQ(labels(1), labels(1));
   EXPECT_NE(labels(1), labels(2));
 }
