@@ -22,7 +22,7 @@ Image pictureOf(const std::string& scene) {
   RenderOptions options;
   options.size = ImageSize{kWidth, kHeight};
   options.depth = 16;
-  options.spp = 4;
+  options.spp = 1;
   Renderer renderer(loaded, options);
   Film film = makeFilm(loaded, options);
   renderer.render(loaded.cameras.front(), film);
