@@ -77,6 +77,7 @@ OptionSpec renderOptionSpec(const std::string& name, const std::string& placehol
     if (name == option) spec.low = low, spec.high = high;
   };
   limit("spp", 1, kSppLimit);
+  limit("contrast", 0, 255);
   limit("depth", 0, kDepthLimit);
   limit("cutoff", 0, 1);
   limit("light-cutoff", 0, 1e6);

@@ -26,14 +26,12 @@ struct Image {
   int windowWidth() const { return window.x1 - window.x0; }
   int windowHeight() const { return window.y1 - window.y0; }
   // x, y in image coordinates, inside the window.
-  Rgb& at(int x, int y) { return pixels[index(x, y)]; }
-  const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }
-
- private:
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(windowWidth()) +
            static_cast<std::size_t>(x - window.x0);
   }
+  Rgb& at(int x, int y) { return pixels[index(x, y)]; }
+  const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }
 };
 
 // 8-bit sRGB, RGBA with opaque alpha, row by row from the top.

@@ -30,6 +30,9 @@ struct Crop {
   bool operator==(const Crop&) const = default;
 };
 
+// Neighbouring pixels that differ by more in some 8-bit code show an edge.
+inline constexpr int kDefaultContrast = 8;
+
 struct RenderOptions {
   std::optional<ImageSize> size;
   std::string camera;
@@ -37,6 +40,8 @@ struct RenderOptions {
   std::optional<float> fov;
   std::optional<Crop> crop;
   int spp = 1;
+  bool adaptive = false;
+  int contrast = kDefaultContrast;
   int depth = 8;
   float cutoff = 3.0e-4f;
   int threads = 0;  // 0: what affinity and cgroup quota allow
@@ -75,6 +80,11 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("fov", "DEG", "vertical field of view", o.fov);
   visit("crop", "x0,y0,x1,y1", "pixels traced; the EXR's data window", o.crop);
   visit("spp", "N", "samples per pixel", o.spp);
+  visit("adaptive", "on|off",
+        "--spp samples only where neighbours differ in surface or contrast, elsewhere one",
+        o.adaptive);
+  visit("contrast", "N", "8-bit codes by which neighbours may differ before --adaptive acts",
+        o.contrast);
   visit("depth", "N", "deepest impulse", o.depth);
   visit("cutoff", "X", "smallest contribution of an impulse that is still traced", o.cutoff);
   visit("light-cutoff", "X",

@@ -9,12 +9,18 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
+#include "scene/pixel_edges.h"
 #include "scene/scene.h"
 
 namespace whit::reference {
 
 struct Settings {
   int spp = 1;
+  // Only where findEdges says so, in the picture of first samples as it would be displayed.
+  bool adaptive = false;
+  int contrast = kDefaultContrast;
+  float exposure = 0;
+  ToneCurve toneCurve = ToneCurve::none;
   int depth = 8;
   double cutoff = 3.0e-4;
   ShadingChoices shading;
@@ -44,8 +50,12 @@ class Tracer {
                     RayCounts& counts) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  // Through the pixel's centre alone, and what that ray meets.
+  RgbD centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;
 
  private:
+  RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, RayCounts& counts) const;
   RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
               RayCounts& counts) const;
@@ -56,7 +66,7 @@ class Tracer {
   std::vector<Vec2f> samples_;
 };
 
-// All pixels of image.window, rows shared among settings.threads threads.
+// All pixels of image.window; rows shared among settings.threads threads.
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress = nullptr);
 

@@ -80,11 +80,29 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   RgbD mean;
   double taken = 0;
   for (const Vec2f& sample : samples_) {
-    ++counts.primary;
-    const Ray ray = generateRay(camera, x + double{sample.x}, y + double{sample.y});
-    mean += (traceImpulse(ray, 0, 1.0, camera.media, counts) - mean) / ++taken;
+    mean += (sampled(camera, x, y, sample, counts) - mean) / ++taken;
   }
   return mean;
+}
+
+RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  return sampled(camera, x, y, {0.5f, 0.5f}, counts);
+}
+
+RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                     RayCounts& counts) const {
+  ++counts.primary;
+  const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
+  return traceImpulse(ray, 0, 1.0, camera.media, counts);
+}
+
+PixelSurface Tracer::surfaceAtCentre(const CameraFrame& camera, int x, int y) const {
+  const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
+  Candidate candidate;
+  if (!intersector_.closest(ray, candidate)) return {};
+  const TriangleHit hit = refineHit(scene_, ray, candidate);
+  const Surfel s = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction);
+  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
 }
 
 }  // namespace whit::reference

@@ -242,7 +242,7 @@ std::span<const EffectColour> effectColours() { return kEffectColours; }
 
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
   Renderer::Parts& parts = renderer.parts();
-  FrameJob job = parts.makeJob(camera, film);
+  FrameJob job = parts.makeJob(camera, film, film.image.window);
   Watcher watcher(parts, film.image.window, view);
   DebugFrame frame{parts.renderObserved(job, watcher), ""};
   const std::vector<Watcher::Pixel>& pixels = watcher.pixels();

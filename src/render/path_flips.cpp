@@ -91,7 +91,7 @@ class RecordingIntersector : public reference::Intersector {
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
   Renderer::Parts& p = renderer.parts();
   Film scratch = film;
-  FrameJob job = p.makeJob(camera, scratch);
+  FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   SignatureObserver observer(film.image.window, p.plan.traceShadows, p.plan.groups.instances);
   p.renderObserved(job, observer);
 

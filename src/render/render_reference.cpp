@@ -25,6 +25,10 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
 reference::Settings Renderer::Parts::referenceSettings() const {
   reference::Settings settings;
   settings.spp = options.spp;
+  settings.adaptive = adaptive();
+  settings.contrast = options.contrast;
+  settings.exposure = options.exposure;
+  settings.toneCurve = options.toneCurve;
   settings.depth = options.depth;
   settings.cutoff = static_cast<double>(options.cutoff);
   settings.shading = options.shading;

@@ -35,6 +35,8 @@ std::string embreeIsa(const std::string& target) {
 // What Renderer::setOptions() takes over.
 void takeOver(const RenderOptions& from, RenderOptions& to) {
   to.spp = from.spp;
+  to.adaptive = from.adaptive;
+  to.contrast = from.contrast;
   to.depth = from.depth;
   to.cutoff = from.cutoff;
   to.shading = from.shading;
@@ -109,23 +111,21 @@ std::uint64_t Renderer::memoryBytes() const {
   const Parts& p = *parts_;
   std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
   for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
+  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity();
+  sum +=
+      p.firstSamples.image.pixels.capacity() * sizeof(Rgb) + p.firstSamples.display.rgba.capacity();
   return sum;
 }
 
-void Renderer::Parts::layOut(const Film& film) {
-  if (!tracers.empty() && laidOut == film.image.window) return;
-  laidOut = film.image.window;
+void Renderer::Parts::layOut(const Crop& window) {
+  if (!tracers.empty() && laidOut == window) return;
+  laidOut = window;
   tiles = makeTiles(laidOut, options.tile);
   batches.clear();
   const auto workers = static_cast<std::size_t>(machine.threads);
   std::size_t capacity = static_cast<std::size_t>(options.tile * options.tile);
   if (options.batch == Batch::frame) {
-    // Tiles dealt out in turn, so that every worker gets its share of each part of the image.
-    batches.resize(workers);
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-      std::vector<std::uint32_t>& batch = batches[i % workers];
-      batch.insert(batch.end(), tiles[i].begin(), tiles[i].end());
-    }
+    batches = dealOut(tiles, workers);
     capacity = kBlock;
     for (const auto& batch : batches) capacity = std::max(capacity, batch.size());
   }
@@ -136,18 +136,20 @@ void Renderer::Parts::layOut(const Film& film) {
     for (std::size_t i = 0; i < workers; ++i) tracers.emplace_back(plan, capacity);
     tracerCapacity = capacity;
   }
-  // Kernels read whole vectors of pixels.
-  for (auto& tile : tiles) tile.reserve(tile.size() + 2 * kBlock);
-  for (auto& batch : batches) batch.reserve(batch.size() + 2 * kBlock);
+  padForVectors(tiles);
+  padForVectors(batches);
 }
 
-FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film) {
-  layOut(film);
-  if (film.wantDisplay) {
-    film.display.width = film.image.windowWidth();
-    film.display.height = film.image.windowHeight();
-    film.display.rgba.resize(film.image.pixels.size() * 4);
-  }
+void sizeDisplay(Film& film) {
+  if (!film.wantDisplay) return;
+  film.display.width = film.image.windowWidth();
+  film.display.height = film.image.windowHeight();
+  film.display.rgba.resize(film.image.pixels.size() * 4);
+}
+
+FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& window) {
+  layOut(window);
+  sizeDisplay(film);
   FrameJob job;
   job.plan = &plan;
   job.tables = &tables;
@@ -163,14 +165,17 @@ FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film) {
   return job;
 }
 
-FrameStats Renderer::Parts::renderTiles(FrameJob& job, std::vector<RayLog>* logs) {
+FrameStats Renderer::Parts::renderTiles(FrameJob& job, const PixelLists& lists,
+                                        std::vector<RayLog>* logs) {
   std::atomic<std::size_t> next{0};
   std::vector<FrameStats> stats(tracers.size());
+  const std::size_t firstLog = logs ? logs->size() : 0;
+  if (logs) logs->resize(firstLog + lists.size());
   pool->run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
     FrameStats mine;  // on this worker's stack: no cache line is shared while the frame runs
-    for (std::size_t i = next++; i < tiles.size(); i = next++) {
-      tracers[w].trace(job, tiles[i], mine, logs ? &(*logs)[i] : nullptr);
+    for (std::size_t i = next++; i < lists.size(); i = next++) {
+      tracers[w].trace(job, lists[i], mine, logs ? &(*logs)[firstLog + i] : nullptr);
     }
     stats[w] = mine;
   });
@@ -179,26 +184,33 @@ FrameStats Renderer::Parts::renderTiles(FrameJob& job, std::vector<RayLog>* logs
   return sum;
 }
 
-FrameStats Renderer::Parts::renderBatches(FrameJob& job) {
+FrameStats Renderer::Parts::renderBatches(FrameJob& job, const PixelLists& lists) {
   std::barrier<> stageBarrier(static_cast<std::ptrdiff_t>(tracers.size()));
   job.stageBarrier = &stageBarrier;
   std::vector<FrameStats> stats(tracers.size());
   pool->run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
     FrameStats mine;
-    tracers[w].trace(job, batches[w], mine, nullptr);
+    tracers[w].trace(job, lists[w], mine, nullptr);
     stats[w] = mine;
     stageBarrier.arrive_and_drop();  // the others may have deeper queues
   });
+  job.stageBarrier = nullptr;
   FrameStats sum;
   for (const FrameStats& s : stats) sum.add(s);
   return sum;
 }
 
+FrameStats Renderer::Parts::renderLists(FrameJob& job, const PixelLists& tileLists,
+                                        const PixelLists& batchLists, std::vector<RayLog>* logs) {
+  return options.batch == Batch::frame && !logs ? renderBatches(job, batchLists)
+                                                : renderTiles(job, tileLists, logs);
+}
+
 FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs) {
   const Clock::time_point start = Clock::now();
   FrameStats stats =
-      options.batch == Batch::frame && !logs ? renderBatches(job) : renderTiles(job, logs);
+      adaptive() ? renderAdaptively(job, logs) : renderLists(job, tiles, batches, logs);
   stats.frameMs = since(start);
   stats.workers = machine.threads;
   return stats;
@@ -257,15 +269,15 @@ bool Renderer::canSetOptions(const RenderOptions& options) const {
 }
 
 FrameStats Renderer::render(const Camera& camera, Film& film) {
-  FrameJob job = parts_->makeJob(camera, film);
+  FrameJob job = parts_->makeJob(camera, film, parts_->tracedWindow(film));
   return parts_->renderFrame(job, nullptr);
 }
 
 FloorResult Renderer::measureFloor(const Camera& camera, Film& film, int frames) {
   Parts& p = *parts_;
-  FrameJob job = p.makeJob(camera, film);
-  std::vector<RayLog> logs(p.tiles.size());
-  p.renderTiles(job, &logs);
+  FrameJob job = p.makeJob(camera, film, p.tracedWindow(film));
+  std::vector<RayLog> logs;
+  p.renderFrame(job, &logs);
   FloorResult result;
   for (const RayLog& log : logs) {
     for (const RayLog::Stream& stream : log.streams()) result.rays += stream.rays.size() / 7;

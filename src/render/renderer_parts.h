@@ -8,20 +8,37 @@
 #include "reference/reference.h"
 #include "render/renderer.h"
 #include "render/tile_tracer.h"
+#include "render/tiles.h"
 #include "scene/sample_pattern.h"
 
 namespace whit {
 
+// Room for the display codes of the film's window, when they are wanted.
+void sizeDisplay(Film& film);
+
 struct Renderer::Parts {
   Parts(const Scene& s, const RenderOptions& o) : scene(s), options(o) {}
 
-  FrameJob makeJob(const Camera& camera, Film& film);
   reference::Settings referenceSettings() const;
-  void layOut(const Film& film);  // tiles and tracers, when the window has changed
+  bool adaptive() const { return options.adaptive && options.spp > 1; }
+  // The pixels that a frame traces: the film's, and those next to them when they are compared.
+  Crop tracedWindow(const Film& film) const;
+  // A job over the tiles of `window`.
+  FrameJob makeJob(const Camera& camera, Film& film, const Crop& window);
+  void layOut(const Crop& window);  // tiles and tracers, when the window has changed
+  // The lists one by one, each by the next worker that is free; their rays go to logs of their own
+  // behind those that are there.
+  FrameStats renderTiles(FrameJob& job, const PixelLists& lists, std::vector<RayLog>* logs);
+  // A list a worker, all workers in the same stage.
+  FrameStats renderBatches(FrameJob& job, const PixelLists& lists);
+  FrameStats renderLists(FrameJob& job, const PixelLists& tileLists, const PixelLists& batchLists,
+                         std::vector<RayLog>* logs);
   void replan(const Plan& next);
-  FrameStats renderTiles(FrameJob& job, std::vector<RayLog>* logs);
-  FrameStats renderBatches(FrameJob& job);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
+  // --adaptive: the first sample of every pixel, then all of them at edges.
+  FrameStats renderAdaptively(FrameJob& job, std::vector<RayLog>* logs);
+  FrameStats settleFirstSamples(Film& film);  // finds the edges, keeps the rest
+  PixelLists edgePixels(const Crop& window) const;
   // One worker, tile by tile, with an observer looking on.
   FrameStats renderObserved(FrameJob& job, StageObserver& observer);
 
@@ -35,10 +52,15 @@ struct Renderer::Parts {
   double buildMs = 0;
 
   Crop laidOut;  // window that the tiles below cover
-  std::vector<std::vector<std::uint32_t>> tiles;
-  std::vector<std::vector<std::uint32_t>> batches;  // --batch frame: one a worker
-  std::vector<TileTracer> tracers;                  // one a worker; none after another plan
-  std::size_t tracerCapacity = 0;                   // rays, of each
+  PixelLists tiles;
+  PixelLists batches;               // --batch frame: one a worker
+  std::vector<TileTracer> tracers;  // one a worker; none after another plan
+  std::size_t tracerCapacity = 0;   // rays, of each
+
+  // --adaptive: the picture of first samples.
+  Film firstSamples;
+  std::vector<PixelSurface> surfaces;
+  std::vector<std::uint8_t> edges;
 };
 
 }  // namespace whit

@@ -302,7 +302,7 @@ std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& cam
   Renderer::Parts& p = renderer.parts();
   Film scratch = film;
   scratch.wantDisplay = true;
-  FrameJob job = p.makeJob(camera, scratch);
+  FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   job.exposureScale = 1;
   StageComparer comparer(p.scene, p.plan, job);
   p.renderObserved(job, comparer);

@@ -167,7 +167,23 @@ void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColum
   std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
   materialFlags_ = simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_,
                                             level.chunk, *surfels_);
+  if (depth == 0 && pass.job.surfaces) recordSurfaces(pass);
   endStage(pass, Stage::findIntersections, depth);
+}
+
+void TileTracer::recordSurfaces(const Pass& pass) {
+  const SurfelColumns& s = *surfels_;
+  for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
+    const std::uint32_t pixel = pass.pixels[i];
+    PixelSurface& surface = (*pass.job.surfaces)[pass.job.film->image.index(
+        static_cast<int>(pixel & 0xFFFFu), static_cast<int>(pixel >> 16))];
+    surface = {};
+    if (s.material[i] == kMiss) continue;
+    surface.material = s.material[i];
+    if (hits_->instance) surface.instance = hits_->instance[i];
+    surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
+    surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
+  }
 }
 
 void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays) {

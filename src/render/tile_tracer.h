@@ -18,6 +18,7 @@
 #include "render/plan.h"
 #include "render/renderer.h"
 #include "render/stage_clock.h"
+#include "scene/pixel_edges.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
@@ -58,6 +59,8 @@ struct FrameJob {
   float cutoff = 0, exposureScale = 1;
   ToneCurve toneCurve = ToneCurve::none;
   Film* film = nullptr;
+  // When wanted: what the rays of depth 0 meet, as film->image.pixels.
+  std::vector<PixelSurface>* surfaces = nullptr;
   std::barrier<>* stageBarrier = nullptr;  // --batch frame: everyone waits after each stage
   StageObserver* observer = nullptr;
 };
@@ -90,6 +93,7 @@ class TileTracer {
   void traceSample(Pass& pass);
   void shadeChunk(Pass& pass, std::size_t depth);
   void findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays);
+  void recordSurfaces(const Pass& pass);
   void shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays);
   void addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays);
   void finishChunk(Pass& pass, std::size_t depth);

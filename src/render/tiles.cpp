@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stages/columns.h"
+
 namespace whit {
 
 namespace {
@@ -27,9 +29,9 @@ std::vector<std::uint32_t> mortonOrder(std::uint32_t side) {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> makeTiles(const Crop& window, int side) {
+PixelLists makeTiles(const Crop& window, int side) {
   const std::vector<std::uint32_t> order = mortonOrder(static_cast<std::uint32_t>(side));
-  std::vector<std::vector<std::uint32_t>> tiles;
+  PixelLists tiles;
   for (int y0 = window.y0; y0 < window.y1; y0 += side) {
     for (int x0 = window.x0; x0 < window.x1; x0 += side) {
       std::vector<std::uint32_t>& tile = tiles.emplace_back();
@@ -42,6 +44,19 @@ std::vector<std::vector<std::uint32_t>> makeTiles(const Crop& window, int side) 
     }
   }
   return tiles;
+}
+
+PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
+  PixelLists shares(workers);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::vector<std::uint32_t>& share = shares[i % workers];
+    share.insert(share.end(), lists[i].begin(), lists[i].end());
+  }
+  return shares;
+}
+
+void padForVectors(PixelLists& lists) {
+  for (auto& list : lists) list.reserve(list.size() + 2 * kBlock);
 }
 
 }  // namespace whit

@@ -8,17 +8,11 @@
 
 namespace whit {
 
-// Offsets in [0, 1)^2 from the pixel's top left corner. One sample: the centre. More: the R2
-// sequence (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), centred.
-inline std::vector<Vec2f> samplePattern(int spp) {
-  if (spp == 1) return {{0.5f, 0.5f}};
-  std::vector<Vec2f> samples;
-  for (int i = 0; i < spp; ++i) {
-    const double x = 0.5 + 0.75487766624669276005 * i, y = 0.5 + 0.56984029099805326591 * i;
-    samples.push_back(
-        {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))});
-  }
-  return samples;
-}
+// Offsets in [0, 1)^2 from the pixel's top left corner; one sample is the centre. Rooks that do not
+// attack each other on a board of spp x spp cells, in the order of a Fibonacci lattice: an edge
+// that is nearly level or upright passes the samples one at a time, unlike with a regular grid, and
+// the pattern is as even in the plane (Niederreiter 1992, "Random Number Generation and Quasi-Monte
+// Carlo Methods", chapter 5).
+std::vector<Vec2f> samplePattern(int spp);
 
 }  // namespace whit

@@ -1,0 +1,35 @@
+// Which pixels need more than one sample: those that differ from a neighbour in surface or in
+// contrast, as in the adaptive sampling of Whitted 1980 ("An improved illumination model for shaded
+// display", section on aliasing). The same rule for reference and kernels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace whit {
+
+// What a pixel's first ray meets. Nothing at all: the defaults.
+struct PixelSurface {
+  static constexpr std::uint32_t kNothing = 0xffffffffu;
+  std::uint32_t material = kNothing, instance = kNothing;
+  Vec3f position, normal;  // in the world; the geometric normal, towards the viewer
+};
+
+// Whether neighbouring pixels show the same smooth surface: material and instance agree, the
+// normals by 5 degrees, and so does the direction from one point to the other with their planes.
+// What lies behind or beside an edge does not, at any scale, even of the same material.
+bool onSameSurface(const PixelSurface& a, const PixelSurface& b);
+
+// The pixels of `window` and one more on each side, where the image has one.
+Crop grownByOne(const Crop& window, int width, int height);
+
+// Sets edges[i] to 1 for each pixel i of the window's rows [row0, row1), counted from its top, that
+// has a neighbour among its eight on another surface, or with a display code that differs by more
+// than `contrast` in some channel; 0 for the others. `surfaces` and `edges` are one a pixel of
+// `display`. Rows may be shared out among threads.
+void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,
+               int row0, int row1, std::vector<std::uint8_t>& edges);
+
+}  // namespace whit

@@ -1,0 +1,126 @@
+// --adaptive: one sample a pixel, and all of them where neighbours differ.
+#include <gtest/gtest.h>
+
+#include "core/display.h"
+#include "metrics/metrics.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+RenderOptions withSamples(int spp, bool adaptive) {
+  RenderOptions o = smallOptions();
+  o.spp = spp;
+  o.adaptive = adaptive;
+  return o;
+}
+
+bool sameBits(const Rgb& a, const Rgb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+class Adaptive : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { scene_ = load(GetParam()); }
+  Scene scene_;
+};
+
+// Each pixel is that of one sample, or that of all, to the bit; and the rays are counted right.
+TEST_P(Adaptive, pixelsAreThoseOfOneSampleOrOfAll) {
+  const Picture one = render(scene_, withSamples(1, false));
+  const Picture all = render(scene_, withSamples(5, false));
+  const Picture adaptive = render(scene_, withSamples(5, true));
+  const std::size_t pixels = one.image.pixels.size();
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const Rgb got = adaptive.image.pixels[i];
+    const bool keptOne = sameBits(got, one.image.pixels[i]);
+    EXPECT_TRUE(keptOne || sameBits(got, all.image.pixels[i])) << i;
+    changed += !keptOne;
+  }
+  const std::uint64_t refined = (adaptive.stats.of(RayKind::primary).rays - pixels) / 5;
+  std::printf("%s: %.1f %% of pixels refined\n", GetParam().c_str(),
+              100.0 * static_cast<double>(refined) / static_cast<double>(pixels));
+  EXPECT_EQ(adaptive.stats.of(RayKind::primary).rays, pixels + 5 * refined);
+  EXPECT_GE(refined, changed);
+  EXPECT_GT(changed, 0u);
+  EXPECT_LT(refined, pixels);
+}
+
+TEST_P(Adaptive, H60_anyTilesThreadsQueuesAndPacketsGiveTheSameBits) {
+  const Picture expected = render(scene_, withSamples(4, true));
+  std::vector<RenderOptions> variants(5, withSamples(4, true));
+  variants[0].threads = 3;
+  variants[1].tile = 5;
+  variants[2].queue = 16;
+  variants[2].tile = 64;
+  variants[3].batch = Batch::frame;
+  variants[4].packet = 4;
+  for (const RenderOptions& o : variants) {
+    EXPECT_EQ(firstDifference(render(scene_, o).image, expected.image), "") << &o - variants.data();
+  }
+}
+
+// A crop looks one pixel beyond its border.
+TEST_P(Adaptive, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
+  const Image whole = render(scene_, withSamples(4, true)).image;
+  RenderOptions o = withSamples(4, true);
+  o.crop = Crop{31, 20, 62, 45};
+  const Image part = render(scene_, o).image;
+  for (int y = o.crop->y0; y < o.crop->y1; ++y) {
+    for (int x = o.crop->x0; x < o.crop->x1; ++x) {
+      EXPECT_TRUE(sameBits(part.at(x, y), whole.at(x, y))) << x << "," << y;
+    }
+  }
+}
+
+TEST_P(Adaptive, agreesWithTheReference) {
+  const RenderOptions o = withSamples(4, true);
+  Renderer renderer(scene_, o);
+  Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
+  const FrameStats a = renderer.render(chooseCamera(scene_, o), packets);
+  const FrameStats b = renderer.renderReference(chooseCamera(scene_, o), reference);
+  const ImageDifference d = compareImages(packets.image, reference.image);
+  // Twice the gate of pictures without decisions between neighbours: those that lie within rounding
+  // of the threshold fall either way.
+  std::printf("%s: %.4f %% of pixels off by two codes or more (at most 0.2)\n", GetParam().c_str(),
+              d.pixelsGe2CodesPct);
+  EXPECT_LE(d.pixelsGe2CodesPct, 0.2);
+  const auto primary = static_cast<double>(b.of(RayKind::primary).rays);
+  EXPECT_NEAR(static_cast<double>(a.of(RayKind::primary).rays), primary, 2e-3 * primary);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Adaptive, testing::Values("whitted", "glass", "matte"));
+
+// The display codes are those of the picture, kept pixels and refined ones.
+TEST(AdaptiveDisplay, encodesEveryPixel) {
+  const Scene scene = load("whitted");
+  const RenderOptions o = withSamples(4, true);
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), film);
+  EXPECT_EQ(film.display.rgba, toDisplay(film.image, 0, ToneCurve::none).rgba);
+}
+
+// All that 9 samples everywhere gain, for half of the rays.
+TEST(AdaptiveError, isThatOfAllSamplesWithFewerRays) {
+  const Scene scene = load("matte");
+  const auto picture = [&](int spp, bool adaptive) {
+    RenderOptions o = withSamples(spp, adaptive);
+    o.size = ImageSize{320, 200};
+    return render(scene, o);
+  };
+  const Image wanted = picture(64, false).image;
+  const Picture one = picture(1, false), all = picture(9, false), adaptive = picture(9, true);
+  const double errorOne = compareImages(one.image, wanted).rmse;
+  const double errorAll = compareImages(all.image, wanted).rmse;
+  const double error = compareImages(adaptive.image, wanted).rmse;
+  const double rays =
+      static_cast<double>(adaptive.stats.allRays()) / static_cast<double>(all.stats.allRays());
+  std::printf("RMSE: 1 sample %.5f, 9 everywhere %.5f, adaptive %.5f with %.3f of the rays\n",
+              errorOne, errorAll, error, rays);
+  EXPECT_LE(error, 1.05 * errorAll);
+  EXPECT_LT(errorAll, errorOne / 3);
+  EXPECT_LE(rays, 0.5);
+}
+
+}  // namespace
+}  // namespace whit::test

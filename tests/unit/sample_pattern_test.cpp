@@ -1,0 +1,121 @@
+// The fixed pattern of supersampling.
+#include "scene/sample_pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit::test {
+namespace {
+
+// How far the share of samples in a box [0, x) x [0, y) is from its area, at worst: the star
+// discrepancy, found at the corners that the samples span (Niederreiter 1992).
+double starDiscrepancy(const std::vector<Vec2f>& samples) {
+  std::vector<double> xs{1}, ys{1};
+  for (const Vec2f& s : samples) xs.push_back(double{s.x}), ys.push_back(double{s.y});
+  double worst = 0;
+  for (const double x : xs) {
+    for (const double y : ys) {
+      int open = 0, closed = 0;
+      for (const Vec2f& s : samples) {
+        open += double{s.x} < x && double{s.y} < y;
+        closed += double{s.x} <= x && double{s.y} <= y;
+      }
+      const auto n = static_cast<double>(samples.size());
+      worst = std::max({worst, x * y - open / n, closed / n - x * y});
+    }
+  }
+  return worst;
+}
+
+std::vector<Vec2f> grid(int side) {
+  std::vector<Vec2f> samples;
+  for (int i = 0; i < side * side; ++i) {
+    samples.push_back({(static_cast<float>(i % side) + 0.5f) / static_cast<float>(side),
+                       (static_cast<float>(i / side) + 0.5f) / static_cast<float>(side)});
+  }
+  return samples;
+}
+
+TEST(SamplePattern, beatsTheRegularGrid) {
+  for (const int side : {2, 3, 4, 5, 8}) {
+    const double ours = starDiscrepancy(samplePattern(side * side));
+    const double regular = starDiscrepancy(grid(side));
+    std::printf("%d samples: discrepancy %.4f, of a regular grid %.4f\n", side * side, ours,
+                regular);
+    EXPECT_LT(ours, regular);
+  }
+}
+
+// The root mean square error of a pixel's coverage by straight edges at all places, whose normals
+// turn from `from` to `to` degrees.
+double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
+  constexpr int kFine = 64, kPlaces = 25;
+  double sum = 0;
+  int edges = 0;
+  for (int direction = from; direction < to; ++direction) {
+    const double angle = (direction + 0.5) * 3.14159265358979323846 / 180;
+    const double nx = std::cos(angle), ny = std::sin(angle);
+    std::vector<double> fine;
+    for (int i = 0; i < kFine * kFine; ++i) {
+      fine.push_back(nx * ((i % kFine + 0.5) / kFine - 0.5) +
+                     ny * ((i / kFine + 0.5) / kFine - 0.5));
+    }
+    std::sort(fine.begin(), fine.end());
+    for (int step = -kPlaces; step <= kPlaces; ++step) {
+      const double place = 0.7 * step / kPlaces;
+      const auto below = std::lower_bound(fine.begin(), fine.end(), place) - fine.begin();
+      double taken = 0;
+      for (const Vec2f& s : samples) {
+        taken += nx * (double{s.x} - 0.5) + ny * (double{s.y} - 0.5) < place;
+      }
+      const double error = taken / static_cast<double>(samples.size()) -
+                           static_cast<double>(below) / (kFine * kFine);
+      sum += error * error;
+      ++edges;
+    }
+  }
+  return std::sqrt(sum / edges);
+}
+
+// What shows most: edges within 10 degrees of the axes, which a grid's samples meet row by row.
+// Over all directions together both are as good: the sum of both errors is a matter of the number.
+TEST(SamplePattern, rendersNearlyLevelEdgesBetterThanTheRegularGrid) {
+  for (const int side : {2, 4, 5}) {
+    const std::vector<Vec2f> ours = samplePattern(side * side), regular = grid(side);
+    const double level = edgeError(ours, 80, 100), gridLevel = edgeError(regular, 80, 100);
+    const double all = edgeError(ours, 0, 180), gridAll = edgeError(regular, 0, 180);
+    std::printf("%d samples, edge error: nearly level %.4f, grid %.4f; all %.4f, grid %.4f\n",
+                side * side, level, gridLevel, all, gridAll);
+    EXPECT_LT(level, gridLevel);
+    EXPECT_LT(all, 1.2 * gridAll);
+  }
+}
+
+// A place of its own for each sample, across and down.
+TEST(SamplePattern, noTwoSamplesShareARowOrAColumn) {
+  for (const int n : {1, 2, 7, 16, 4096}) {
+    const std::vector<Vec2f> samples = samplePattern(n);
+    std::vector<int> rows, columns;
+    for (const Vec2f& s : samples) {
+      columns.push_back(static_cast<int>(s.x * static_cast<float>(n)));
+      rows.push_back(static_cast<int>(s.y * static_cast<float>(n)));
+    }
+    std::sort(rows.begin(), rows.end());
+    std::sort(columns.begin(), columns.end());
+    for (int i = 0; i < n; ++i) {
+      EXPECT_EQ(rows[static_cast<std::size_t>(i)], i);
+      EXPECT_EQ(columns[static_cast<std::size_t>(i)], i);
+    }
+  }
+}
+
+TEST(SamplePattern, oneSampleIsTheCentre) {
+  ASSERT_EQ(samplePattern(1).size(), 1u);
+  EXPECT_EQ(samplePattern(1)[0].x, 0.5f);
+  EXPECT_EQ(samplePattern(1)[0].y, 0.5f);
+}
+
+}  // namespace
+}  // namespace whit::test
