@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/display.h"
-
 namespace whit::simd {
 
 namespace {
@@ -32,6 +30,9 @@ DisplayTables makeDisplayTables() {
     tables.least[static_cast<std::size_t>(code)] = leastWithCode(code);
   }
   tables.least[256] = std::numeric_limits<float>::infinity();
+  for (int i = 0; i <= kSrgbSteps; ++i) {
+    tables.byStep[static_cast<std::size_t>(i)] = srgbCode(static_cast<double>(i) / kSrgbSteps);
+  }
   return tables;
 }
 

@@ -53,15 +53,27 @@ HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
   return positive;
 }
 
-void EncodeDisplay(float exposureScale, ToneCurve curve, const RadianceColumns& radiance, size_t n,
-                   uint32_t* codes) {
+// The code of the nearest step: srgbCodeByTable in float.
+HWY_INLINE VU SrgbCodeByTable(const DisplayTables& tables, VF x) {
+  const FloatTag d;
+  const IntTag di;
+  const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), hn::Set(d, 1.0f));
+  const VF step =
+      hn::Add(hn::Mul(clamped, hn::Set(d, static_cast<float>(kSrgbSteps))), hn::Set(d, 0.5f));
+  return hn::BitCast(UintTag(), hn::GatherIndex(di, tables.byStep.data(), hn::ConvertTo(di, step)));
+}
+
+void EncodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
+                   const RadianceColumns& radiance, size_t n, uint32_t* codes) {
   const FloatTag d;
   const UintTag du;
   const DisplayTables& tables = displayTables();
   const VF scale = hn::Set(d, exposureScale);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto encode = [&](const float* column) HWY_ATTR {
-      return SrgbCode(tables, ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale)));
+      const VF curved = ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale));
+      return encoding == SrgbEncoding::table ? SrgbCodeByTable(tables, curved)
+                                             : SrgbCode(tables, curved);
     };
     const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
     const VU b = hn::ShiftLeft<16>(encode(radiance.b));
@@ -75,9 +87,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whit::simd {
 HWY_EXPORT(EncodeDisplay);
-void encodeDisplay(float exposureScale, ToneCurve curve, const RadianceColumns& radiance,
-                   std::size_t n, std::uint32_t* codes) noexcept {
-  HWY_DYNAMIC_DISPATCH(EncodeDisplay)(exposureScale, curve, radiance, n, codes);
+void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
+                   const RadianceColumns& radiance, std::size_t n, std::uint32_t* codes) noexcept {
+  HWY_DYNAMIC_DISPATCH(EncodeDisplay)(exposureScale, curve, encoding, radiance, n, codes);
 }
 }  // namespace whit::simd
 #endif

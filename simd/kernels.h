@@ -70,8 +70,8 @@ void returnImpulses(const RayColumns& children, const RadianceColumns& childRadi
                     const RadianceColumns& parentRadiance) noexcept;
 
 // Exposure, tone curve and sRGB: radiance to packed codes r | g << 8 | b << 16 | 255 << 24.
-void encodeDisplay(float exposureScale, ToneCurve curve, const RadianceColumns& radiance,
-                   std::size_t n, std::uint32_t* codes) noexcept;
+void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
+                   const RadianceColumns& radiance, std::size_t n, std::uint32_t* codes) noexcept;
 
 // Names as in --simd. chooseTarget("auto") takes the best; false: this machine or build lacks it.
 // Not thread-safe; call before any kernel runs.

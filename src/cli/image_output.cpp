@@ -74,7 +74,8 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
   } else if (options.mode == Mode::packets && film.wantDisplay) {
     writePng(path, film.display, metadata);
   } else {
-    writePng(path, toDisplay(film.image, options.exposure, options.toneCurve), metadata);
+    writePng(path, toDisplay(film.image, options.exposure, options.toneCurve, options.srgb),
+             metadata);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "core/display.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/srgb.h"
@@ -40,7 +41,20 @@ int srgbCode(double linear) {
   return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
 }
 
-DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
+int srgbCodeByTable(float linear) {
+  static const std::vector<std::uint8_t> codes = [] {
+    std::vector<std::uint8_t> table;
+    for (int i = 0; i <= kSrgbSteps; ++i) {
+      table.push_back(static_cast<std::uint8_t>(srgbCode(static_cast<double>(i) / kSrgbSteps)));
+    }
+    return table;
+  }();
+  if (!(linear > 0)) return 0;  // NaN too
+  const float step = std::min(linear, 1.0f) * static_cast<float>(kSrgbSteps) + 0.5f;
+  return codes[static_cast<std::size_t>(step)];
+}
+
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve, SrgbEncoding encoding) {
   DisplayImage display;
   display.width = image.windowWidth();
   display.height = image.windowHeight();
@@ -50,7 +64,9 @@ DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
     const double exposed = scale * static_cast<double>(channel);
     // NaN and negatives are black before the curve, which is only defined from 0 on.
     const double curved = exposed > 0 ? applyToneCurve(curve, exposed) : 0.0;
-    return static_cast<std::uint8_t>(srgbCode(curved));
+    return static_cast<std::uint8_t>(encoding == SrgbEncoding::table
+                                         ? srgbCodeByTable(static_cast<float>(curved))
+                                         : srgbCode(curved));
   };
   for (const Rgb& pixel : image.pixels) {
     display.rgba.push_back(encode(pixel.x));

@@ -14,7 +14,12 @@ double applyToneCurve(ToneCurve curve, double x);
 // round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0 (IEC 61966-2-1).
 int srgbCode(double linear);
 
+// The cheaper encoding: the code of the nearest of kSrgbSteps + 1 equally spaced values.
+inline constexpr int kSrgbSteps = 4095;
+int srgbCodeByTable(float linear);
+
 // Exposure (2^EV), tone curve, encoding. The window's pixels only.
-DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve);
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve,
+                       SrgbEncoding encoding = SrgbEncoding::exact);
 
 }  // namespace whit

@@ -17,6 +17,10 @@ enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
+// How the picture is kept before exposure and encoding.
+enum class FilmPrecision { single, half, eightBit };
+// sRGB codes: rounded exactly, or looked up at the nearest of 4096 equal steps of linear light.
+enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
 
@@ -57,6 +61,8 @@ struct RenderOptions {
   EffectSet disable;
   float exposure = 0;  // EV
   ToneCurve toneCurve = ToneCurve::none;
+  FilmPrecision film = FilmPrecision::single;
+  SrgbEncoding srgb = SrgbEncoding::exact;
   int tile = 32;  // pixels a side
   int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
   bool strict = false;
@@ -114,6 +120,9 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("disable", "a,b", "effects left out (the names that whit info prints)", o.disable);
   visit("exposure", "EV", "exposure of 8-bit output", o.exposure);
   visit("tonemap", "none|filmic|reinhard", "tone curve of 8-bit output", o.toneCurve);
+  visit("film", "float|half|8bit",
+        "numbers that the picture is kept in before exposure; 8bit: sRGB codes", o.film);
+  visit("srgb", "exact|table", "how 8-bit codes are found", o.srgb);
   visit("tile", "N", "side of a tile in pixels", o.tile);
   visit("queue", "N", "rays a queue holds before the deeper one is drained (0: one tile)", o.queue);
   visit("strict", "", "anything that would be mended and counted is an error", o.strict);

@@ -21,6 +21,8 @@ struct Settings {
   int contrast = kDefaultContrast;
   float exposure = 0;
   ToneCurve toneCurve = ToneCurve::none;
+  SrgbEncoding srgb = SrgbEncoding::exact;
+  FilmPrecision film = FilmPrecision::single;
   int depth = 8;
   double cutoff = 3.0e-4;
   ShadingChoices shading;

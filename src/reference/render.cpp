@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/display.h"
+#include "core/film.h"
 #include "reference/eye_media.h"
 #include "reference/reference.h"
 
@@ -44,17 +45,19 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   RayCounts counts =
       forEachRow(first.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
         for (int x = first.window.x0; x < first.window.x1; ++x) {
-          first.at(x, y) = Rgb(tracer.centre(frame, x, y, rowCounts));
+          first.at(x, y) = keptAs(settings.film, Rgb(tracer.centre(frame, x, y, rowCounts)));
           surfaces[first.index(x, y)] = tracer.surfaceAtCentre(frame, x, y);
         }
       });
-  const DisplayImage display = toDisplay(first, settings.exposure, settings.toneCurve);
+  const DisplayImage display =
+      toDisplay(first, settings.exposure, settings.toneCurve, settings.srgb);
   std::vector<std::uint8_t> edges(first.pixels.size());
   findEdges(display, surfaces, settings.contrast, 0, first.windowHeight(), edges);
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       const bool edge = edges[first.index(x, y)] != 0;
-      image.at(x, y) = edge ? Rgb(tracer.pixel(frame, x, y, rowCounts)) : first.at(x, y);
+      image.at(x, y) =
+          edge ? keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, rowCounts))) : first.at(x, y);
     }
   });
   return counts;
@@ -70,7 +73,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   if (settings.adaptive) return renderAdaptively(tracer, frame, settings, image, progress);
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      image.at(x, y) = Rgb(tracer.pixel(frame, x, y, counts));
+      image.at(x, y) = keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));
     }
   });
 }

@@ -29,6 +29,8 @@ reference::Settings Renderer::Parts::referenceSettings() const {
   settings.contrast = options.contrast;
   settings.exposure = options.exposure;
   settings.toneCurve = options.toneCurve;
+  settings.srgb = options.srgb;
+  settings.film = options.film;
   settings.depth = options.depth;
   settings.cutoff = static_cast<double>(options.cutoff);
   settings.shading = options.shading;
@@ -44,7 +46,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
   const reference::RayCounts counts =
       reference::render(p.scene, intersector, camera, p.referenceSettings(), film.image, progress);
   if (film.wantDisplay) {
-    film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve);
+    film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve, p.options.srgb);
   }
   FrameStats stats;
   stats.frameMs =

@@ -42,6 +42,8 @@ void takeOver(const RenderOptions& from, RenderOptions& to) {
   to.shading = from.shading;
   to.exposure = from.exposure;
   to.toneCurve = from.toneCurve;
+  to.film = from.film;
+  to.srgb = from.srgb;
   to.effects = from.effects;
   to.disable = from.disable;
 }
@@ -161,6 +163,8 @@ FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& 
   job.cutoff = options.cutoff;
   job.exposureScale = std::exp2(options.exposure);
   job.toneCurve = options.toneCurve;
+  job.precision = options.film;
+  job.srgb = options.srgb;
   job.film = &film;
   return job;
 }

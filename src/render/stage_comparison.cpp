@@ -82,7 +82,7 @@ class StageComparer : public StageObserver {
         const DisplayImage twin = [&] {
           Image one(1, 1);
           one.pixels[0] = film.image.pixels[pixel];
-          return toDisplay(one, 0, job_.toneCurve);
+          return toDisplay(one, 0, job_.toneCurve, job_.srgb);
         }();
         int worst = 0;
         for (std::size_t c = 0; c < 3; ++c) {

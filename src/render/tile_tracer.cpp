@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/film.h"
+
 namespace whit {
 
 // One sample of one batch of pixels.
@@ -269,6 +271,22 @@ void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Poin
   pass.clock.skip();
 }
 
+void TileTracer::keepAs(FilmPrecision precision, std::size_t n) {
+  const RadianceColumns& radiance = *levels_[0].radiance;
+  if (precision == FilmPrecision::half) {
+    for (float* const column : {radiance.r, radiance.g, radiance.b}) {
+      for (std::size_t i = 0; i < n; ++i) column[i] = roundedToHalf(column[i]);
+    }
+    return;
+  }
+  simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, radiance, n, codes_.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    radiance.r[i] = linearOfCode(static_cast<int>(codes_[i] & 0xFFu));
+    radiance.g[i] = linearOfCode(static_cast<int>(codes_[i] >> 8 & 0xFFu));
+    radiance.b[i] = linearOfCode(static_cast<int>(codes_[i] >> 16 & 0xFFu));
+  }
+}
+
 void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t> pixels,
                              FrameStats& stats) {
   const RadianceColumns& radiance = *levels_[0].radiance;
@@ -281,10 +299,11 @@ void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t>
       radiance.b[i] = static_cast<float>(sums_[3 * i + 2] / count);
     }
   }
+  codes_.resize(roundUpToBlock(n) + kBlock);
+  if (job.precision != FilmPrecision::single) keepAs(job.precision, n);
   Film& film = *job.film;
   if (film.wantDisplay) {
-    codes_.resize(roundUpToBlock(n) + kBlock);
-    simd::encodeDisplay(job.exposureScale, job.toneCurve, radiance, n, codes_.data());
+    simd::encodeDisplay(job.exposureScale, job.toneCurve, job.srgb, radiance, n, codes_.data());
   }
   const Crop& window = film.image.window;
   const auto width = static_cast<std::size_t>(film.image.windowWidth());

@@ -58,6 +58,8 @@ struct FrameJob {
   std::vector<Vec2f> samples;
   float cutoff = 0, exposureScale = 1;
   ToneCurve toneCurve = ToneCurve::none;
+  FilmPrecision precision = FilmPrecision::single;
+  SrgbEncoding srgb = SrgbEncoding::exact;
   Film* film = nullptr;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;
@@ -99,6 +101,7 @@ class TileTracer {
   void finishChunk(Pass& pass, std::size_t depth);
   void endStage(Pass& pass, Stage stage, std::size_t depth, const PointLight* light = nullptr);
   void updateImage(const FrameJob& job, std::span<const std::uint32_t> pixels, FrameStats& stats);
+  void keepAs(FilmPrecision precision, std::size_t n);
   void reserveLevel(std::size_t depth, std::size_t rays);
 
   const Plan& plan_;

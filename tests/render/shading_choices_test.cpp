@@ -24,6 +24,9 @@ const std::vector<Choice>& choices() {
       {"schlick", [](RenderOptions& o) { o.shading.fresnel = FresnelModel::schlick; }},
       {"fixedOffset", [](RenderOptions& o) { o.shading.offset = OffsetMethod::fixed; }},
       {"wachterBinder", [](RenderOptions& o) { o.shading.offset = OffsetMethod::wachterBinder; }},
+      {"halfFilm", [](RenderOptions& o) { o.film = FilmPrecision::half; }},
+      {"eightBitFilm", [](RenderOptions& o) { o.film = FilmPrecision::eightBit; }},
+      {"srgbTable", [](RenderOptions& o) { o.srgb = SrgbEncoding::table; }},
   };
   return all;
 }

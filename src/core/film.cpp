@@ -1,0 +1,60 @@
+#include "core/film.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "core/display.h"
+#include "core/srgb.h"
+
+namespace whit {
+
+namespace {
+
+constexpr float kLargestHalf = 65504.0f, kLeastNormalHalf = 0x1p-14f, kHalfStep = 0x1p-24f;
+constexpr int kDroppedBits = 23 - 10;  // of the significand
+
+std::array<float, 256> makeLinearOfCode() {
+  std::array<float, 256> table{};
+  for (int code = 0; code < 256; ++code) {
+    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
+  }
+  return table;
+}
+
+}  // namespace
+
+float roundedToHalf(float x) {
+  if (!std::isfinite(x)) return x;
+  const float magnitude = std::fabs(x);
+  if (magnitude >= kLargestHalf) return std::copysign(kLargestHalf, x);
+  if (magnitude < kLeastNormalHalf) return std::nearbyint(x / kHalfStep) * kHalfStep;
+  auto bits = std::bit_cast<std::uint32_t>(x);
+  const std::uint32_t odd = bits >> kDroppedBits & 1u;
+  bits += (1u << (kDroppedBits - 1)) - 1 + odd;
+  return std::bit_cast<float>(bits >> kDroppedBits << kDroppedBits);
+}
+
+float linearOfCode(int code) {
+  static const std::array<float, 256> table = makeLinearOfCode();
+  return table[static_cast<std::size_t>(code)];
+}
+
+Rgb keptAs(FilmPrecision precision, const Rgb& pixel) {
+  const auto eachChannel = [&](auto&& keep) {
+    return Rgb{keep(pixel.x), keep(pixel.y), keep(pixel.z)};
+  };
+  switch (precision) {
+    case FilmPrecision::single:
+      break;
+    case FilmPrecision::half:
+      return eachChannel(roundedToHalf);
+    case FilmPrecision::eightBit:
+      return eachChannel([](float x) { return linearOfCode(srgbCode(static_cast<double>(x))); });
+  }
+  return pixel;
+}
+
+}  // namespace whit
