@@ -70,7 +70,15 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
     const V3 toLight = Sub3(lightPosition, position);
     const VF distanceSquared = Dot(toLight, toLight);
-    live = hn::And(live, hn::And(hn::Gt(Dot(ng, toLight), zero), hn::Gt(Dot(ns, toLight), zero)));
+    MF front = hn::Gt(Dot(ng, toLight), zero);
+    V3 start = position;
+    if (surfels.liftX) {
+      // Above the facet, the smooth surface alone decides what lies behind the horizon.
+      const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
+      front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
+      start = Add3(position, lift);
+    }
+    live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
     live = hn::And(live, hn::Gt(distanceSquared, zero));
     if (hn::AllFalse(d, live)) {
       hn::Store(zero, d, unshadowed.visible + i);
@@ -109,7 +117,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     }
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
-        RayOrigin(choices.offset, position, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
+        RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
                   hn::Load(d, surfels.offset + i), 1.0f);
     const V3 direction = Sub3(lightPosition, origin);
     const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);

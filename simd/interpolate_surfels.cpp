@@ -22,15 +22,6 @@ constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
 
-struct InstanceLanes {
-  V4 row0, row1, row2;
-};
-
-HWY_INLINE V3 TransformVector(const InstanceLanes& m, const V3& v) {
-  return {Dot({m.row0.x, m.row0.y, m.row0.z}, v), Dot({m.row1.x, m.row1.y, m.row1.z}, v),
-          Dot({m.row2.x, m.row2.y, m.row2.z}, v)};
-}
-
 // Media on both sides of the surface, and whether it is there at all.
 HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VF mediumBits,
                            MF entering, size_t i, const SurfelColumns& surfels) {

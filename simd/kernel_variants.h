@@ -60,6 +60,7 @@ inline constexpr Kernel kFindRadianceAndShadowRays{"findRadianceAndShadowRays",
 inline constexpr std::array kKernels{
     Kernel{"generateRays", Stage::generateRays, {}},
     kInterpolateSurfels,
+    Kernel{"liftShadowOrigins", Stage::findIntersections, {}},
     Kernel{"writeEmittedAndReflectiveAmbient", Stage::writeEmittedAndReflectiveAmbient, {}},
     kFindRadianceAndShadowRays,
     Kernel{"addShading", Stage::addShading, {}},

@@ -39,6 +39,11 @@ std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
                                  const RayColumns& rays, const HitColumns& hits, std::size_t n,
                                  const SurfelColumns& surfels) noexcept;
 
+// Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
+// the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
+void liftShadowOrigins(const ShadingTables& tables, EffectSet effects, const HitColumns& hits,
+                       std::size_t n, const SurfelColumns& surfels) noexcept;
+
 void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
                                       const RayColumns& rays, const SurfelColumns& surfels,
                                       std::size_t n, const RadianceColumns& radiance) noexcept;

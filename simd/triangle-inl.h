@@ -7,6 +7,7 @@
 #endif
 
 #include "simd/records-inl.h"
+#include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -48,14 +49,32 @@ HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2) {
   return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit);
 }
 
-HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
-                           const V3& ng) {
+struct CornerNormals {
+  V3 n0, n1, n2;
+};
+
+HWY_INLINE CornerNormals LoadNormals(const ShadingTables& tables, VI triangle) {
   const Records records =
       RecordsAt(tables.normals, static_cast<size_t>(tables.normalStride), triangle);
   // The last fetch starts at 5, not 8: a record ends after nine floats.
   const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
   const V4 c = LoadColumns4(records, 5);
-  return NormalizeOr(Interpolate3(w, {a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}), ng);
+  return {{a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}};
+}
+
+HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
+                           const V3& ng) {
+  const CornerNormals n = LoadNormals(tables, triangle);
+  return NormalizeOr(Interpolate3(w, n.n0, n.n1, n.n2), ng);
+}
+
+struct InstanceLanes {
+  V4 row0, row1, row2;
+};
+
+HWY_INLINE V3 TransformVector(const InstanceLanes& m, const V3& v) {
+  return {Dot({m.row0.x, m.row0.y, m.row0.z}, v), Dot({m.row1.x, m.row1.y, m.row1.z}, v),
+          Dot({m.row2.x, m.row2.y, m.row2.z}, v)};
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -102,6 +102,9 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("offset", "bound|fixed|wachter-binder",
         "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and more",
         o.shading.offset);
+  visit("terminator", "on|off",
+        "shadow rays from above the facets of smooth surfaces: no staircase where the light ends",
+        o.shading.terminator);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);

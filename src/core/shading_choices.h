@@ -33,6 +33,9 @@ struct ShadingChoices {
   float lightCutoff = 0;
   FresnelModel fresnel = FresnelModel::exact;
   OffsetMethod offset = OffsetMethod::bound;
+  // Shadow rays start above the facet, where the surface that its vertex normals stand for would be
+  // (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
+  bool terminator = false;
 
   bool operator==(const ShadingChoices&) const = default;
 };

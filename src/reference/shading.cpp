@@ -58,7 +58,7 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
 }
 
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
-                               OffsetMethod offset) {
+                               const ShadingChoices& choices) {
   LightArrival arrival;
   const Vec3d toLight = Vec3d(light.position) - surfel.position;
   const double squaredDistance = dot(toLight, toLight);
@@ -66,7 +66,10 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Po
   const double distance = std::sqrt(squaredDistance);
   const Vec3d l = toLight / distance;
   const double cosine = dot(surfel.shadingNormal, l);
-  if (!(dot(surfel.geometricNormal, l) > 0 && cosine > 0)) return arrival;
+  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
+  // Above the facet, the smooth surface alone decides what lies behind the horizon.
+  const bool front = lifted || dot(surfel.geometricNormal, l) > 0;
+  if (!(front && cosine > 0)) return arrival;
 
   const double radius = light.radius;
   const RgbD biradiance = RgbD(light.intensity) / std::max(squaredDistance, radius * radius);
@@ -75,7 +78,9 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Po
     reflected += glossyLobe(surfel, l);
   }
   arrival.radiance = reflected * biradiance * cosine;
-  const Vec3d origin = rayOrigin(offset, surfel, 1);
+  Surfel start = surfel;
+  if (lifted) start.position += surfel.lift;
+  const Vec3d origin = rayOrigin(choices.offset, start, 1);
   arrival.shadowRay = {origin, Vec3d(light.position) - origin};
   arrival.tFar = shadowReach(light, distance);
   return arrival;

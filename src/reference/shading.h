@@ -25,6 +25,6 @@ struct LightArrival {
   double tFar = 0;  // a little before the light
 };
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
-                               OffsetMethod offset = OffsetMethod::bound);
+                               const ShadingChoices& choices = {});
 
 }  // namespace whit::reference

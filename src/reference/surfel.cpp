@@ -120,6 +120,25 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit)
   return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
 }
 
+Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                     const TriangleHit& hit, const Surfel& s) {
+  if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};
+  const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
+  const float* normals = scene.normals[candidate.triangle].normal;
+  const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
+  Vec3d lift;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3d n = triple(normals + 3 * i);
+    if (candidate.instance != kNoHit) {
+      n = normalized(scene.instances[candidate.instance].toWorld.normal(n));
+    }
+    if (dot(n, s.geometricNormal) < 0) n = -n;
+    const double below = -dot(s.position - corners[i], n) - s.offset;
+    lift += n * (weights[i] * std::max(below, 0.0));
+  }
+  return lift;
+}
+
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
                   const TriangleHit& hit, const Vec3d& direction) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
@@ -136,6 +155,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
     s.geometricNormal = -s.geometricNormal;
     s.shadingNormal = -s.shadingNormal;
   }
+  s.lift = terminatorLift(scene, effects, candidate, hit, s);
   findColours(scene, effects, triangle, hit, s);
   return s;
 }

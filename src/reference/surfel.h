@@ -13,6 +13,7 @@ struct Surfel {
   Vec3d view;             // unit, back along the ray
   Vec3d geometricNormal;  // unit, the triangle's, on the viewer's side
   Vec3d shadingNormal;    // unit, interpolated and bent by the normal map; see makeSurfel
+  Vec3d lift;             // from the facet to the surface its vertex normals stand for
   double offset = 0;      // how far along the geometric normal a new ray must start
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
@@ -31,6 +32,12 @@ struct Surfel {
 // bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
                   const TriangleHit& hit, const Vec3d& direction);
+
+// How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
+// are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow
+// terminator", Ray Tracing Gems II, chapter 4). Part of makeSurfel.
+Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                     const TriangleHit& hit, const Surfel& s);
 
 // Texture coordinates at the hit.
 struct TexturePoint {

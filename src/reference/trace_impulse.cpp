@@ -63,7 +63,7 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCoun
   RgbD sum;
   for (const PointLight& light : scene_.lights) {
     const LightArrival arrival =
-        radianceFromLight(settings_.effects, surfel, light, settings_.shading.offset);
+        radianceFromLight(settings_.effects, surfel, light, settings_.shading);
     const double largest = maxComponent(arrival.radiance);
     if (!(largest > 0 && throughput * largest >= settings_.shading.lightCutoff)) continue;
     if (settings_.effects.has(Effect::shadows)) {

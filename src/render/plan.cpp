@@ -21,6 +21,7 @@ bool runs(const Plan& plan, const simd::Kernel& kernel) {
   if (std::find(plan.stages.begin(), plan.stages.end(), kernel.stage) == plan.stages.end()) {
     return false;
   }
+  if (kernel.name == "liftShadowOrigins") return plan.groups.lift;
   if (kernel.name == "addReflections") return plan.traceReflections;
   if (kernel.name == "addRefractions") return plan.traceRefractions;
   return true;
@@ -38,6 +39,9 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
   plan.depth = plan.traceReflections || plan.traceRefractions ? options.depth : 0;
   plan.groups.glossy = plan.effects.has(Effect::glossy);
   plan.groups.transmission = plan.traceRefractions;
+  // Where no vertex normal differs from its triangle's there is nothing to lift.
+  plan.groups.lift =
+      options.shading.terminator && plan.traceShadows && plan.effects.has(Effect::smoothNormals);
   plan.groups.instances = plan.effects.has(Effect::instances);
   plan.stages = {Stage::generateRays, Stage::findIntersections,
                  Stage::writeEmittedAndReflectiveAmbient};

@@ -233,7 +233,8 @@ FrameStats Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observe
 }
 
 void Renderer::Parts::replan(const Plan& next) {
-  const bool otherQueues = next.effects != plan.effects || next.depth != plan.depth;
+  const bool otherQueues =
+      next.groups != plan.groups || next.effects != plan.effects || next.depth != plan.depth;
   plan = next;
   if (otherQueues) tracers.clear();  // laid out again by the next frame
 }

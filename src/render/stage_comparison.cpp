@@ -22,6 +22,7 @@ constexpr std::size_t kSlotsPerStage = 200000;  // a sample of the frame is plen
 // Limits, in ulps of the largest component, with the reasons for their sizes.
 constexpr double kDirectionLimit = 4;  // a normalised sum of three products
 constexpr double kPositionLimit = 4;   // three products, against the largest corner
+constexpr double kLiftLimit = 8;       // three products of two positions' difference
 constexpr double kNormalLimit = 4;     // cross product by differences of products, normalised
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
 // the contrast between two of them it is a visible number of ulps of the colour (numerics H68).
@@ -164,6 +165,9 @@ class StageComparer : public StageObserver {
       compare(stage, "shadingNormal", got.shadingNormal, twin.shadingNormal, sliver,
               mapped ? kTexturedLimit : kNormalLimit, c, i);
       compare(stage, "diffuse", got.diffuse, twin.diffuse, 1, kTexturedLimit, c, i);
+      if (plan_.groups.lift) {
+        compare(stage, "lift", got.lift, twin.lift, magnitude, kLiftLimit, c, i);
+      }
       if (plan_.groups.glossy) {
         compare(stage, "specular", got.specular, twin.specular, 1, kTexturedLimit, c, i);
       }
@@ -204,7 +208,7 @@ class StageComparer : public StageObserver {
     for (std::size_t k = 0; k < c.shadowCount; ++k) {
       const std::size_t i = c.shadows.slot[k];
       const reference::LightArrival twin =
-          reference::radianceFromLight(plan_.effects, surfelOf(c, i), *c.light, shading_.offset);
+          reference::radianceFromLight(plan_.effects, surfelOf(c, i), *c.light, shading_);
       const RgbD got{c.unshadowed.r[i], c.unshadowed.g[i], c.unshadowed.b[i]};
       constexpr Stage stage = Stage::findRadianceAndShadowRays;
       if (maxComponent(abs(twin.radiance)) == 0) continue;  // the light lies in the surface's plane

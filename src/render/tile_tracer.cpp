@@ -169,6 +169,9 @@ void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColum
   std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
   materialFlags_ = simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_,
                                             level.chunk, *surfels_);
+  if (plan_.groups.lift) {
+    simd::liftShadowOrigins(*pass.job.tables, plan_.effects, *hits_, level.chunk, *surfels_);
+  }
   if (depth == 0 && pass.job.surfaces) recordSurfaces(pass);
   endStage(pass, Stage::findIntersections, depth);
 }

@@ -17,14 +17,16 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   return (n + kBlock - 1) / kBlock * kBlock;
 }
 
-// Why a column exists: needed by every frame, or only by frames with some effect.
-enum class Group : std::uint8_t { always, glossy, transmission, instances };
+// Why a column exists: needed by every frame, or only by frames with some effect or choice.
+enum class Group : std::uint8_t { always, glossy, transmission, instances, lift };
 
 struct Groups {
-  bool glossy = true, transmission = true, instances = true;
+  bool glossy = true, transmission = true, instances = true, lift = true;
+  bool operator==(const Groups&) const = default;
   constexpr bool has(Group g) const {
     return g == Group::always || (g == Group::glossy && glossy) ||
-           (g == Group::transmission && transmission) || (g == Group::instances && instances);
+           (g == Group::transmission && transmission) || (g == Group::instances && instances) ||
+           (g == Group::lift && lift);
   }
 };
 
@@ -69,7 +71,7 @@ struct Groups {
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
 // must start (numerics H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
-// refracted child.
+// refracted child; `lift` is added to the position where shadow rays start.
 #define WHIT_SURFEL_COLUMNS(X)          \
   X(float, posX, always)                \
   X(float, posY, always)                \
@@ -89,6 +91,9 @@ struct Groups {
   X(float, specularG, glossy)           \
   X(float, specularB, glossy)           \
   X(float, alpha, glossy)               \
+  X(float, liftX, lift)                 \
+  X(float, liftY, lift)                 \
+  X(float, liftZ, lift)                 \
   X(std::uint32_t, flags, transmission) \
   X(std::uint32_t, mediaBehind, transmission)
 
