@@ -54,7 +54,8 @@ HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, VF u,
                          TexelQueue& queue) {
   const VI map = hn::BitCast(IntTag(), mapBits);
   const MF mapped = hn::And(live, hn::RebindMask(FloatTag(), NonNegative(map)));
-  QueueTexels(tables.textures.data(), tables.texels.data(), map, mapped, u, v, slot, queue);
+  QueueTexels(tables.shading.textureFilter, tables.textures.data(), tables.texels.data(), map,
+              mapped, u, v, slot, queue);
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
@@ -62,7 +63,8 @@ HWY_INLINE void ApplyColour(const ShadingTables& tables, const TexelQueue& queue
                             float* r, float* g, float* b, size_t i) {
   if (!queue.any[slot]) return;
   const V3 colour = Load3(r, g, b, i);
-  const V3 texture = FilterColour(FetchTexels(tables.texels.data(), queue, slot));
+  const V3 texture =
+      FilterColour(FetchTexels(tables.shading.textureFilter, tables.texels.data(), queue, slot));
   Store3(Select3(QueuedLanes(queue, slot), Mul3(colour, texture), colour), r, g, b, i);
 }
 
@@ -72,7 +74,8 @@ HWY_INLINE void ApplyNormalMap(const ShadingTables& tables, const BlockTextures&
   if (!block.normal.any[slot]) return;
   const FloatTag d;
   const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
-  const V3 code = FilterData3(FetchTexels(tables.texels.data(), block.normal, slot));
+  const V3 code = FilterData3(
+      FetchTexels(tables.shading.textureFilter, tables.texels.data(), block.normal, slot));
   const V3 m{hn::MulSub(code.x, two, one), hn::MulSub(code.y, two, one),
              hn::MulSub(code.z, two, one)};
   const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);

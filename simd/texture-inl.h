@@ -1,4 +1,4 @@
-// Bilinear texture lookups, a texture of its own in every lane if need be.
+// Texture lookups, bilinear or of the nearest texel, a texture of its own in every lane if need be.
 #if defined(WHIT_SIMD_TEXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_TEXTURE_INL_H_
 #undef WHIT_SIMD_TEXTURE_INL_H_
@@ -6,6 +6,7 @@
 #define WHIT_SIMD_TEXTURE_INL_H_
 #endif
 
+#include "core/shading_choices.h"
 #include "hwy/cache_control.h"
 #include "simd/records-inl.h"
 
@@ -84,10 +85,18 @@ HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
   return hn::Ge(hn::Load(d, queue.fractionX + slot), hn::Zero(d));
 }
 
+// The nearer of the two indices, alone.
+HWY_INLINE AxisTexels Nearest(const AxisTexels& axis) {
+  const FloatTag d;
+  const auto upper = hn::RebindMask(IntTag(), hn::Ge(axis.fraction, hn::Set(d, 0.5f)));
+  const VI index = hn::IfThenElse(upper, axis.upper, axis.lower);
+  return {index, index, hn::Zero(d)};
+}
+
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
 // into `records`.
-HWY_INLINE void QueueTexels(const void* records, const uint32_t* texels, VI texture, MF live, VF u,
-                            VF v, size_t slot, TexelQueue& queue) {
+HWY_INLINE void QueueTexels(TextureFilter filter, const void* records, const uint32_t* texels,
+                            VI texture, MF live, VF u, VF v, size_t slot, TexelQueue& queue) {
   const FloatTag d;
   const IntTag di;
   queue.any[slot] = !hn::AllFalse(d, live);
@@ -102,8 +111,9 @@ HWY_INLINE void QueueTexels(const void* records, const uint32_t* texels, VI text
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
   const VI wrapV = hn::ShiftRight<8>(wrap);
   // Image rows run downwards, v upwards.
-  const AxisTexels x = WrapAxis(TameCoordinate(u), widthF, wrapU);
-  const AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), heightF, wrapV);
+  AxisTexels x = WrapAxis(TameCoordinate(u), widthF, wrapU);
+  AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), heightF, wrapV);
+  if (filter == TextureFilter::nearest) x = Nearest(x), y = Nearest(y);
   const VI row0 = hn::Add(first, hn::Mul(y.lower, width));
   const VI row1 = hn::Add(first, hn::Mul(y.upper, width));
   const auto liveInt = hn::RebindMask(di, live);
@@ -128,14 +138,19 @@ struct Footprint {
   VF w00, w10, w01, w11;
 };
 
-HWY_INLINE Footprint FetchTexels(const uint32_t* texels, const TexelQueue& queue, size_t slot) {
+HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
+                                 const TexelQueue& queue, size_t slot) {
   const FloatTag d;
   const IntTag di;
   const auto gather = [&](const int32_t* index) HWY_ATTR {
     return hn::BitCast(UintTag(), hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels),
                                                   hn::Load(di, index + slot)));
   };
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  if (filter == TextureFilter::nearest) {
+    const VU texel = gather(queue.texel00);
+    return {texel, texel, texel, texel, one, zero, zero, zero};
+  }
   const VF fx = hn::Load(d, queue.fractionX + slot), fy = hn::Load(d, queue.fractionY + slot);
   const VF gx = hn::Sub(one, fx), gy = hn::Sub(one, fy);
   return {gather(queue.texel00), gather(queue.texel10), gather(queue.texel01),

@@ -54,24 +54,29 @@ int srgbCodeByTable(float linear) {
   return codes[static_cast<std::size_t>(step)];
 }
 
-DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve, SrgbEncoding encoding) {
-  DisplayImage display;
-  display.width = image.windowWidth();
-  display.height = image.windowHeight();
-  display.rgba.reserve(image.pixels.size() * 4);
-  const double scale = std::exp2(static_cast<double>(exposure));
+std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve,
+                                         SrgbEncoding encoding) {
   const auto encode = [&](float channel) {
-    const double exposed = scale * static_cast<double>(channel);
+    const double exposed = exposureScale * static_cast<double>(channel);
     // NaN and negatives are black before the curve, which is only defined from 0 on.
     const double curved = exposed > 0 ? applyToneCurve(curve, exposed) : 0.0;
     return static_cast<std::uint8_t>(encoding == SrgbEncoding::table
                                          ? srgbCodeByTable(static_cast<float>(curved))
                                          : srgbCode(curved));
   };
+  return {encode(pixel.x), encode(pixel.y), encode(pixel.z)};
+}
+
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve, SrgbEncoding encoding) {
+  DisplayImage display;
+  display.width = image.windowWidth();
+  display.height = image.windowHeight();
+  display.rgba.reserve(image.pixels.size() * 4);
+  const double scale = std::exp2(static_cast<double>(exposure));
   for (const Rgb& pixel : image.pixels) {
-    display.rgba.push_back(encode(pixel.x));
-    display.rgba.push_back(encode(pixel.y));
-    display.rgba.push_back(encode(pixel.z));
+    for (const std::uint8_t code : displayCodes(pixel, scale, curve, encoding)) {
+      display.rgba.push_back(code);
+    }
     display.rgba.push_back(255);
   }
   return display;

@@ -2,6 +2,8 @@
 // updateImage's encoding.
 #pragma once
 
+#include <array>
+
 #include "core/image.h"
 #include "core/options.h"
 
@@ -17,6 +19,10 @@ int srgbCode(double linear);
 // The cheaper encoding: the code of the nearest of kSrgbSteps + 1 equally spaced values.
 inline constexpr int kSrgbSteps = 4095;
 int srgbCodeByTable(float linear);
+
+// One pixel's codes, with exposure given as a factor.
+std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve,
+                                         SrgbEncoding encoding);
 
 // Exposure (2^EV), tone curve, encoding. The window's pixels only.
 DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve,

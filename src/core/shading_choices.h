@@ -9,6 +9,9 @@ namespace whit {
 // rendering"). Where reflection is total, both are 1.
 enum class FresnelModel { exact, schlick };
 
+// Of colours, reflectances and normal maps; alpha masks are always bilinear.
+enum class TextureFilter { nearest, bilinear };
+
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {
   // The surfel's own bound on the rounding error of its position (numerics of makeSurfel). On the
@@ -32,6 +35,7 @@ struct ShadingChoices {
   // pixel's error is at most this times the number of such lights and surfels.
   float lightCutoff = 0;
   FresnelModel fresnel = FresnelModel::exact;
+  TextureFilter textureFilter = TextureFilter::bilinear;
   OffsetMethod offset = OffsetMethod::bound;
   // Shadow rays start above the facet, where the surface that its vertex normals stand for would be
   // (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).

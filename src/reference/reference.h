@@ -16,7 +16,8 @@ namespace whit::reference {
 
 struct Settings {
   int spp = 1;
-  // Only where findEdges says so, in the picture of first samples as it would be displayed.
+  // Several samples only where findEdges says so, in the picture of pixels' centres as it would be
+  // displayed, and all of them only where the pilot samples differ.
   bool adaptive = false;
   int contrast = kDefaultContrast;
   float exposure = 0;
@@ -52,6 +53,9 @@ class Tracer {
                     RayCounts& counts) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  // The same, but only the pilot samples where those differ by no more than settings.contrast as
+  // they would be displayed.
+  RgbD pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // Through the pixel's centre alone, and what that ray meets.
   RgbD centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;

@@ -57,7 +57,8 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       const bool edge = edges[first.index(x, y)] != 0;
       image.at(x, y) =
-          edge ? keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, rowCounts))) : first.at(x, y);
+          edge ? keptAs(settings.film, Rgb(tracer.pixelByContrast(frame, x, y, rowCounts)))
+               : first.at(x, y);
     }
   });
   return counts;

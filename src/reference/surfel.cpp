@@ -47,8 +47,8 @@ double magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* 
 
 // `normal` bent by a tangent-space normal map: x along growing u, y along growing v. Unchanged
 // where texture space has collapsed.
-Vec3d bentNormal(const Texture& map, const TriangleRecord& triangle, const TriangleHit& hit,
-                 const Affine* toWorld, const Vec3d& normal) {
+Vec3d bentNormal(const Texture& map, TextureFilter filter, const TriangleRecord& triangle,
+                 const TriangleHit& hit, const Affine* toWorld, const Vec3d& normal) {
   const Edges e = edgesOf(triangle);
   const double determinant = e.du1 * e.dv2 - e.du2 * e.dv1;
   if (determinant == 0) return normal;
@@ -64,14 +64,14 @@ Vec3d bentNormal(const Texture& map, const TriangleRecord& triangle, const Trian
   if (tangent == Vec3d{}) return normal;
   const Vec3d bitangent = cross(normal, tangent) * handedness;
   const TexturePoint at = texturePoint(triangle, hit);
-  const DataSample m = sampleData(map, at.u, at.v);
+  const DataSample m = sampleData(map, at.u, at.v, filter);
   return normalized(tangent * (2 * m.r - 1) + bitangent * (2 * m.g - 1) + normal * (2 * m.b - 1),
                     normal);
 }
 
 // Both normals as modelled, on the outside of the surface.
 void findNormals(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                 const TriangleHit& hit, const Affine* toWorld, Surfel& s) {
+                 const TriangleHit& hit, const Affine* toWorld, TextureFilter filter, Surfel& s) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
   const auto carried = [&](const Vec3d& n) { return toWorld ? toWorld->normal(n) : n; };
   const Edges e = edgesOf(triangle);
@@ -83,19 +83,20 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
   }
   const std::int32_t map = scene.materials[triangle.material].normalMap;
   if (effects.has(Effect::normalMaps) && map != kNoTexture) {
-    s.shadingNormal = bentNormal(scene.textures[static_cast<std::size_t>(map)], triangle, hit,
-                                 toWorld, s.shadingNormal);
+    s.shadingNormal = bentNormal(scene.textures[static_cast<std::size_t>(map)], filter, triangle,
+                                 hit, toWorld, s.shadingNormal);
   }
 }
 
 void findColours(const Scene& scene, EffectSet effects, const TriangleRecord& triangle,
-                 const TriangleHit& hit, Surfel& s) {
+                 const TriangleHit& hit, TextureFilter filter, Surfel& s) {
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
   const TexturePoint at = texturePoint(triangle, hit);
   const auto textured = [&](const Rgb& factor, std::int32_t map) {
     if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
-    return RgbD(factor) * sampleColour(scene.textures[static_cast<std::size_t>(map)], at.u, at.v);
+    return RgbD(factor) *
+           sampleColour(scene.textures[static_cast<std::size_t>(map)], at.u, at.v, filter);
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
@@ -140,7 +141,7 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
 }
 
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction) {
+                  const TriangleHit& hit, const Vec3d& direction, TextureFilter filter) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
   const Affine* toWorld =
       candidate.instance == kNoHit ? nullptr : &scene.instances[candidate.instance].toWorld;
@@ -149,14 +150,14 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   s.position = interpolate(triangle.position, hit);
   if (toWorld) s.position = toWorld->point(s.position);
   s.offset = 32 * kUnitRoundOff * magnitude(triangle, hit, toWorld);
-  findNormals(scene, effects, candidate, hit, toWorld, s);
+  findNormals(scene, effects, candidate, hit, toWorld, filter, s);
   s.entering = dot(direction, s.geometricNormal) < 0;
   if (!s.entering) {
     s.geometricNormal = -s.geometricNormal;
     s.shadingNormal = -s.shadingNormal;
   }
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
-  findColours(scene, effects, triangle, hit, s);
+  findColours(scene, effects, triangle, hit, filter, s);
   return s;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/effects.h"
+#include "core/shading_choices.h"
 #include "reference/intersector.h"
 #include "reference/triangle.h"
 #include "scene/scene.h"
@@ -31,7 +32,8 @@ struct Surfel {
 // 32 * 2^-24 times the sum of the magnitudes that go into it (numerics: H1-H4; after the error
 // bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction);
+                  const TriangleHit& hit, const Vec3d& direction,
+                  TextureFilter filter = TextureFilter::bilinear);
 
 // How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
 // are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow

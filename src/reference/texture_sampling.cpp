@@ -15,6 +15,8 @@ double tame(double s) { return std::abs(s) <= kLargestCoordinate ? s : 0.0; }
 struct Between {
   int lower = 0, upper = 0;
   double fraction = 0;
+
+  int nearest() const { return fraction < 0.5 ? lower : upper; }
 };
 
 // A repeated coordinate close to either border lies between the last texel and the first.
@@ -39,7 +41,7 @@ Between texelsAround(double s, int size, Wrap wrap) {
 
 // One channel: `decode` turns a texel into its value.
 template <typename Decode>
-double filtered(const Texture& texture, double u, double v, Decode&& decode) {
+double filtered(const Texture& texture, double u, double v, TextureFilter filter, Decode&& decode) {
   const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
   const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
   const auto value = [&](int column, int row) {
@@ -47,6 +49,7 @@ double filtered(const Texture& texture, double u, double v, Decode&& decode) {
     return decode(
         texture.texels[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)]);
   };
+  if (filter == TextureFilter::nearest) return value(x.nearest(), y.nearest());
   const double upperRow =
       value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
   const double lowerRow =
@@ -56,9 +59,9 @@ double filtered(const Texture& texture, double u, double v, Decode&& decode) {
 
 }  // namespace
 
-RgbD sampleColour(const Texture& texture, double u, double v) {
+RgbD sampleColour(const Texture& texture, double u, double v, TextureFilter filter) {
   const auto channel = [&](int shift) {
-    return filtered(texture, u, v, [shift](std::uint32_t texel) {
+    return filtered(texture, u, v, filter, [shift](std::uint32_t texel) {
       const double root = (texel >> shift & 1023u) / 1023.0;
       return root * root;
     });
@@ -66,9 +69,9 @@ RgbD sampleColour(const Texture& texture, double u, double v) {
   return {channel(0), channel(10), channel(20)};
 }
 
-DataSample sampleData(const Texture& texture, double u, double v) {
+DataSample sampleData(const Texture& texture, double u, double v, TextureFilter filter) {
   const auto channel = [&](int shift) {
-    return filtered(texture, u, v,
+    return filtered(texture, u, v, filter,
                     [shift](std::uint32_t texel) { return (texel >> shift & 255u) / 255.0; });
   };
   return {channel(0), channel(8), channel(16), channel(24)};

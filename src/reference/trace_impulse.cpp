@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
+#include "core/display.h"
 #include "reference/generate_ray.h"
 #include "reference/impulses.h"
 #include "reference/media.h"
@@ -28,7 +32,8 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
 
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  const Surfel surfel = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction);
+  const Surfel surfel = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction,
+                                   settings_.shading.textureFilter);
   const Crossing crossing =
       crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
 
@@ -81,6 +86,27 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   double taken = 0;
   for (const Vec2f& sample : samples_) {
     mean += (sampled(camera, x, y, sample, counts) - mean) / ++taken;
+  }
+  return mean;
+}
+
+RgbD Tracer::pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  const double scale = std::exp2(static_cast<double>(settings_.exposure));
+  std::array<std::uint8_t, 3> lowest{255, 255, 255}, highest{};
+  RgbD mean;
+  int taken = 0;
+  for (const Vec2f& sample : samples_) {
+    const RgbD value = sampled(camera, x, y, sample, counts);
+    mean += (value - mean) / ++taken;
+    if (taken > kPilotSamples) continue;
+    const auto codes = displayCodes(Rgb(value), scale, settings_.toneCurve, settings_.srgb);
+    int spread = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      lowest[channel] = std::min(lowest[channel], codes[channel]);
+      highest[channel] = std::max(highest[channel], codes[channel]);
+      spread = std::max(spread, highest[channel] - lowest[channel]);
+    }
+    if (taken == kPilotSamples && spread <= settings_.contrast) break;
   }
   return mean;
 }

@@ -33,7 +33,9 @@ FrameStats Renderer::Parts::renderAdaptively(FrameJob& job, std::vector<RayLog>*
   if (options.batch == Batch::frame) shares = dealOut(lists, tracers.size());
   padForVectors(lists);
   padForVectors(shares);
+  job.contrast = options.contrast;
   stats.add(renderLists(job, lists, shares, logs));
+  job.contrast.reset();
   return stats;
 }
 

@@ -35,7 +35,8 @@ struct Renderer::Parts {
                          std::vector<RayLog>* logs);
   void replan(const Plan& next);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
-  // --adaptive: the first sample of every pixel, then all of them at edges.
+  // --adaptive: the centre of every pixel, then the pilot samples at edges, then all where those
+  // still differ.
   FrameStats renderAdaptively(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats settleFirstSamples(Film& film);  // finds the edges, keeps the rest
   PixelLists edgePixels(const Crop& window) const;

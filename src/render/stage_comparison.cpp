@@ -149,8 +149,8 @@ class StageComparer : public StageObserver {
       if (c.hits.triangle[i] == kMiss) continue;
       const reference::Candidate candidate = candidateOf(c.hits, i);
       const reference::TriangleHit hit{static_cast<double>(c.hits.t[i]), candidate.u, candidate.v};
-      const reference::Surfel twin =
-          reference::makeSurfel(scene_, plan_.effects, candidate, hit, directionOf(c.rays, i));
+      const reference::Surfel twin = reference::makeSurfel(
+          scene_, plan_.effects, candidate, hit, directionOf(c.rays, i), shading_.textureFilter);
       const reference::Surfel got = surfelOf(c, i);
       // The offset is 32 units in the last place of all that went into the position.
       const double magnitude = twin.offset * 0x1p19;

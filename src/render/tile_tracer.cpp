@@ -1,22 +1,9 @@
-#include "render/tile_tracer.h"
+#include "render/tile_pass.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/film.h"
-
 namespace whit {
-
-// One sample of one batch of pixels.
-struct TileTracer::Pass {
-  const FrameJob& job;
-  std::span<const std::uint32_t> pixels;
-  Vec2f sample;
-  FrameStats& stats;
-  StageClock& clock;
-  RayLog* log;
-  std::size_t children = 0;  // of the chunk that was shaded last
-};
 
 namespace {
 
@@ -83,29 +70,6 @@ BufferBytes TileTracer::bufferBytes() const {
 std::size_t TileTracer::bytes() const {
   return bufferBytes().sum() + sums_.capacity() * sizeof(double) +
          codes_.capacity() * sizeof(std::uint32_t);
-}
-
-void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixels,
-                       FrameStats& stats, RayLog* log) {
-  const bool several = job.samples.size() > 1;
-  StageClock clock(stats);
-  for (std::size_t begin = 0; begin < pixels.size(); begin += capacity_) {
-    const auto batch = pixels.subspan(begin, std::min(capacity_, pixels.size() - begin));
-    if (several) sums_.assign(3 * batch.size(), 0.0);
-    for (const Vec2f sample : job.samples) {
-      Pass pass{job, batch, sample, stats, clock, log};
-      traceSample(pass);
-      if (!several) continue;
-      const RadianceColumns& radiance = *levels_[0].radiance;
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        sums_[3 * i] += static_cast<double>(radiance.r[i]);
-        sums_[3 * i + 1] += static_cast<double>(radiance.g[i]);
-        sums_[3 * i + 2] += static_cast<double>(radiance.b[i]);
-      }
-    }
-    updateImage(job, batch, stats);
-    clock.lap(Stage::updateImage, 0);
-  }
 }
 
 void TileTracer::traceSample(Pass& pass) {
@@ -272,54 +236,6 @@ void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Poin
   }
   pass.job.observer->after(stage, view);
   pass.clock.skip();
-}
-
-void TileTracer::keepAs(FilmPrecision precision, std::size_t n) {
-  const RadianceColumns& radiance = *levels_[0].radiance;
-  if (precision == FilmPrecision::half) {
-    for (float* const column : {radiance.r, radiance.g, radiance.b}) {
-      for (std::size_t i = 0; i < n; ++i) column[i] = roundedToHalf(column[i]);
-    }
-    return;
-  }
-  simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, radiance, n, codes_.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    radiance.r[i] = linearOfCode(static_cast<int>(codes_[i] & 0xFFu));
-    radiance.g[i] = linearOfCode(static_cast<int>(codes_[i] >> 8 & 0xFFu));
-    radiance.b[i] = linearOfCode(static_cast<int>(codes_[i] >> 16 & 0xFFu));
-  }
-}
-
-void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t> pixels,
-                             FrameStats& stats) {
-  const RadianceColumns& radiance = *levels_[0].radiance;
-  const std::size_t n = pixels.size();
-  if (job.samples.size() > 1) {
-    const double count = static_cast<double>(job.samples.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      radiance.r[i] = static_cast<float>(sums_[3 * i] / count);
-      radiance.g[i] = static_cast<float>(sums_[3 * i + 1] / count);
-      radiance.b[i] = static_cast<float>(sums_[3 * i + 2] / count);
-    }
-  }
-  codes_.resize(roundUpToBlock(n) + kBlock);
-  if (job.precision != FilmPrecision::single) keepAs(job.precision, n);
-  Film& film = *job.film;
-  if (film.wantDisplay) {
-    simd::encodeDisplay(job.exposureScale, job.toneCurve, job.srgb, radiance, n, codes_.data());
-  }
-  const Crop& window = film.image.window;
-  const auto width = static_cast<std::size_t>(film.image.windowWidth());
-  auto* display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t x = (pixels[i] & 0xFFFFu) - static_cast<std::size_t>(window.x0);
-    const std::size_t y = (pixels[i] >> 16) - static_cast<std::size_t>(window.y0);
-    const Rgb value{radiance.r[i], radiance.g[i], radiance.b[i]};
-    film.image.pixels[y * width + x] = value;
-    if (film.wantDisplay) display[y * width + x] = codes_[i];
-    // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
-    stats.nonFinitePixels += !std::isfinite(value.x + value.y + value.z);
-  }
 }
 
 }  // namespace whit

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <barrier>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,8 @@ struct FrameJob {
   FilmPrecision precision = FilmPrecision::single;
   SrgbEncoding srgb = SrgbEncoding::exact;
   Film* film = nullptr;
+  // Pixels whose first kPilotSamples differ by no more display codes than this get no more samples.
+  std::optional<int> contrast;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;
   std::barrier<>* stageBarrier = nullptr;  // --batch frame: everyone waits after each stage
@@ -92,6 +95,11 @@ class TileTracer {
   };
   struct Pass;  // one sample of one batch
 
+  // Samples [first, end) of the pattern, into sums_.
+  void addSamples(Pass& pass, std::size_t first, std::size_t end);
+  void widenSpread(const Pass& pass, bool first);
+  void settleWhereSamplesAgree(Pass& pass);
+  void average(const std::vector<double>& sums, std::size_t samples);
   void traceSample(Pass& pass);
   void shadeChunk(Pass& pass, std::size_t depth);
   void findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays);
@@ -112,8 +120,11 @@ class TileTracer {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
   std::size_t shadowCount_ = 0;
-  std::uint32_t materialFlags_ = 0;   // kMaterial flags of the chunk's surfels, all together
-  std::vector<double> sums_;          // 3 a pixel, when there are several samples
+  std::uint32_t materialFlags_ = 0;  // kMaterial flags of the chunk's surfels, all together
+  std::vector<double> sums_;         // 3 a pixel, when there are several samples
+  // Of pilot samples: the codes' bounds a pixel, and the pixels that are done and to go on with.
+  std::vector<std::uint32_t> lowest_, highest_, settled_, contrasting_;
+  std::vector<double> settledSums_;
   std::vector<std::uint32_t> codes_;  // display codes
 };
 

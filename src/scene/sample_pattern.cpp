@@ -5,7 +5,10 @@
 
 namespace whit {
 
-std::vector<Vec2f> samplePattern(int spp) {
+namespace {
+
+// Rooks: one sample a row and a column, in the order of columns.
+std::vector<Vec2f> rooks(int spp) {
   constexpr double kGoldenRatio = 1.61803398874989484820;
   std::vector<std::pair<double, int>> byHeight;
   for (int i = 0; i < spp; ++i) {
@@ -18,6 +21,26 @@ std::vector<Vec2f> samplePattern(int spp) {
   for (int row = 0; row < spp; ++row) {
     const int column = byHeight[static_cast<std::size_t>(row)].second;
     samples[static_cast<std::size_t>(column)] = {middleOf(column), middleOf(row)};
+  }
+  return samples;
+}
+
+double squaredDistance(const Vec2f& a, const Vec2f& b) {
+  const double x = double{a.x} - double{b.x}, y = double{a.y} - double{b.y};
+  return x * x + y * y;
+}
+
+}  // namespace
+
+std::vector<Vec2f> samplePattern(int spp) {
+  std::vector<Vec2f> samples = rooks(spp);
+  if (spp <= kPilotSamples) return samples;
+  auto next = samples.begin();
+  for (const Vec2f& wanted : rooks(kPilotSamples)) {
+    const auto nearest = std::min_element(next, samples.end(), [&](const Vec2f& a, const Vec2f& b) {
+      return squaredDistance(a, wanted) < squaredDistance(b, wanted);
+    });
+    std::iter_swap(next++, nearest);
   }
   return samples;
 }

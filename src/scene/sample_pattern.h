@@ -13,6 +13,10 @@ namespace whit {
 // that is nearly level or upright passes the samples one at a time, unlike with a regular grid, and
 // the pattern is as even in the plane (Niederreiter 1992, "Random Number Generation and Quasi-Monte
 // Carlo Methods", chapter 5).
+//
+// The first kPilotSamples lie near those of the pattern of as many, so that they tell something
+// about the pixel by themselves.
 std::vector<Vec2f> samplePattern(int spp);
+inline constexpr int kPilotSamples = 4;
 
 }  // namespace whit

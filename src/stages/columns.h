@@ -21,7 +21,8 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 enum class Group : std::uint8_t { always, glossy, transmission, instances, lift };
 
 struct Groups {
-  bool glossy = true, transmission = true, instances = true, lift = true;
+  bool glossy = true, transmission = true, instances = true;
+  bool lift = false;  // by choice, whatever the effects
   bool operator==(const Groups&) const = default;
   constexpr bool has(Group g) const {
     return g == Group::always || (g == Group::glossy && glossy) ||

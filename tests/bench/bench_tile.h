@@ -50,7 +50,7 @@ class BenchTile {
     simd::addShading(*unshadowed, n(), *radiance);
     reflections = reflect();
     refractions = refract(reflections);
-    simd::encodeDisplay(1, ToneCurve::none, *radiance, n(), codes.data());
+    simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *radiance, n(), codes.data());
   }
 
   void generate() { simd::generateRays(camera_, pixels.data(), n(), *rays); }

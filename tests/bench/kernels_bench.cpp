@@ -38,7 +38,8 @@ const std::vector<Job>& jobs() {
        [](const BenchTile& t) { return t.reflections; }},
       {"encodeDisplay",
        [](BenchTile& t) {
-         simd::encodeDisplay(1, ToneCurve::none, *t.radiance, t.n(), t.codes.data());
+         simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *t.radiance, t.n(),
+                             t.codes.data());
        },
        tileRays},
   };

@@ -39,6 +39,23 @@ TEST(TextureSampling, BetweenCentresIsLinear) {
   EXPECT_NEAR(codeAt(t, 0.25, 0.625), 15, kRounding);
 }
 
+// Texels reach to the middle between their centres, and over the borders of a repeat.
+TEST(TextureSampling, NearestTexel) {
+  const Texture t = ramp(4, 1, {0, 40, 80, 120});
+  const auto nearest = [&](double u) {
+    return 255 * sampleData(t, u, 0.5, TextureFilter::nearest).r;
+  };
+  EXPECT_NEAR(nearest(0.01), 0, kRounding);
+  EXPECT_NEAR(nearest(0.2499), 0, kRounding);
+  EXPECT_NEAR(nearest(0.25), 40, kRounding);
+  EXPECT_NEAR(nearest(0.9999), 120, kRounding);
+  EXPECT_NEAR(nearest(-0.0001), 120, kRounding);
+  EXPECT_NEAR(nearest(1.0001), 0, kRounding);
+  const Texture c = makeTexture(TexelFormat::colour, 2, 1, {0u, 1023u});
+  EXPECT_EQ(sampleColour(c, 0.7, 0.5, TextureFilter::nearest), RgbD(1, 0, 0));
+  EXPECT_EQ(sampleColour(c, 0.3, 0.5, TextureFilter::nearest), RgbD(0, 0, 0));
+}
+
 TEST(TextureSampling, RepeatJoinsTheBorders) {
   const Texture t = ramp(4, 1, {0, 40, 80, 120});
   EXPECT_NEAR(codeAt(t, 0, 0.5), 60, kRounding);

@@ -111,6 +111,16 @@ TEST(SamplePattern, noTwoSamplesShareARowOrAColumn) {
   }
 }
 
+// The pilot samples stand for the whole pixel: one in each quarter across, down.
+TEST(SamplePattern, pilotSamplesAreSpread) {
+  for (const int n : {8, 16, 64, 256}) {
+    const std::vector<Vec2f> samples = samplePattern(n);
+    const std::vector<Vec2f> pilot(samples.begin(), samples.begin() + kPilotSamples);
+    std::printf("pilot of %d: discrepancy %.4f\n", n, starDiscrepancy(pilot));
+    EXPECT_LT(starDiscrepancy(pilot), starDiscrepancy(grid(2)));
+  }
+}
+
 TEST(SamplePattern, oneSampleIsTheCentre) {
   ASSERT_EQ(samplePattern(1).size(), 1u);
   EXPECT_EQ(samplePattern(1)[0].x, 0.5f);
