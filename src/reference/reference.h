@@ -9,6 +9,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
+#include "scene/light_shares.h"
 #include "scene/pixel_edges.h"
 #include "scene/scene.h"
 
@@ -20,6 +21,8 @@ struct Settings {
   // displayed, and all of them only where the pilot samples differ.
   bool adaptive = false;
   int contrast = kDefaultContrast;
+  // Of pixels of one sample, the default or the first of adaptive ones.
+  Rate impulseRate = Rate::full, shadowRate = Rate::full;
   float exposure = 0;
   ToneCurve toneCurve = ToneCurve::none;
   SrgbEncoding srgb = SrgbEncoding::exact;
@@ -43,6 +46,7 @@ struct RayCounts {
 
 struct Impulse;
 struct Surfel;
+class PrimaryShare;
 
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
 // multiplied with on its way to the eye, for the cutoff.
@@ -50,19 +54,23 @@ class Tracer {
  public:
   Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
   RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                    RayCounts& counts) const;
+                    RayCounts& counts, PrimaryShare* share = nullptr) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // The same, but only the pilot samples where those differ by no more than settings.contrast as
   // they would be displayed.
   RgbD pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  // Through the pixel's centre alone, lending or borrowing: those that lend come first.
+  RgbD centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
+                        RayCounts& counts) const;
   // Through the pixel's centre alone, and what that ray meets.
   RgbD centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;
 
  private:
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, RayCounts& counts) const;
-  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const;
+  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
+                          PrimaryShare* share) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
               RayCounts& counts) const;
 

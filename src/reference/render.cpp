@@ -37,28 +37,55 @@ RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const 
   return sum;
 }
 
-// One sample everywhere first, then all of them where that picture has edges.
-RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
-                           Image& image, Progress* progress) {
-  Image first(image.width, image.height, grownByOne(image.window, image.width, image.height));
-  std::vector<PixelSurface> surfaces(first.pixels.size());
-  RayCounts counts =
-      forEachRow(first.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
-        for (int x = first.window.x0; x < first.window.x1; ++x) {
-          first.at(x, y) = keptAs(settings.film, Rgb(tracer.centre(frame, x, y, rowCounts)));
-          surfaces[first.index(x, y)] = tracer.surfaceAtCentre(frame, x, y);
-        }
-      });
-  const DisplayImage display =
-      toDisplay(first, settings.exposure, settings.toneCurve, settings.srgb);
-  std::vector<std::uint8_t> edges(first.pixels.size());
-  findEdges(display, surfaces, settings.contrast, 0, first.windowHeight(), edges);
+// The picture of pixels' centres, and what is seen there.
+struct FirstPicture {
+  Image image;
+  std::vector<PixelSurface> surfaces;
+};
+
+RayCounts traceCentres(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+                       FirstPicture& first, Progress* progress) {
+  Image& image = first.image;
+  const bool half = settings.impulseRate == Rate::half || settings.shadowRate == Rate::half;
+  RayCounts counts;
+  LightShares shares(image.window, first.surfaces);
+  const auto trace = [&](int y, RayCounts& rowCounts, bool lenders) {
+    for (int x = image.window.x0; x < image.window.x1; ++x) {
+      if (half && LightShares::lends(x, y) != lenders) continue;
+      first.surfaces[image.index(x, y)] = tracer.surfaceAtCentre(frame, x, y);
+      const RgbD radiance = half ? tracer.centreAtHalfRate(frame, x, y, shares, rowCounts)
+                                 : tracer.centre(frame, x, y, rowCounts);
+      image.at(x, y) = keptAs(settings.film, Rgb(radiance));
+    }
+  };
+  counts += forEachRow(image.window, settings.threads, progress,
+                       [&](int y, RayCounts& rowCounts) { trace(y, rowCounts, true); });
+  if (!half) return counts;
+  counts += forEachRow(image.window, settings.threads, progress,
+                       [&](int y, RayCounts& rowCounts) { trace(y, rowCounts, false); });
+  return counts;
+}
+
+// The centres of all pixels first, then more samples where that picture has edges.
+RayCounts renderInPasses(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+                         Image& image, Progress* progress) {
+  FirstPicture first;
+  first.image =
+      Image(image.width, image.height, grown(image.window, kPassReach, image.width, image.height));
+  first.surfaces.resize(first.image.pixels.size());
+  RayCounts counts = traceCentres(tracer, frame, settings, first, progress);
+  std::vector<std::uint8_t> edges(first.image.pixels.size());
+  if (settings.adaptive) {
+    const DisplayImage display =
+        toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
+    findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
+  }
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      const bool edge = edges[first.index(x, y)] != 0;
+      const bool edge = edges[first.image.index(x, y)] != 0;
       image.at(x, y) =
           edge ? keptAs(settings.film, Rgb(tracer.pixelByContrast(frame, x, y, rowCounts)))
-               : first.at(x, y);
+               : first.image.at(x, y);
     }
   });
   return counts;
@@ -71,7 +98,10 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   frame.media = mediaAround(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
-  if (settings.adaptive) return renderAdaptively(tracer, frame, settings, image, progress);
+  const bool half = settings.impulseRate == Rate::half || settings.shadowRate == Rate::half;
+  if (settings.adaptive || (half && settings.spp == 1)) {
+    return renderInPasses(tracer, frame, settings, image, progress);
+  }
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       image.at(x, y) = keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/display.h"
 #include "reference/generate_ray.h"
@@ -14,6 +15,50 @@
 
 namespace whit::reference {
 
+namespace {
+
+PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
+  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
+}
+
+}  // namespace
+
+// What the first ray of a pixel lends to others, or borrows from them.
+class PrimaryShare {
+ public:
+  PrimaryShare(LightShares& shares, const Settings& settings, int x, int y)
+      : shares_(shares),
+        x_(x),
+        y_(y),
+        sharesImpulses_(settings.impulseRate == Rate::half),
+        sharesShadows_(settings.shadowRate == Rate::half) {
+    if (LightShares::lends(x, y)) own_ = &(shares.at(x, y) = LightShare{});
+  }
+
+  void meet(const PixelSurface& surface) {
+    if (!own_) lenders_ = shares_.lendersOf(x_, y_, surface);
+  }
+  std::optional<bool> visibility(std::size_t light) const {
+    return sharesShadows_ ? lenders_.visibility(light) : std::nullopt;
+  }
+  void lendVisibility(std::size_t light, bool visible) {
+    if (own_) own_->saw(light, visible);
+  }
+  std::optional<Rgb> impulses() const {
+    return sharesImpulses_ ? lenders_.impulses() : std::nullopt;
+  }
+  void lendImpulses(const Rgb& radiance) {
+    if (own_) own_->impulses = radiance;
+  }
+
+ private:
+  LightShares& shares_;
+  int x_, y_;
+  bool sharesImpulses_, sharesShadows_;
+  LightShare* own_ = nullptr;
+  Lenders lenders_;  // none for who lends
+};
+
 Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
     : scene_(scene),
       intersector_(intersector),
@@ -21,7 +66,7 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
       samples_(samplePattern(settings.spp)) {}
 
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                          RayCounts& counts) const {
+                          RayCounts& counts, PrimaryShare* share) const {
   const bool absorbs = settings_.effects.has(Effect::absorption) && media != 0;
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) {
@@ -34,6 +79,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
   const Surfel surfel = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction,
                                    settings_.shading.textureFilter);
+  if (share) share->meet(surfaceOf(surfel, candidate));
   const Crossing crossing =
       crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
 
@@ -42,14 +88,19 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, settings_.effects, surfel);
     if (settings_.effects.has(Effect::lights)) {
-      radiance += radianceFromLights(surfel, left, counts);
+      radiance += radianceFromLights(surfel, left, counts, share);
     }
   }
-  if (depth < settings_.depth) {
+  if (const auto borrowed = share ? share->impulses() : std::nullopt) {
+    radiance += RgbD(*borrowed);
+  } else if (depth < settings_.depth) {
     const Impulses children =
         findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
-    radiance += follow(children.reflected, depth + 1, left, counts.reflection, counts);
-    radiance += follow(children.refracted, depth + 1, left, counts.refraction, counts);
+    const RgbD reflected = follow(children.reflected, depth + 1, left, counts.reflection, counts);
+    const RgbD refracted = follow(children.refracted, depth + 1, left, counts.refraction, counts);
+    radiance += reflected;
+    radiance += refracted;
+    if (share) share->lendImpulses(Rgb(reflected + refracted));
   }
   return radiance * arrives;
 }
@@ -64,16 +115,23 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
   return impulse.weight * traceImpulse(impulse.ray, depth, contribution, impulse.media, counts);
 }
 
-RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const {
+RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
+                                PrimaryShare* share) const {
   RgbD sum;
-  for (const PointLight& light : scene_.lights) {
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+    const PointLight& light = scene_.lights[i];
     const LightArrival arrival =
         radianceFromLight(settings_.effects, surfel, light, settings_.shading);
     const double largest = maxComponent(arrival.radiance);
     if (!(largest > 0 && throughput * largest >= settings_.shading.lightCutoff)) continue;
     if (settings_.effects.has(Effect::shadows)) {
-      ++counts.shadow;
-      if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;
+      std::optional<bool> visible = share ? share->visibility(i) : std::nullopt;
+      if (!visible) {
+        ++counts.shadow;
+        visible = !intersector_.occluded(arrival.shadowRay, arrival.tFar);
+        if (share) share->lendVisibility(i, *visible);
+      }
+      if (!*visible) continue;
     }
     sum += arrival.radiance;
   }
@@ -115,6 +173,13 @@ RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) 
   return sampled(camera, x, y, {0.5f, 0.5f}, counts);
 }
 
+RgbD Tracer::centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
+                              RayCounts& counts) const {
+  ++counts.primary;
+  PrimaryShare share(shares, settings_, x, y);
+  return traceImpulse(generateRay(camera, x + 0.5, y + 0.5), 0, 1.0, camera.media, counts, &share);
+}
+
 RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at,
                      RayCounts& counts) const {
   ++counts.primary;
@@ -128,7 +193,7 @@ PixelSurface Tracer::surfaceAtCentre(const CameraFrame& camera, int x, int y) co
   if (!intersector_.closest(ray, candidate)) return {};
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const Surfel s = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction);
-  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
+  return surfaceOf(s, candidate);
 }
 
 }  // namespace whit::reference

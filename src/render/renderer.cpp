@@ -37,6 +37,8 @@ void takeOver(const RenderOptions& from, RenderOptions& to) {
   to.spp = from.spp;
   to.adaptive = from.adaptive;
   to.contrast = from.contrast;
+  to.impulseRate = from.impulseRate;
+  to.shadowRate = from.shadowRate;
   to.depth = from.depth;
   to.cutoff = from.cutoff;
   to.shading = from.shading;
@@ -214,7 +216,7 @@ FrameStats Renderer::Parts::renderLists(FrameJob& job, const PixelLists& tileLis
 FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs) {
   const Clock::time_point start = Clock::now();
   FrameStats stats =
-      adaptive() ? renderAdaptively(job, logs) : renderLists(job, tiles, batches, logs);
+      inPasses() ? renderInPasses(job, logs) : renderLists(job, tiles, batches, logs);
   stats.frameMs = since(start);
   stats.workers = machine.threads;
   return stats;

@@ -21,6 +21,11 @@ struct Renderer::Parts {
 
   reference::Settings referenceSettings() const;
   bool adaptive() const { return options.adaptive && options.spp > 1; }
+  bool halfRate() const {
+    return (adaptive() || options.spp == 1) &&
+           (options.impulseRate == Rate::half || options.shadowRate == Rate::half);
+  }
+  bool inPasses() const { return adaptive() || halfRate(); }
   // The pixels that a frame traces: the film's, and those next to them when they are compared.
   Crop tracedWindow(const Film& film) const;
   // A job over the tiles of `window`.
@@ -35,9 +40,10 @@ struct Renderer::Parts {
                          std::vector<RayLog>* logs);
   void replan(const Plan& next);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
-  // --adaptive: the centre of every pixel, then the pilot samples at edges, then all where those
-  // still differ.
-  FrameStats renderAdaptively(FrameJob& job, std::vector<RayLog>* logs);
+  // The centre of every pixel first; with --adaptive then the pilot samples at edges, and all where
+  // those still differ.
+  FrameStats renderInPasses(FrameJob& job, std::vector<RayLog>* logs);
+  FrameStats renderCentres(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats settleFirstSamples(Film& film);  // finds the edges, keeps the rest
   PixelLists edgePixels(const Crop& window) const;
   // One worker, tile by tile, with an observer looking on.
@@ -58,10 +64,13 @@ struct Renderer::Parts {
   std::vector<TileTracer> tracers;  // one a worker; none after another plan
   std::size_t tracerCapacity = 0;   // rays, of each
 
-  // --adaptive: the picture of first samples.
+  // Frames of several passes: the picture of the first.
   Film firstSamples;
   std::vector<PixelSurface> surfaces;
   std::vector<std::uint8_t> edges;
+  std::optional<LightShares> shares;  // at half rate
+  PixelLists lenders, borrowers;      // the pixels of `tiles`, or of `batches`
+  bool fieldsOfBatches = false;       // which of the two
 };
 
 }  // namespace whit

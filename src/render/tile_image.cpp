@@ -45,6 +45,7 @@ void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixel
     Pass pass{job, batch, job.samples[0], stats, clock, log};
     if (count == 1) {
       traceSample(pass);
+      if (job.shares && job.lends && job.shareImpulses) lendImpulses(pass);
     } else {
       sums_.assign(3 * batch.size(), 0.0);
       const bool pilot = job.contrast && count > kPilotSamples;

@@ -19,7 +19,7 @@
 #include "render/plan.h"
 #include "render/renderer.h"
 #include "render/stage_clock.h"
-#include "scene/pixel_edges.h"
+#include "scene/light_shares.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
@@ -66,6 +66,9 @@ struct FrameJob {
   std::optional<int> contrast;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;
+  // Half rates, with the surfaces: pixels that lend are traced before those that borrow.
+  LightShares* shares = nullptr;
+  bool lends = false, shareImpulses = false, shareShadows = false;
   std::barrier<>* stageBarrier = nullptr;  // --batch frame: everyone waits after each stage
   StageObserver* observer = nullptr;
 };
@@ -104,6 +107,13 @@ class TileTracer {
   void shadeChunk(Pass& pass, std::size_t depth);
   void findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays);
   void recordSurfaces(const Pass& pass);
+  // Half rates, at depth 0.
+  void findLenders(const Pass& pass);
+  void borrowVisibility(const Pass& pass, std::size_t light);
+  void lendVisibility(const Pass& pass, std::size_t light);
+  void borrowImpulses(const Pass& pass);
+  void keepLocalRadiance(const Pass& pass);
+  void lendImpulses(const Pass& pass);
   void shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays);
   void addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays);
   void finishChunk(Pass& pass, std::size_t depth);
@@ -125,6 +135,9 @@ class TileTracer {
   // Of pilot samples: the codes' bounds a pixel, and the pixels that are done and to go on with.
   std::vector<std::uint32_t> lowest_, highest_, settled_, contrasting_;
   std::vector<double> settledSums_;
+  // Half rates, a pixel each: who lends, and radiance without impulses of those that lend.
+  std::vector<Lenders> lenders_;
+  std::vector<Rgb> local_;
   std::vector<std::uint32_t> codes_;  // display codes
 };
 

@@ -28,9 +28,9 @@ bool onSameSurface(const PixelSurface& a, const PixelSurface& b) {
   return rise * rise <= kSinOfTurn * kSinOfTurn * dot(between, between);
 }
 
-Crop grownByOne(const Crop& window, int width, int height) {
-  return {std::max(window.x0 - 1, 0), std::max(window.y0 - 1, 0), std::min(window.x1 + 1, width),
-          std::min(window.y1 + 1, height)};
+Crop grown(const Crop& window, int more, int width, int height) {
+  return {std::max(window.x0 - more, 0), std::max(window.y0 - more, 0),
+          std::min(window.x1 + more, width), std::min(window.y1 + more, height)};
 }
 
 void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,

@@ -130,7 +130,7 @@ Finding srgbCodes(const Setup&) {
     radiance->r[i] = radiance->g[i] = radiance->b[i] = static_cast<float>(x);
   }
   std::vector<std::uint32_t> codes(kValues + 16);
-  simd::encodeDisplay(1, ToneCurve::none, *radiance, kValues, codes.data());
+  simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *radiance, kValues, codes.data());
   for (std::size_t i = 0; i < kValues; ++i) {
     const double x = static_cast<double>(radiance->r[i]);
     const double exact = 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);

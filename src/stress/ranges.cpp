@@ -155,7 +155,7 @@ Finding oddRadiance(const Setup&) {
       radiance->r[i] = radiance->g[i] = radiance->b[i] = cases[i % 8].first;
     }
     std::array<std::uint32_t, 96> codes{};
-    simd::encodeDisplay(1, curve, *radiance, 64, codes.data());
+    simd::encodeDisplay(1, curve, SrgbEncoding::exact, *radiance, 64, codes.data());
     for (std::size_t i = 0; i < 64; ++i) {
       const auto& [value, code] = cases[i % 8];
       const std::uint32_t got = codes[i] & 255u;

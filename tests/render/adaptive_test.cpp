@@ -145,7 +145,7 @@ TEST(AdaptiveError, comesNearThatOfAllSamplesForAThirdOfTheRays) {
       "RMSE: 1 sample %.5f, 3 %.5f, 9 everywhere %.5f, adaptive %.5f with %.3f of the rays\n",
       errorOne, errorThree, errorAll, error, rays);
   EXPECT_LE(error, 1.6 * errorAll);
-  EXPECT_LE(error, errorThree / 1.5);
+  EXPECT_LE(error, errorThree / 1.4);
   EXPECT_LT(errorAll, errorOne / 3);
   EXPECT_LE(rays, 1.0 / 3);
 }

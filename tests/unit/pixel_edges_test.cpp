@@ -112,9 +112,10 @@ TEST(FindEdges, bandsGiveWhatTheWholeGives) {
   for (const int bands : {2, 3, 11}) EXPECT_EQ(frame.edges(8, bands), frame.edges());
 }
 
-TEST(GrownByOne, staysInsideTheImage) {
-  EXPECT_EQ(grownByOne({2, 3, 5, 6}, 10, 10), (Crop{1, 2, 6, 7}));
-  EXPECT_EQ(grownByOne({0, 0, 10, 10}, 10, 10), (Crop{0, 0, 10, 10}));
+TEST(Grown, staysInsideTheImage) {
+  EXPECT_EQ(grown({2, 3, 5, 6}, 1, 10, 10), (Crop{1, 2, 6, 7}));
+  EXPECT_EQ(grown({1, 3, 5, 9}, 2, 10, 10), (Crop{0, 1, 7, 10}));
+  EXPECT_EQ(grown({0, 0, 10, 10}, 2, 10, 10), (Crop{0, 0, 10, 10}));
 }
 
 }  // namespace
