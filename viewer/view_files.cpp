@@ -27,7 +27,7 @@ std::string quoted(const std::string& word) {
 
 std::string freeName(const std::string& scene) {
   for (int i = 1; i <= kPictureLimit; ++i) {
-    char number[8];
+    char number[16];
     std::snprintf(number, sizeof number, "%04d", i);
     const std::string name = scene + "-" + number;
     const auto taken = [&](const char* extension) {
