@@ -10,14 +10,17 @@ PixelSurface floorPoint(int x, int y, std::uint32_t material = 1) {
   return {material, 0, {static_cast<float>(x), 0, static_cast<float>(y)}, {0, 1, 0}};
 }
 
+std::vector<PixelSurface> floorPoints() {
+  std::vector<PixelSurface> points;
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) points.push_back(floorPoint(x, y));
+  }
+  return points;
+}
+
 // A floor of 5 x 3 pixels.
 struct Floor {
-  Floor() {
-    for (int y = 0; y < 3; ++y) {
-      for (int x = 0; x < 5; ++x) surfaces.push_back(floorPoint(x, y));
-    }
-  }
-  std::vector<PixelSurface> surfaces;
+  std::vector<PixelSurface> surfaces = floorPoints();
   LightShares shares{Crop{0, 0, 5, 3}, surfaces};
 };
 
