@@ -24,8 +24,9 @@ struct ImpulseLanes {
 
 // The least sine over the surface that a child keeps, if `elevation` is what it would have without
 // bent normals.
-HWY_INLINE VF LeastElevation(VF elevation) {
+HWY_INLINE VF LeastElevation(const ShadingTables& tables, VF elevation) {
   const FloatTag d;
+  if (!tables.shading.bend) return hn::Set(d, -std::numeric_limits<float>::infinity());
   return hn::Min(hn::Mul(hn::Set(d, 0.9f), elevation), hn::Set(d, 0.01f));
 }
 
@@ -133,7 +134,7 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     V3 r = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
     const VF height = Dot(r, lanes.ng);
-    const VF lift = LeastElevation(lanes.facing);
+    const VF lift = LeastElevation(tables, lanes.facing);
     const MF low = hn::Lt(height, lift);
     if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(low, lanes.live)))) {
       const V3 lifted = NormalizeOr(MulAdd3(lanes.ng, hn::Sub(lift, height), r), lanes.ng);
@@ -170,7 +171,7 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
     // change nothing.
     const VF g2 = hn::MulAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
-    const VF lift = LeastElevation(hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
+    const VF lift = LeastElevation(tables, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
     const MF high = hn::Gt(height, hn::Neg(lift));
     const V3 pressed =
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);

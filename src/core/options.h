@@ -57,7 +57,7 @@ struct RenderOptions {
   Mode mode = Mode::packets;
   Batch batch = Batch::tile;
   ShadingChoices shading;
-  bool robust = true;
+  bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
@@ -115,6 +115,9 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("terminator", "on|off",
         "shadow rays from above the facets of smooth surfaces: no staircase where the light ends",
         o.shading.terminator);
+  visit("bend", "on|off",
+        "impulses that normal maps send to the wrong side of their surface are turned back",
+        o.shading.bend);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);
@@ -125,6 +128,8 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("batch", "tile|frame", "stages run over a tile at a time, or over the whole frame",
         o.batch);
   visit("robust", "on|off", "Embree's watertight traversal", o.robust);
+  visit("retry", "on|off", "robust rays that find nothing in a closed scene are traced once more",
+        o.retry);
   visit("bvh", "low|medium|high",
         "Embree's build quality; high, for spatial splits, is ignored by Embree when robust",
         o.bvh);

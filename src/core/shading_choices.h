@@ -41,6 +41,10 @@ struct ShadingChoices {
   // (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
   bool terminator = false;
 
+  // Impulses that a bent shading normal sends to the wrong side of the surface are turned back to
+  // the right one (numerics H32); else they start into the solid, or out of it.
+  bool bend = true;
+
   bool operator==(const ShadingChoices&) const = default;
 };
 

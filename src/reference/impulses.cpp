@@ -9,15 +9,19 @@ namespace whit::reference {
 
 namespace {
 
-Ray reflectedRay(const Surfel& s, OffsetMethod offset) {
-  const Vec3d mirrored = reflect(-s.view, s.shadingNormal);
-  return {rayOrigin(offset, s, 1), lifted(mirrored, s.geometricNormal, smallestElevation(s))};
+Ray reflectedRay(const Surfel& s, const ShadingChoices& choices) {
+  const Vec3d mirrored = reflect(-s.view, s.shadingNormal),
+              origin = rayOrigin(choices.offset, s, 1);
+  if (!choices.bend) return {origin, mirrored};
+  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s))};
 }
 
-Ray refractedRay(const Surfel& s, const Interface& interface, double c, OffsetMethod offset) {
-  const Vec3d d = -s.view, origin = rayOrigin(offset, s, -1);
+Ray refractedRay(const Surfel& s, const Interface& interface, double c,
+                 const ShadingChoices& choices) {
+  const Vec3d d = -s.view, origin = rayOrigin(choices.offset, s, -1);
   if (interface.k == 0) return {origin, d};
   const Vec3d bent = refract(interface, d, s.shadingNormal, c);
+  if (!choices.bend) return {origin, bent};
   // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
   // change nothing.
   const double facing = dot(s.view, s.geometricNormal);
@@ -60,11 +64,11 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     if (effects.has(Effect::mirror)) reflectance += RgbD(interface.reflectance);
     if (interface.reflectance < 1) {
       result.refracted = {RgbD(material.transmission) * (1 - interface.reflectance),
-                          refractedRay(surfel, interface, c, choices.offset), crossing.stackBehind};
+                          refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
   }
   if (maxComponent(reflectance) > 0) {
-    result.reflected = {reflectance, reflectedRay(surfel, choices.offset), stack};
+    result.reflected = {reflectance, reflectedRay(surfel, choices), stack};
   }
   return result;
 }

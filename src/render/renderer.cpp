@@ -95,7 +95,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.packet = options.packet;
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
-  p.accel->setEnclosed(options.robust && isEnclosed(scene, *p.accel));
+  p.accel->setEnclosed(options.robust && options.retry && isEnclosed(scene, *p.accel));
   p.tables = buildTables(scene, p.plan.effects);
   p.tables.shading = options.shading;
   p.pool.emplace(p.machine.threads);

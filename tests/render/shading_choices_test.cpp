@@ -25,6 +25,7 @@ const std::vector<Choice>& choices() {
       {"fixedOffset", [](RenderOptions& o) { o.shading.offset = OffsetMethod::fixed; }},
       {"wachterBinder", [](RenderOptions& o) { o.shading.offset = OffsetMethod::wachterBinder; }},
       {"terminator", [](RenderOptions& o) { o.shading.terminator = true; }},
+      {"unbent", [](RenderOptions& o) { o.shading.bend = false; }},
       {"nearestTexel", [](RenderOptions& o) { o.shading.textureFilter = TextureFilter::nearest; }},
       {"halfFilm", [](RenderOptions& o) { o.film = FilmPrecision::half; }},
       {"eightBitFilm", [](RenderOptions& o) { o.film = FilmPrecision::eightBit; }},
