@@ -16,6 +16,7 @@ struct RunFacts {
   int cores = 1;
   std::uint32_t seed = 1;
   bool full = false;
+  std::string hardCases;  // a <table> of what `whit stress` found; empty: it did not run
   // Every option that shapes a picture, by name and value.
   std::function<std::vector<std::pair<std::string, std::string>>(const RenderOptions&)> describe;
 };

@@ -72,8 +72,9 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   const Image& image = frames.film.image;
   const Image& unapproximated = withoutApproximations(point, image);
   const auto against = [&](const Image& a, const Image& b) {
-    return std::async(std::launch::async, [&a, &b, this] {
-      return compareImages(a, b, base_.exposure, base_.toneCurve);
+    return std::async(std::launch::async, [&a, &b, &image, &point, this] {
+      const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
+      return compareImages(a, b, base_.exposure, base_.toneCurve, encoding);
     });
   };
   auto hdrFlip = std::async(std::launch::async, [&] { return hdrFlip_.mean(image); });

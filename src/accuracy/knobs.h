@@ -1,6 +1,6 @@
 // The options that trade accuracy for time. To sweep a new one, add a row to the table in
-// knobs.cpp: its values, which of them is exact, what kind of error the others make, and in which
-// scenes it does nothing.
+// knob_table.cpp: its values, which of them is exact, what kind of error the others make, and in
+// which scenes it does nothing.
 #pragma once
 
 #include <functional>
@@ -25,6 +25,8 @@ struct KnobValue {
   std::function<void(RenderOptions&)> apply;
   bool joint = false;  // takes part in the combinations of a full sweep
   Idle idle;           // null: wherever the knob does something
+  // What else it sets, as on the command line: other options that it needs to have an effect.
+  std::vector<std::string> alongside;
 };
 
 // Where both a reflected and a refracted ray go on, rays double with every bounce, and only the

@@ -52,6 +52,8 @@ tr.front td:first-child::before{content:"\25cf  ";color:var(--blue)}
 tr.base{background:var(--card)}td.noisy{color:var(--soft);font-style:italic}
 td.bar{background:linear-gradient(to right,var(--bar) var(--v),transparent var(--v))}
 td.over{color:var(--bad);font-weight:600}
+.cases th,.cases td{white-space:normal;text-align:left;vertical-align:top}
+.cases .broken td{color:var(--bad)}.cases code{overflow-wrap:anywhere}
 details{margin:.8em 0}summary{cursor:pointer;color:var(--blue)}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em}dt{color:var(--soft)}
 dd{margin:0}label.toggle{user-select:none}

@@ -165,7 +165,8 @@ class SceneSweeper {
       return false;
     }
     time(point, frames);
-    if (frames.film.image.pixels == baseline_->film.image.pixels) {
+    if (frames.film.image.pixels == baseline_->film.image.pixels &&
+        point.options.srgb == base_.srgb) {
       takeErrors(point, sweep_.points.front());
       point.stats = frames.stats;
       return true;

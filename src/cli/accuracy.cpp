@@ -18,6 +18,7 @@
 #include "cli/open_scene.h"
 #include "cli/program.h"
 #include "cli/progress_bar.h"
+#include "cli/stress_run.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 
@@ -63,7 +64,8 @@ OptionList listOptions(AccuracyJob& job) {
   list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
   list.flag("quick", "256x256 pixels and 64 reference samples, about a minute (the default)",
             job.quick);
-  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
+  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs, hard cases",
+            job.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
              job.check);
@@ -146,6 +148,13 @@ void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep
   }
 }
 
+// The hard cases come after everything that is timed.
+void runHardCases(const AccuracyJob& job, accuracy::RunFacts& facts) {
+  if (!job.full) return;
+  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  facts.hardCases = stressHtmlTable(runCatalogue({}, progress.get()));
+}
+
 // The exit status.
 int checkAgainst(const AccuracyJob& job, const std::string& csv) {
   const auto before = accuracy::parseCsv(readText(job.check), job.check);
@@ -165,11 +174,12 @@ int accuracyCommand(const Words& words) {
   settleOptions(job.common);
   checkJob(job);
   if (!job.check.empty()) accuracy::parseCsv(readText(job.check), job.check);  // before the work
-  const accuracy::RunFacts facts = factsOf(job);
+  accuracy::RunFacts facts = factsOf(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
   const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
+  runHardCases(job, facts);
   writeResults(job, sweeps, facts, csv);
   return job.check.empty() ? 0 : checkAgainst(job, csv);
 }

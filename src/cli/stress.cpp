@@ -10,6 +10,7 @@
 #include "cli/parse_options.h"
 #include "cli/progress_bar.h"
 #include "cli/stress_report.h"
+#include "cli/stress_run.h"
 #include "cli/stress_sheet.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -47,24 +48,6 @@ std::vector<std::string> namesOf(const std::vector<std::string>& lists) {
   return names;
 }
 
-std::vector<StressRow> runAll(const std::vector<std::string>& only, Progress* progress) {
-  std::vector<StressRow> rows;
-  const std::vector<stress::Family> families = stress::families();
-  std::size_t count = 0, done = 0;
-  for (const stress::Family& family : families) count += family.cases.size();
-  for (const stress::Family& family : families) {
-    for (const stress::Case& c : family.cases) {
-      reportProgress(progress, std::string(c.name),
-                     static_cast<double>(done++) / static_cast<double>(count));
-      if (!only.empty() && std::find(only.begin(), only.end(), c.name) == only.end()) continue;
-      for (const stress::Setup& setup : stress::setupsOf(c.runs)) {
-        rows.push_back({family.name, &c, setup, stress::runCase(c, setup)});
-      }
-    }
-  }
-  return rows;
-}
-
 Machine thisMachine() {
   Warnings warnings;
   const Scene nothing = Scene::finalize({}, warnings);
@@ -96,7 +79,7 @@ int stressCommand(const Words& words) {
     for (const std::string& name : names) std::printf("%s\n", name.c_str());
     return 0;
   }
-  const std::vector<StressRow> rows = runAll(only, progress.get());
+  const std::vector<StressRow> rows = runCatalogue(only, progress.get());
   progress.reset();
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) std::fprintf(people, "%s", stressTable(rows).c_str());

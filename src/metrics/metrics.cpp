@@ -68,11 +68,13 @@ void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference&
 
 }  // namespace
 
-ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
+ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve,
+                              SrgbEncoding encodingOfA) {
   checkComparable(a, b);
   ImageDifference difference;
   measureLinear(a, b, difference);
-  const DisplayImage shownA = toDisplay(a, exposure, curve), shownB = toDisplay(b, exposure, curve);
+  const DisplayImage shownA = toDisplay(a, exposure, curve, encodingOfA);
+  const DisplayImage shownB = toDisplay(b, exposure, curve);
   difference.psnrDb = psnr(shownA, shownB);
   measureCodes(shownA, shownB, difference);
   const std::vector<float> flip = flipOfCodes(shownA, shownB);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/options.h"
 
 namespace whit {
 
@@ -21,9 +22,11 @@ struct ImageDifference {
 };
 
 // `b` is the reference. Sizes and windows must match and hold a pixel, else Error(usage). Exposure
-// and tone curve as given are applied before anything that looks at codes.
+// and tone curve as given are applied before anything that looks at codes. The codes of `b` are
+// exact, those of `a` by `encodingOfA`.
 ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
-                              ToneCurve curve = ToneCurve::none);
+                              ToneCurve curve = ToneCurve::none,
+                              SrgbEncoding encodingOfA = SrgbEncoding::exact);
 
 // FLIP per pixel, in [0, 1], of the encoded images.
 std::vector<float> flipMap(const Image& a, const Image& b);

@@ -28,8 +28,9 @@ TEST(Knobs, LabelsAreWhatTheCommandLineTakes) {
     for (const KnobValue& value : knob.values) {
       RenderOptions options;
       value.apply(options);
-      EXPECT_EQ(cli::pictureOptions(options),
-                cli::pictureOptions(parsed({"--" + knob.name, value.label})))
+      std::vector<std::string> words{"--" + knob.name, value.label};
+      words.insert(words.end(), value.alongside.begin(), value.alongside.end());
+      EXPECT_EQ(cli::pictureOptions(options), cli::pictureOptions(parsed(words)))
           << knob.name << "=" << value.label;
     }
   }

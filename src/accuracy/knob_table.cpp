@@ -1,0 +1,268 @@
+// One row for each option that trades accuracy for time.
+#include <algorithm>
+#include <charconv>
+
+#include "accuracy/knobs.h"
+
+namespace whit::accuracy {
+
+namespace {
+
+using O = RenderOptions;
+
+std::string labelOf(int value) { return std::to_string(value); }
+std::string labelOf(bool value) { return value ? "on" : "off"; }
+std::string labelOf(float value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+template <typename T>
+struct Row {
+  const char* name;
+  T& (*field)(RenderOptions&);
+  Cause cause;
+  T exact;
+  std::vector<T> values, joint;
+};
+
+template <typename T>
+Knob knobOf(const Row<T>& row, Idle idle, const std::function<std::string(T)>& label) {
+  Knob knob{row.name, row.cause, {}, nullptr, std::move(idle)};
+  const auto set = [field = row.field](const T& value) {
+    return [field, value](RenderOptions& options) { field(options) = value; };
+  };
+  knob.makeExact = [apply = set(row.exact)](RenderOptions& o, const Exactness&) { apply(o); };
+  for (const T& value : row.values) {
+    const bool joint = std::count(row.joint.begin(), row.joint.end(), value) > 0;
+    knob.values.push_back({label(value), set(value), joint, nullptr, {}});
+  }
+  return knob;
+}
+template <typename T>
+Knob knobOf(const Row<T>& row, Idle idle) {
+  return knobOf<T>(row, std::move(idle), [](T value) { return labelOf(value); });
+}
+
+std::string never(EffectSet) { return {}; }
+
+std::string withoutImpulses(EffectSet effects) {
+  if (effects.has(Effect::mirror) || effects.has(Effect::transmission)) return {};
+  return "nothing in the scene reflects or refracts";
+}
+std::string withoutTransmission(EffectSet effects) {
+  return effects.has(Effect::transmission) ? "" : "nothing in the scene is transparent";
+}
+std::string withoutLights(EffectSet effects) {
+  return effects.has(Effect::lights) ? "" : "the scene has no light";
+}
+std::string withoutShadows(EffectSet effects) {
+  return effects.has(Effect::shadows) ? "" : "nothing in the scene casts a shadow";
+}
+std::string withoutSmoothShadows(EffectSet effects) {
+  return effects.has(Effect::smoothNormals) ? withoutShadows(effects) : "all surfaces are flat";
+}
+std::string withoutBentImpulses(EffectSet effects) {
+  const bool bent = effects.has(Effect::smoothNormals) || effects.has(Effect::normalMaps);
+  return bent ? withoutImpulses(effects) : "all surfaces are flat";
+}
+std::string withoutTextures(EffectSet effects) {
+  if (effects.has(Effect::textures) || effects.has(Effect::normalMaps)) return {};
+  return "the scene has no texture";
+}
+std::string withoutSecondaryRays(EffectSet effects) {
+  return effects.has(Effect::shadows) ? std::string() : withoutImpulses(effects);
+}
+std::string whereRaysBranch(EffectSet effects) {
+  if (!effects.has(Effect::transmission)) return {};
+  return "without a cutoff the rays of both impulses double with every bounce";
+}
+
+Knob cutoffKnob() {
+  Knob knob = knobOf<float>({"cutoff",
+                             [](O& o) -> float& { return o.cutoff; },
+                             Cause::algorithm,
+                             0,
+                             {0, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
+                             {3e-4f, 4e-3f, 1.6e-2f}},
+                            withoutImpulses);
+  knob.values.front().idle = whereRaysBranch;
+  knob.makeExact = [](O& o, const Exactness& exactness) { o.cutoff = exactness.cutoff; };
+  return knob;
+}
+
+// Adaptive supersampling is a saving on so many samples.
+constexpr int kAdaptiveSpp = 16;
+
+Knob adaptiveKnob() {
+  Knob knob = knobOf<bool>({"adaptive",
+                            [](O& o) -> bool& { return o.adaptive; },
+                            Cause::sampling,
+                            false,
+                            {false, true},
+                            {}},
+                           never);
+  KnobValue& on = knob.values.back();
+  on.apply = [](O& o) { o.adaptive = true, o.spp = kAdaptiveSpp; };
+  on.alongside = {"--spp", labelOf(kAdaptiveSpp)};
+  return knob;
+}
+
+Knob contrastKnob() {
+  Knob knob = knobOf<int>({"contrast",
+                           [](O& o) -> int& { return o.contrast; },
+                           Cause::sampling,
+                           kDefaultContrast,
+                           {kDefaultContrast, 4, 16, 32},
+                           {}},
+                          never);
+  for (KnobValue& value : knob.values) {
+    if (value.label == labelOf(kDefaultContrast)) continue;
+    value.apply = [set = value.apply](O& o) {
+      set(o);
+      o.adaptive = true, o.spp = kAdaptiveSpp;
+    };
+    value.alongside = {"--adaptive", "on", "--spp", labelOf(kAdaptiveSpp)};
+  }
+  return knob;
+}
+
+template <typename Enum>
+std::function<std::string(Enum)> named(std::vector<std::string> names) {
+  return [names = std::move(names)](Enum value) { return names[static_cast<std::size_t>(value)]; };
+}
+
+std::vector<Knob> makeKnobs() {
+  constexpr Cause kSampling = Cause::sampling, kAlgorithm = Cause::algorithm,
+                  kArithmetic = Cause::arithmetic;
+  return {
+      knobOf<int>(
+          {"spp", [](O& o) -> int& { return o.spp; }, kSampling, 1, {1, 2, 4, 8, 16}, {1, 4, 16}},
+          never),
+      adaptiveKnob(),
+      contrastKnob(),
+      knobOf<int>({"depth",
+                   [](O& o) -> int& { return o.depth; },
+                   kAlgorithm,
+                   kDepthLimit,
+                   {0, 1, 2, 3, 4, 8, 16},
+                   {2, 4, 8}},
+                  withoutImpulses),
+      cutoffKnob(),
+      knobOf<float>({"light-cutoff",
+                     [](O& o) -> float& { return o.shading.lightCutoff; },
+                     kAlgorithm,
+                     0,
+                     {0, 1e-4f, 1e-3f, 4e-3f},
+                     {0, 4e-3f}},
+                    withoutLights),
+      knobOf<FresnelModel>({"fresnel",
+                            [](O& o) -> FresnelModel& { return o.shading.fresnel; },
+                            kAlgorithm,
+                            FresnelModel::exact,
+                            {FresnelModel::exact, FresnelModel::schlick},
+                            {}},
+                           withoutTransmission, named<FresnelModel>({"exact", "schlick"})),
+      knobOf<OffsetMethod>({"offset",
+                            [](O& o) -> OffsetMethod& { return o.shading.offset; },
+                            kAlgorithm,
+                            OffsetMethod::bound,
+                            {OffsetMethod::bound, OffsetMethod::fixed, OffsetMethod::wachterBinder},
+                            {}},
+                           withoutSecondaryRays,
+                           named<OffsetMethod>({"bound", "fixed", "wachter-binder"})),
+      knobOf<bool>({"terminator",
+                    [](O& o) -> bool& { return o.shading.terminator; },
+                    kAlgorithm,
+                    false,
+                    {false, true},
+                    {}},
+                   withoutSmoothShadows),
+      knobOf<bool>({"bend",
+                    [](O& o) -> bool& { return o.shading.bend; },
+                    kAlgorithm,
+                    true,
+                    {true, false},
+                    {}},
+                   withoutBentImpulses),
+      knobOf<TextureFilter>({"texture-filter",
+                             [](O& o) -> TextureFilter& { return o.shading.textureFilter; },
+                             kAlgorithm,
+                             TextureFilter::bilinear,
+                             {TextureFilter::bilinear, TextureFilter::nearest},
+                             {}},
+                            withoutTextures, named<TextureFilter>({"nearest", "bilinear"})),
+      knobOf<Rate>({"impulse-rate",
+                    [](O& o) -> Rate& { return o.impulseRate; },
+                    kAlgorithm,
+                    Rate::full,
+                    {Rate::full, Rate::half},
+                    {}},
+                   withoutImpulses, named<Rate>({"full", "half"})),
+      knobOf<Rate>({"shadow-rate",
+                    [](O& o) -> Rate& { return o.shadowRate; },
+                    kAlgorithm,
+                    Rate::full,
+                    {Rate::full, Rate::half},
+                    {}},
+                   withoutShadows, named<Rate>({"full", "half"})),
+      knobOf<Mode>({"mode",
+                    [](O& o) -> Mode& { return o.mode; },
+                    kArithmetic,
+                    Mode::reference,
+                    {Mode::packets, Mode::reference},
+                    {}},
+                   never, named<Mode>({"packets", "reference"})),
+      knobOf<FilmPrecision>({"film",
+                             [](O& o) -> FilmPrecision& { return o.film; },
+                             kArithmetic,
+                             FilmPrecision::single,
+                             {FilmPrecision::single, FilmPrecision::half, FilmPrecision::eightBit},
+                             {}},
+                            never, named<FilmPrecision>({"float", "half", "8bit"})),
+      knobOf<SrgbEncoding>({"srgb",
+                            [](O& o) -> SrgbEncoding& { return o.srgb; },
+                            kArithmetic,
+                            SrgbEncoding::exact,
+                            {SrgbEncoding::exact, SrgbEncoding::table},
+                            {}},
+                           never, named<SrgbEncoding>({"exact", "table"})),
+      knobOf<bool>({"robust",
+                    [](O& o) -> bool& { return o.robust; },
+                    kArithmetic,
+                    true,
+                    {true, false},
+                    {true, false}},
+                   never),
+      knobOf<bool>(
+          {"retry", [](O& o) -> bool& { return o.retry; }, kArithmetic, true, {true, false}, {}},
+          never),
+      knobOf<BvhQuality>({"bvh",
+                          [](O& o) -> BvhQuality& { return o.bvh; },
+                          kArithmetic,
+                          BvhQuality::medium,
+                          {BvhQuality::low, BvhQuality::medium, BvhQuality::high},
+                          {}},
+                         never, named<BvhQuality>({"low", "medium", "high"})),
+      knobOf<int>(
+          {"packet", [](O& o) -> int& { return o.packet; }, kArithmetic, 0, {1, 4, 8, 16}, {}},
+          never),
+      knobOf<EffectChoice>({"effects",
+                            [](O& o) -> EffectChoice& { return o.effects; },
+                            kArithmetic,
+                            EffectChoice::automatic,
+                            {EffectChoice::automatic, EffectChoice::all},
+                            {}},
+                           never, named<EffectChoice>({"auto", "all"})),
+  };
+}
+
+}  // namespace
+
+const std::vector<Knob>& allKnobs() {
+  static const std::vector<Knob> knobs = makeKnobs();
+  return knobs;
+}
+
+}  // namespace whit::accuracy
