@@ -1,6 +1,5 @@
 #include "simd/display_tables.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,11 +20,6 @@ float leastWithCode(int code) {
 
 DisplayTables makeDisplayTables() {
   DisplayTables tables;
-  for (int i = 0; i <= kGuessBins; ++i) {
-    // A little below the bin's lower end: the kernel's square root may round across it.
-    const double root = std::max(0.0, (i - 0.01) / kGuessBins);
-    tables.guess[static_cast<std::size_t>(i)] = srgbCode(root * root);
-  }
   for (int code = 0; code < 256; ++code) {
     tables.least[static_cast<std::size_t>(code)] = leastWithCode(code);
   }
