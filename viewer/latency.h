@@ -9,7 +9,7 @@ namespace whit::view {
 class LatencyMeter {
  public:
   struct Sample {
-    int frames = 0;  // presented since, the changed one included
+    int frames = 0;  // traced since, the changed one included
     double ms = 0;
   };
 
@@ -22,10 +22,11 @@ class LatencyMeter {
     start_ = std::chrono::steady_clock::now();
   }
   // The picture of that request, or of a later one, is what will be presented next.
-  void fetched(int serial) { arrived_ = waitsFor_ > 0 && serial >= waitsFor_; }
-  void presented() {
-    if (waitsFor_ == 0) return;
+  void fetched(int serial) {
     ++now_.frames;
+    arrived_ = waitsFor_ > 0 && serial >= waitsFor_;
+  }
+  void presented() {
     if (!arrived_) return;
     const auto passed = std::chrono::steady_clock::now() - start_;
     now_.ms = std::chrono::duration<double, std::milli>(passed).count();
