@@ -6,10 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "cli/frame_summary.h"
 #include "cli/interrupt.h"
-#include "cli/parse_options.h"
-#include "cli/program.h"
 #include "core/display.h"
 #include "core/error.h"
 
@@ -30,12 +27,6 @@ bool readFrameNumber(const std::string& text, int& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value >= 0 &&
          value <= kFrameLimit;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ",") + word;
-  return all;
 }
 
 }  // namespace
@@ -77,25 +68,6 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
     writePng(path, toDisplay(film.image, options.exposure, options.toneCurve, options.srgb),
              metadata);
   }
-}
-
-ImageMetadata describeImage(const Scene& scene, const Camera& camera, const Renderer& renderer,
-                            const Film& film, const RenderOptions& options) {
-  RenderOptions resolved = options;
-  resolved.size = ImageSize{film.image.width, film.image.height};
-  resolved.eye = camera.eye;  // also of a camera on a path, which has no name
-  resolved.at = camera.at;
-  resolved.up = camera.up;
-  resolved.fov = camera.fov;
-  if (options.mode == Mode::packets) {
-    resolved.packet = renderer.machine().packet;
-    resolved.simd = renderer.machine().simd;
-  }
-  ImageMetadata metadata{{"software", std::string("whit ") + versionText()},
-                         {"scene", scene.name},
-                         {"effectsUsed", joined(effectNames(renderer.plan().effects))}};
-  for (auto& entry : pictureOptions(resolved)) metadata.push_back(std::move(entry));
-  return metadata;
 }
 
 FrameRange parseFrameRange(const std::string& text) {

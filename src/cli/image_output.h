@@ -20,11 +20,6 @@ void requireJsonWritable(const std::string& path);
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata);
 
-// Everything needed to make the image again: version, scene, and each option by its name with
-// "auto" resolved. Never a date or a host: the same picture gives the same bytes.
-ImageMetadata describeImage(const Scene& scene, const Camera& camera, const Renderer& renderer,
-                            const Film& film, const RenderOptions& options);
-
 // Frames a to b, both included.
 struct FrameRange {
   int first = 0, last = 0;

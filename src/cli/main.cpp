@@ -5,6 +5,7 @@
 #include "cli/program.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "core/version.h"
 
 namespace whit::cli {
 

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "core/picture_options.h"
 #include "core/quality.h"
 
 namespace whit::cli {
@@ -138,17 +137,6 @@ Parsed parseOptions(const std::string& usage, const std::string& summary, const 
     for (const std::string& text : options[i]->reduced_results()) list.entries[i].set(text);
   }
   return Parsed::run;
-}
-
-std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options) {
-  std::vector<std::pair<std::string, std::string>> said;
-  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
-                             const auto& field) {
-    if (!changesPicture(name)) return;
-    const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
-    if (!value.empty()) said.emplace_back(name, value);
-  });
-  return said;
 }
 
 }  // namespace whit::cli

@@ -3,7 +3,6 @@
 
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/option_list.h"
@@ -34,9 +33,5 @@ enum class Parsed { run, helpShown };
 // standard output. Throws Error(usage): unknown options name the nearest one.
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words);
-
-// Name and value of every render option that says anything, in the order of --help. Leaves out
-// those that by design do not change a bit of the picture (threads, tile, queue, batch).
-std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options);
 
 }  // namespace whit::cli

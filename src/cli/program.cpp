@@ -37,6 +37,4 @@ std::vector<std::string> wordsOf(int argc, char** argv) {
   return argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>();
 }
 
-const char* versionText() { return WHIT_VERSION; }
-
 }  // namespace whit::cli

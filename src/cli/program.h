@@ -13,6 +13,4 @@ int runProgram(const std::string& name, const std::function<int()>& body);
 
 std::vector<std::string> wordsOf(int argc, char** argv);  // without the program's name
 
-const char* versionText();  // "0.1.0"
-
 }  // namespace whit::cli

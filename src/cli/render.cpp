@@ -11,6 +11,7 @@
 #include "cli/progress_bar.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
+#include "render/describe_image.h"
 
 namespace whit::cli {
 
@@ -56,17 +57,6 @@ void checkJob(const RenderJob& job) {
   }
 }
 
-// Where the path is at the frame, with --eye, --at, --up and --fov on top.
-Camera cameraOfFrame(const Scene& scene, const RenderJob& job, int frame) {
-  Camera camera = cameraAt(scene.cameraPath, frame / job.fps);
-  const RenderOptions& o = job.common.render;
-  camera.eye = o.eye.value_or(camera.eye);
-  camera.at = o.at.value_or(camera.at);
-  camera.up = o.up.value_or(camera.up);
-  camera.fov = o.fov.value_or(camera.fov);
-  return camera;
-}
-
 bool allExist(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (!std::filesystem::exists(file)) return false;
@@ -93,11 +83,7 @@ class ImageWriter {
              const ImageMetadata& more = {}) {
     const RenderOptions& options = job_.common.render;
     run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
-    if (options.strict && run_.frames.back().nonFinitePixels > 0) {
-      throw Error(ExitStatus::badScene, open_.scene.name + ": the image has " +
-                                            std::to_string(run_.frames.back().nonFinitePixels) +
-                                            " pixels that are not finite (refused by --strict)");
-    }
+    refuseNonFinite(open_.scene, options, run_.frames.back());
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
     metadata.insert(metadata.end(), more.begin(), more.end());
     for (const std::string& file : files) {
@@ -120,8 +106,6 @@ class ImageWriter {
 };
 
 void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Progress* progress) {
-  if (scene.cameraPath.empty())
-    throwUsage("--frames: scene '" + scene.name + "' has no camera path");
   const FrameRange range = parseFrameRange(job.frames);
   for (int frame = range.first; frame <= range.last; ++frame) {
     std::vector<std::string> files;
@@ -129,7 +113,8 @@ void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Pr
     reportProgress(progress, "frame " + std::to_string(frame),
                    static_cast<double>(frame - range.first) / (range.last - range.first + 1));
     if (job.skipExisting && allExist(files)) continue;
-    writer.write(cameraOfFrame(scene, job, frame), files, {{"frame", std::to_string(frame)}});
+    writer.write(cameraOnPath(scene, job.common.render, frame / job.fps), files,
+                 {{"frame", std::to_string(frame)}});
   }
 }
 
