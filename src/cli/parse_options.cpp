@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "cli/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/quality.h"
@@ -119,6 +120,10 @@ void settleOptions(CommonOptions& common) {
 
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words) {
+  if (words == std::vector<std::string>{"--man"}) {
+    std::fputs(manOptions(usage, summary, list).c_str(), stdout);
+    return Parsed::helpShown;
+  }
   CLI::App app(summary + "\n");
   app.formatter(std::make_shared<HelpFormatter>(usage));
   const std::vector<CLI::Option*> options = declare(app, list);

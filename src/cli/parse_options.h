@@ -30,7 +30,8 @@ void settleOptions(CommonOptions& common);
 enum class Parsed { run, helpShown };
 
 // Parses `words` (without the program's name). `usage` is the first line of --help, which goes to
-// standard output. Throws Error(usage): unknown options name the nearest one.
+// standard output; so does the command's part of the manual page for the one word --man. Throws
+// Error(usage): unknown options name the nearest one.
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words);
 

@@ -9,5 +9,11 @@ foreach(name cli_program cli_images cli_json cli_effects cli_stress)
   target_compile_definitions(${name}_test PRIVATE WHIT_PROGRAM="$<TARGET_FILE:whit>")
   add_dependencies(${name}_test whit)
 endforeach()
+set(programs $<TARGET_FILE:whit>)
+if(TARGET whit-view)
+  list(APPEND programs $<TARGET_FILE:whit-view>)
+endif()
+add_test(NAME manual.says_what_help_says
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/manual_test.sh ${programs})
 add_test(NAME install.works_where_it_is_put
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/install_test.sh ${CMAKE_BINARY_DIR})
