@@ -10,6 +10,8 @@
 
 namespace whit::cli {
 
+std::string extensionOf(const std::string& path);  // in lower case, ".exr"
+
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
