@@ -17,3 +17,6 @@ add_test(NAME manual.says_what_help_says
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/manual_test.sh ${programs})
 add_test(NAME install.works_where_it_is_put
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/install_test.sh ${CMAKE_BINARY_DIR})
+add_test(NAME farm.goes_on_after_a_kill
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/farm_test.sh $<TARGET_FILE:whit>)
+set_tests_properties(farm.goes_on_after_a_kill PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
