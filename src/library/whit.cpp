@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "core/error.h"
+#include "core/failure.h"
 #include "core/nearest_name.h"
 #include "core/option_values.h"
 #include "core/quality.h"
@@ -27,12 +27,9 @@ template <typename Body>
 decltype(auto) guarded(Body&& body) {
   try {
     return body();
-  } catch (const whit::Error& error) {
-    throw Error(static_cast<int>(error.status()), error.what());
-  } catch (const std::bad_alloc&) {
-    throw Error(static_cast<int>(ExitStatus::limit), "out of memory");
   } catch (const std::exception& error) {
-    throw Error(static_cast<int>(ExitStatus::checkFailed), error.what());
+    const Failure failure = failureOf(error);
+    throw Error(static_cast<int>(failure.status), failure.what);
   }
 }
 
