@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/image_output.h"
+#include "render/describe_image.h"
 #include "scene/edit_shading.h"
 
 namespace whit::view {
@@ -82,8 +82,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   frame.scene = scene_;
   frame.request = request;
   frame.options = options_;
-  frame.metadata =
-      cli::describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
+  frame.metadata = describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
   if (request.edits > 0) frame.metadata.emplace_back("edited", "materials or lights");
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/option_values.h"
+#include "core/option_values.h"
 
 namespace whit::view {
 
@@ -14,7 +14,7 @@ std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
   std::map<std::string, std::string> values;
   forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
                              const auto& field) {
-    const std::string value = cli::formatValue(cli::renderOptionSpec(name, placeholder), field);
+    const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
     values[name] = value.empty() ? "none" : value;
   });
   return values;

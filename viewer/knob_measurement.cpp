@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "cli/option_values.h"
+#include "core/option_values.h"
 
 namespace whit::view {
 
@@ -32,7 +32,7 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
     forEachOption(candidate.options, [&](const std::string& option, const char* placeholder,
                                          const char*, auto& field) {
       if (option != candidate.name) return;
-      cli::parseValue(cli::renderOptionSpec(option, placeholder), candidate.other, field);
+      parseValue(renderOptionSpec(option, placeholder), candidate.other, field);
     });
     candidates.push_back(std::move(candidate));
   }

@@ -6,7 +6,7 @@
 #include <array>
 #include <type_traits>
 
-#include "cli/option_values.h"
+#include "core/option_values.h"
 #include "core/quality.h"
 
 namespace whit::view {
@@ -27,19 +27,19 @@ bool isElsewhere(const std::string& name) {
 
 // A list of the placeholder's words.
 template <typename Field>
-void drawChoice(const cli::OptionSpec& spec, Field& field) {
-  const std::string now = cli::formatValue(spec, field);
+void drawChoice(const OptionSpec& spec, Field& field) {
+  const std::string now = formatValue(spec, field);
   if (!ImGui::BeginCombo(spec.name.c_str(), now.c_str())) return;
   for (std::size_t begin = 0; begin <= spec.placeholder.size();) {
     const std::size_t end = std::min(spec.placeholder.find('|', begin), spec.placeholder.size());
     const std::string word = spec.placeholder.substr(begin, end - begin);
-    if (ImGui::Selectable(word.c_str(), word == now)) cli::parseValue(spec, word, field);
+    if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
     begin = end + 1;
   }
   ImGui::EndCombo();
 }
 
-void drawNumber(const cli::OptionSpec& spec, int& field) {
+void drawNumber(const OptionSpec& spec, int& field) {
   constexpr double kOpenEnd = 1 << 20;
   const int low = static_cast<int>(std::max(spec.low, 0.0));
   const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
@@ -50,7 +50,7 @@ void drawNumber(const cli::OptionSpec& spec, int& field) {
   if (ImGui::SliderInt(spec.name.c_str(), &value, low, high, "%d", flags)) field = value;
 }
 
-void drawNumber(const cli::OptionSpec& spec, float& field) {
+void drawNumber(const OptionSpec& spec, float& field) {
   const auto low = static_cast<float>(std::max(spec.low, 0.0));
   const auto high = static_cast<float>(std::min(spec.high, 1.0));
   constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
@@ -58,7 +58,7 @@ void drawNumber(const cli::OptionSpec& spec, float& field) {
 }
 
 template <typename Field>
-void drawKnob(const cli::OptionSpec& spec, Field& field) {
+void drawKnob(const OptionSpec& spec, Field& field) {
   if constexpr (std::is_same_v<Field, bool>) {
     ImGui::Checkbox(spec.name.c_str(), &field);
   } else if (spec.placeholder.find('|') != std::string::npos) {
@@ -118,7 +118,7 @@ void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
   forEachOption(options, [&](const std::string& name, const char* placeholder, const char* help,
                              auto& field) {
     if (isElsewhere(name)) return;
-    drawKnob(cli::renderOptionSpec(name, placeholder), field);
+    drawKnob(renderOptionSpec(name, placeholder), field);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
     drawCost(costs, name);
   });
@@ -131,7 +131,7 @@ void drawDisplay(RenderOptions& options) {
   ImGui::SliderFloat("exposure", &options.exposure, -kStops, kStops, "%+.2f EV");
   forEachOption(options,
                 [&](const std::string& name, const char* placeholder, const char*, auto& field) {
-                  if (name == "tonemap") drawKnob(cli::renderOptionSpec(name, placeholder), field);
+                  if (name == "tonemap") drawKnob(renderOptionSpec(name, placeholder), field);
                 });
   ImGui::PopItemWidth();
 }

@@ -1,10 +1,14 @@
 // whit-view: the viewer.
+#include <cstdio>
+
+#include "cli/man_page.h"
 #include "cli/open_scene.h"
 #include "cli/program.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
 #include "io/paths.h"
 #include "viewer/app.h"
+#include "viewer/keys.h"
 #include "viewer/path_run.h"
 
 namespace whit::view {
@@ -49,10 +53,33 @@ std::optional<ScriptPlayer> readScript(const std::string& file) {
   return ScriptPlayer(parseScript(readTextFile(file, kScriptBytesLimit), file));
 }
 
+const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced as it is seen",
+                         kUsage,
+                         "Traces the scene anew for every picture, at the resolution that holds "
+                         "the rate asked for while "
+                         "something moves, and sharpens the picture at rest.",
+                         "whit"};
+
+void showManual(const cli::OptionList& list) {
+  std::fputs(cli::manOpening(kPage).c_str(), stdout);
+  std::fputs(cli::manTerms("OPTIONS", {{"--help", "the options"}, {"--man", "this page"}}).c_str(),
+             stdout);
+  std::puts(".PP");
+  std::fputs(cli::manOptions(kUsage, kSummary, list).c_str(), stdout);
+  std::vector<std::pair<std::string, std::string>> keys;
+  for (const KeyHelp& key : keyHelp()) keys.emplace_back(key.keys, key.text);
+  std::fputs(cli::manTerms("KEYS", keys).c_str(), stdout);
+  std::fputs(cli::manClosing(kPage).c_str(), stdout);
+}
+
 int run(const std::vector<std::string>& words) {
   ViewOptions options;
   std::vector<std::string> scenes;
   const cli::OptionList list = listOptions(options, scenes);
+  if (words == std::vector<std::string>{"--man"}) {
+    showManual(list);
+    return 0;
+  }
   if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;
   options.scene = scenes[0];
   cli::settleOptions(options.common);

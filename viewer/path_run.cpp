@@ -9,6 +9,7 @@
 #include "cli/image_output.h"
 #include "cli/open_scene.h"
 #include "core/error.h"
+#include "render/describe_image.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -133,7 +134,7 @@ void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& 
     renderer.render(camera, film);
     show(window, film.display);
     cli::writeImage(cli::frameName(pattern, frame), film, options.common.render,
-                    cli::describeImage(open.scene, camera, renderer, film, options.common.render));
+                    describeImage(open.scene, camera, renderer, film, options.common.render));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "cli/image_output.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
+#include "core/picture_options.h"
 #include "io/atomic_file.h"
 #include "io/json_text.h"
 #include "io/paths.h"
@@ -62,7 +63,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   options.up = frame.request.camera.up;
   options.fov = frame.request.camera.fov;
   std::string text = "whit render " + quoted(scene);
-  for (const auto& [name, value] : cli::pictureOptions(options)) {
+  for (const auto& [name, value] : pictureOptions(options)) {
     if (name == "strict") {
       text += options.strict ? " --strict" : "";
     } else {

@@ -45,11 +45,19 @@ std::string deviceConfiguration(const AccelOptions& options) {
   return text;
 }
 
+// What the machine does not have is the user's choice; all else is that something ran out.
+[[noreturn]] void throwNoDevice(const AccelOptions& options) {
+  const RTCError error = rtcGetDeviceError(nullptr);
+  const std::string what = "Embree has no device for '" + deviceConfiguration(options) + "'";
+  if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throwUsage(what);
+  throwLimit(what + ": memory or threads ran out");
+}
+
 }  // namespace
 
 EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
   device_ = rtcNewDevice(deviceConfiguration(options).c_str());
-  if (!device_) throwUsage("Embree has no device for '" + deviceConfiguration(options) + "'");
+  if (!device_) throwNoDevice(options);
   rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
   triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);
@@ -128,6 +136,9 @@ void EmbreeScene::requireNoError(const char* doing) const {
   if (error == RTC_ERROR_NONE) return;
   const std::string what = std::string("Embree failed while ") + doing;
   if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
+  // An exception within its tasking system. What is built has been validated: it ran out of
+  // something.
+  if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
   throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
 }
 

@@ -20,6 +20,8 @@
 #include "cli/progress_bar.h"
 #include "cli/stress_run.h"
 #include "core/error.h"
+#include "core/picture_options.h"
+#include "core/version.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {

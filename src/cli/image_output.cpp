@@ -6,23 +6,13 @@
 #include <charconv>
 #include <filesystem>
 
-#include "cli/frame_summary.h"
 #include "cli/interrupt.h"
-#include "cli/parse_options.h"
-#include "cli/program.h"
 #include "core/display.h"
 #include "core/error.h"
 
 namespace whit::cli {
 
 namespace {
-
-std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 constexpr int kFrameLimit = 10'000'000;
 
@@ -32,13 +22,14 @@ bool readFrameNumber(const std::string& text, int& value) {
          value <= kFrameLimit;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ",") + word;
-  return all;
-}
-
 }  // namespace
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
   const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
@@ -77,25 +68,6 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
     writePng(path, toDisplay(film.image, options.exposure, options.toneCurve, options.srgb),
              metadata);
   }
-}
-
-ImageMetadata describeImage(const Scene& scene, const Camera& camera, const Renderer& renderer,
-                            const Film& film, const RenderOptions& options) {
-  RenderOptions resolved = options;
-  resolved.size = ImageSize{film.image.width, film.image.height};
-  resolved.eye = camera.eye;  // also of a camera on a path, which has no name
-  resolved.at = camera.at;
-  resolved.up = camera.up;
-  resolved.fov = camera.fov;
-  if (options.mode == Mode::packets) {
-    resolved.packet = renderer.machine().packet;
-    resolved.simd = renderer.machine().simd;
-  }
-  ImageMetadata metadata{{"software", std::string("whit ") + versionText()},
-                         {"scene", scene.name},
-                         {"effectsUsed", joined(effectNames(renderer.plan().effects))}};
-  for (auto& entry : pictureOptions(resolved)) metadata.push_back(std::move(entry));
-  return metadata;
 }
 
 FrameRange parseFrameRange(const std::string& text) {

@@ -10,6 +10,8 @@
 
 namespace whit::cli {
 
+std::string extensionOf(const std::string& path);  // in lower case, ".exr"
+
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
@@ -19,11 +21,6 @@ void requireJsonWritable(const std::string& path);
 // Writes .exr (linear) or .png (display) by the name's extension.
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata);
-
-// Everything needed to make the image again: version, scene, and each option by its name with
-// "auto" resolved. Never a date or a host: the same picture gives the same bytes.
-ImageMetadata describeImage(const Scene& scene, const Camera& camera, const Renderer& renderer,
-                            const Film& film, const RenderOptions& options);
 
 // Frames a to b, both included.
 struct FrameRange {

@@ -6,7 +6,7 @@
 #include "cli/info_rows.h"
 #include "cli/interrupt.h"
 #include "cli/machine_facts.h"
-#include "cli/option_values.h"
+#include "core/option_values.h"
 #include "io/atomic_file.h"
 #include "simd/kernel_variants.h"
 

@@ -2,26 +2,48 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/man_page.h"
 #include "cli/program.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "core/version.h"
 
 namespace whit::cli {
 
 namespace {
 
+const ManPage kPage{"whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
+                    "Renders scenes with Embree packets and SIMD kernels, measures where the time "
+                    "goes, and checks itself against a scalar reference in double precision. "
+                    "SCENE is a scene file (.json), a model (.obj), or the name of a shipped scene "
+                    "(atrium). Standard output carries results, standard error everything for "
+                    "people. Files appear under their name only when complete.",
+                    "whit-view"};
+
 void showHelp() {
-  std::printf(
-      "whit %s: real-time Whitted ray tracing on CPUs\n\n"
-      "Usage: whit COMMAND ...\n\nCommands:\n",
-      versionText());
+  std::printf("whit %s: %s\n\nUsage: %s\n\nCommands:\n", versionText(), kPage.summary.c_str(),
+              kPage.synopsis.c_str());
   for (const Command& c : kCommands) std::printf("  %-10s%s\n", c.name, c.summary);
   std::printf(
       "\nSCENE is a scene file (.json), a model (.obj), or the name of a shipped scene (atrium).\n"
-      "Options of a command: whit COMMAND --help. Version: whit --version.\n\n"
-      "Exit status: 0 done; 1 a comparison or check failed; 2 wrong usage; 3 a bad scene or "
-      "image;\n"
-      "4 cannot read or write; 5 a limit or memory ran out; 130 interrupted.\n");
+      "Options of a command: whit COMMAND --help. Version: whit --version. The manual page:\n"
+      "whit --man.\n\nExit status:\n");
+  for (const ExitMeaning& e : kExitMeanings) std::printf("  %-5d%s\n", e.status, e.meaning);
+}
+
+void showManual() {
+  std::fputs(manOpening(kPage).c_str(), stdout);
+  std::fputs(manTerms("OPTIONS", {{"--help", "what there is; of a command: its options"},
+                                  {"--version", "the version"},
+                                  {"--man", "this page, for man -l"}})
+                 .c_str(),
+             stdout);
+  std::puts(".SH COMMANDS");
+  for (const Command& command : kCommands) {
+    std::printf(".SS %s\n", command.name);
+    command.run({"--man"});
+  }
+  std::fputs(manClosing(kPage).c_str(), stdout);
 }
 
 int run(const Words& words) {
@@ -37,12 +59,16 @@ int run(const Words& words) {
     std::printf("whit %s\n", versionText());
     return 0;
   }
+  if (words[0] == "--man") {
+    showManual();
+    return 0;
+  }
   std::vector<std::string> names;
   for (const Command& command : kCommands) {
     if (words[0] == command.name) return command.run(Words(words.begin() + 1, words.end()));
     names.emplace_back(command.name);
   }
-  if (words[0][0] == '-') names = {"--help", "--version"};
+  if (words[0][0] == '-') names = {"--help", "--version", "--man"};
   throwUsage("there is no command '" + words[0] + "'; nearest: '" + nearestName(words[0], names) +
              "' (whit --help lists them)");
 }

@@ -3,17 +3,9 @@
 #include <chrono>
 #include <cstdio>
 
-#include "core/error.h"
 #include "io/load_scene.h"
 
 namespace whit::cli {
-
-namespace {
-
-// Linear pixel, display code, and what the encoder needs while it writes.
-constexpr std::uint64_t kBytesPerPixel = 32;
-
-}  // namespace
 
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress) {
@@ -35,15 +27,7 @@ void tellWarnings(const Warnings& warnings) {
 }
 
 Film openFilm(const Scene& scene, const CommonOptions& common) {
-  const ImageSize size = common.render.size.value_or(ImageSize{scene.width, scene.height});
-  const Crop window = common.render.crop.value_or(Crop{0, 0, size.width, size.height});
-  const std::uint64_t bytes = static_cast<std::uint64_t>(window.x1 - window.x0) *
-                              static_cast<std::uint64_t>(window.y1 - window.y0) * kBytesPerPixel;
-  if (bytes > common.load.maxMemoryBytes) {
-    throwLimit("the image needs " + std::to_string(bytes / 1000000) +
-               " MB, more than --max-memory allows");
-  }
-  return makeFilm(scene, common.render);
+  return makeFilm(scene, common.render, common.load.maxMemoryBytes);
 }
 
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,

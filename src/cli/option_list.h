@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/option_values.h"
+#include "core/option_values.h"
 
 namespace whit::cli {
 

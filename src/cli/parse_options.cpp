@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <map>
 
+#include "cli/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "core/picture_options.h"
 #include "core/quality.h"
 
 namespace whit::cli {
@@ -120,6 +120,10 @@ void settleOptions(CommonOptions& common) {
 
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words) {
+  if (words == std::vector<std::string>{"--man"}) {
+    std::fputs(manOptions(usage, summary, list).c_str(), stdout);
+    return Parsed::helpShown;
+  }
   CLI::App app(summary + "\n");
   app.formatter(std::make_shared<HelpFormatter>(usage));
   const std::vector<CLI::Option*> options = declare(app, list);
@@ -138,17 +142,6 @@ Parsed parseOptions(const std::string& usage, const std::string& summary, const 
     for (const std::string& text : options[i]->reduced_results()) list.entries[i].set(text);
   }
   return Parsed::run;
-}
-
-std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options) {
-  std::vector<std::pair<std::string, std::string>> said;
-  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
-                             const auto& field) {
-    if (!changesPicture(name)) return;
-    const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
-    if (!value.empty()) said.emplace_back(name, value);
-  });
-  return said;
 }
 
 }  // namespace whit::cli

@@ -3,7 +3,6 @@
 
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/option_list.h"
@@ -31,12 +30,9 @@ void settleOptions(CommonOptions& common);
 enum class Parsed { run, helpShown };
 
 // Parses `words` (without the program's name). `usage` is the first line of --help, which goes to
-// standard output. Throws Error(usage): unknown options name the nearest one.
+// standard output; so does the command's part of the manual page for the one word --man. Throws
+// Error(usage): unknown options name the nearest one.
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words);
-
-// Name and value of every render option that says anything, in the order of --help. Leaves out
-// those that by design do not change a bit of the picture (threads, tile, queue, batch).
-std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options);
 
 }  // namespace whit::cli

@@ -1,11 +1,12 @@
 #include "cli/program.h"
 
+#include <signal.h>
+
 #include <cstdio>
 #include <exception>
-#include <new>
 
 #include "cli/interrupt.h"
-#include "core/error.h"
+#include "core/failure.h"
 
 namespace whit::cli {
 
@@ -20,23 +21,21 @@ int fail(const std::string& name, ExitStatus status, const char* what) {
 
 int runProgram(const std::string& name, const std::function<int()>& body) {
   installInterruptHandlers();
+  signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then an error of the write
   try {
     const int status = body();
-    if (std::fflush(stdout) != 0) return fail(name, ExitStatus::io, "cannot write the result");
+    // What did not fit into the buffer has failed earlier.
+    const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    if (lost) return fail(name, ExitStatus::io, "cannot write the result");
     return status;
-  } catch (const Error& error) {
-    return fail(name, error.status(), error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(name, ExitStatus::limit, "out of memory");
   } catch (const std::exception& error) {
-    return fail(name, ExitStatus::checkFailed, error.what());
+    const Failure failure = failureOf(error);
+    return fail(name, failure.status, failure.what.c_str());
   }
 }
 
 std::vector<std::string> wordsOf(int argc, char** argv) {
   return argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>();
 }
-
-const char* versionText() { return WHIT_VERSION; }
 
 }  // namespace whit::cli

@@ -11,8 +11,21 @@ namespace whit::cli {
 // anything else 1, each with one line "NAME: what" on standard error.
 int runProgram(const std::string& name, const std::function<int()>& body);
 
-std::vector<std::string> wordsOf(int argc, char** argv);  // without the program's name
+// What the programs' exit statuses mean, in words.
+struct ExitMeaning {
+  int status;
+  const char* meaning;
+};
+inline constexpr ExitMeaning kExitMeanings[] = {
+    {0, "done"},
+    {1, "a comparison or check failed"},
+    {2, "wrong usage"},
+    {3, "a bad scene or image"},
+    {4, "cannot read or write"},
+    {5, "a limit or memory ran out"},
+    {130, "interrupted"},
+};
 
-const char* versionText();  // "0.1.0"
+std::vector<std::string> wordsOf(int argc, char** argv);  // without the program's name
 
 }  // namespace whit::cli

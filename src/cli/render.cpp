@@ -1,4 +1,5 @@
 // whit render: one image, or the frames of a scene's camera path.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -9,8 +10,10 @@
 #include "cli/json_report.h"
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
+#include "cli/resume.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
+#include "render/describe_image.h"
 
 namespace whit::cli {
 
@@ -25,7 +28,7 @@ struct RenderJob {
   std::vector<std::string> scenes, outputs;
   std::string frames, json;
   double fps = 24;
-  bool skipExisting = false;
+  bool resume = false;
 };
 
 OptionList listOptions(RenderJob& job) {
@@ -37,7 +40,11 @@ OptionList listOptions(RenderJob& job) {
   list.value({"frames", "A..B"}, "frames of the camera path; FILE has #### for the number",
              job.frames);
   list.value({"fps", "N", 0.001, 1e6}, "frames a second of the camera path", job.fps);
-  list.flag("skip-existing", "leave out frames whose files are there", job.skipExisting);
+  list.flag(
+      "resume",
+      "leave out images that are there, whole and made with the same options; the scene's own "
+      "contents are not compared",
+      job.resume);
   list.value({"json", "FILE"}, "what was done and what it cost; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
@@ -56,24 +63,6 @@ void checkJob(const RenderJob& job) {
   }
 }
 
-// Where the path is at the frame, with --eye, --at, --up and --fov on top.
-Camera cameraOfFrame(const Scene& scene, const RenderJob& job, int frame) {
-  Camera camera = cameraAt(scene.cameraPath, frame / job.fps);
-  const RenderOptions& o = job.common.render;
-  camera.eye = o.eye.value_or(camera.eye);
-  camera.at = o.at.value_or(camera.at);
-  camera.up = o.up.value_or(camera.up);
-  camera.fov = o.fov.value_or(camera.fov);
-  return camera;
-}
-
-bool allExist(const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    if (!std::filesystem::exists(file)) return false;
-  }
-  return true;
-}
-
 class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, const OpenScene& open, Progress* progress)
@@ -89,17 +78,19 @@ class ImageWriter {
     }
   }
 
+  // With --resume, nothing is traced when all files are there.
   void write(const Camera& camera, const std::vector<std::string>& files,
              const ImageMetadata& more = {}) {
     const RenderOptions& options = job_.common.render;
-    run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
-    if (options.strict && run_.frames.back().nonFinitePixels > 0) {
-      throw Error(ExitStatus::badScene, open_.scene.name + ": the image has " +
-                                            std::to_string(run_.frames.back().nonFinitePixels) +
-                                            " pixels that are not finite (refused by --strict)");
-    }
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
     metadata.insert(metadata.end(), more.begin(), more.end());
+    if (job_.resume && std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+          return isWhole(file, film_.image, metadata, options);
+        })) {
+      return;
+    }
+    run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
+    refuseNonFinite(open_.scene, options, run_.frames.back());
     for (const std::string& file : files) {
       writeImage(file, film_, options, metadata);
       written_.push_back(file);
@@ -120,16 +111,14 @@ class ImageWriter {
 };
 
 void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Progress* progress) {
-  if (scene.cameraPath.empty())
-    throwUsage("--frames: scene '" + scene.name + "' has no camera path");
   const FrameRange range = parseFrameRange(job.frames);
   for (int frame = range.first; frame <= range.last; ++frame) {
     std::vector<std::string> files;
     for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
     reportProgress(progress, "frame " + std::to_string(frame),
                    static_cast<double>(frame - range.first) / (range.last - range.first + 1));
-    if (job.skipExisting && allExist(files)) continue;
-    writer.write(cameraOfFrame(scene, job, frame), files, {{"frame", std::to_string(frame)}});
+    writer.write(cameraOnPath(scene, job.common.render, frame / job.fps), files,
+                 {{"frame", std::to_string(frame)}});
   }
 }
 
@@ -140,7 +129,6 @@ int renderCommand(const Words& words) {
   if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
   settleOptions(job.common);
   checkJob(job);
-  if (job.frames.empty() && job.skipExisting && allExist(job.outputs)) return 0;
 
   auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
   const auto open = openScene(job.scenes[0], job.common, progress.get());
@@ -151,7 +139,7 @@ int renderCommand(const Words& words) {
     writePath(job, open->scene, writer, progress.get());
   }
   progress.reset();
-  if (writer.run().frames.empty()) return 0;  // all were there already
+  if (writer.run().frames.empty()) return 0;  // all were there
   if (!job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
   if (!job.json.empty()) {
     Json json = runJson(writer.run());

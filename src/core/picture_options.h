@@ -1,7 +1,12 @@
 // Which options a picture depends on.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/options.h"
 
 namespace whit {
 
@@ -10,5 +15,8 @@ namespace whit {
 inline bool changesPicture(std::string_view option) {
   return option != "threads" && option != "tile" && option != "queue" && option != "batch";
 }
+
+// Name and value of every such option that says anything, in the order of forEachOption.
+std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options);
 
 }  // namespace whit

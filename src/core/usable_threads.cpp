@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
+#include "core/cgroup_quota.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -19,28 +21,16 @@ int affinityThreads() {
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-// CPUs' worth of time that the cgroup grants; 0 when it sets no limit.
-double cgroupQuota() {
-  std::ifstream v2("/sys/fs/cgroup/cpu.max");
-  std::string quota;
-  double period = 0;
-  if (v2 >> quota >> period) {
-    return quota == "max" || period <= 0 ? 0 : std::strtod(quota.c_str(), nullptr) / period;
-  }
-  std::ifstream v1Quota("/sys/fs/cgroup/cpu/cpu.cfs_quota_us");
-  std::ifstream v1Period("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
-  double microseconds = 0;
-  if (v1Quota >> microseconds && v1Period >> period && microseconds > 0 && period > 0) {
-    return microseconds / period;
-  }
-  return 0;
+std::string readWhole(const char* file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
 
 int usableThreads() {
   const int threads = std::max(1, affinityThreads());
-  const double quota = cgroupQuota();
+  const double quota = cgroupQuota(readWhole("/proc/self/cgroup"), "/sys/fs/cgroup");
   if (quota <= 0) return threads;
   return std::clamp(static_cast<int>(std::floor(quota + 0.001)), 1, threads);
 }

@@ -1,5 +1,10 @@
 #include "core/worker_pool.h"
 
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -7,10 +12,19 @@
 namespace whit {
 
 WorkerPool::WorkerPool(int workers) : workers_(workers), start_(workers), finish_(workers) {
-  for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
+  try {
+    for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
+  } catch (const std::system_error& error) {
+    // Those who have come go home; the others are not waited for.
+    for (int i = static_cast<int>(threads_.size()) + 1; i < workers; ++i) start_.arrive_and_drop();
+    sendHome();
+    throwLimit("cannot start " + std::to_string(workers) + " threads: " + error.what());
+  }
 }
 
-WorkerPool::~WorkerPool() {
+WorkerPool::~WorkerPool() { sendHome(); }
+
+void WorkerPool::sendHome() {
   job_ = nullptr;
   start_.arrive_and_wait();
   for (std::thread& thread : threads_) thread.join();

@@ -13,7 +13,8 @@ namespace whit {
 
 class WorkerPool {
  public:
-  // `workers` including the calling thread; at least 1.
+  // `workers` including the calling thread; at least 1. Throws Error(limit) where the system has no
+  // room for so many.
   explicit WorkerPool(int workers);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -29,6 +30,7 @@ class WorkerPool {
  private:
   void work(int worker);
   void call(int worker) noexcept;
+  void sendHome();
 
   int workers_;
   std::barrier<> start_, finish_;

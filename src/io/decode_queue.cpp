@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/worker_pool.h"
+
 namespace whit {
 
 DecodeQueue::DecodeQueue(int threads, Progress* progress, std::string phase)
     : progress_(progress), phase_(std::move(phase)) {
-  const int count = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int count = threads > 0 ? threads : usableThreads();
   workerLimit_ = static_cast<std::size_t>(std::max(count, 1) - 1);
 }
 

@@ -46,6 +46,9 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
 ImageMetadata readExrMetadata(const std::string& path);
 // sRGB PNG with the metadata as text chunks; alpha is left out. Keywords are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
+// The text chunks of a PNG that has been decoded to its end. Throws Error(io) if it cannot be read,
+// badScene if it is damaged or cut off.
+ImageMetadata readPngMetadata(const std::string& path);
 // The bytes of such a file without metadata.
 std::string encodePng(const DisplayImage& image);
 

@@ -92,9 +92,11 @@ void writeTo(std::FILE* file, const std::string& what, const DisplayImage& image
   const std::vector<png_text> texts = textChunks(metadata, keywords);
   Writer writer;
   const bool written = write(writer, file, image, texts.data(), static_cast<int>(texts.size()));
+  const int error = errno;  // of the last write, if that was what failed
   png_destroy_write_struct(&writer.png, &writer.info);
+  const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
   const bool closed = std::fclose(file) == 0;
-  if (!written) throwIo("cannot write '" + what + "': " + writer.message);
+  if (!written) throwIo("cannot write '" + what + "': " + reason);
   if (!closed) throwIo("cannot write '" + what + "': " + std::strerror(errno));
 }
 

@@ -130,7 +130,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
 SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
                            Progress* progress) {
   const SceneName parsed = parseSceneName(name);
-  const fs::path path = findScene(parsed.file);
+  const fs::path path = findScene(parsed.file, options.shippedScenes);
   const std::string extension = lowerExtension(path);
   if (extension == ".obj") return loadModelFile(path, parsed, options, warnings, progress);
   if (extension == ".json") return loadSceneFile(path, parsed, options, warnings, progress);

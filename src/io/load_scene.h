@@ -14,12 +14,13 @@ struct LoadOptions {
   bool allowOutside = false;                   // paths may leave the scene's folder and $WHIT_DATA
   std::uint64_t maxMemoryBytes = 16ull << 30;  // texels and geometry while loading
   int threads = 0;                             // decoders; 0: all
+  std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
 };
 
 // `name`: a scene file (.json), a model (.obj), or the bare name of a shipped scene, looked for in
-// $WHIT_SCENES, beside the program and in the source tree. Throws Error: badScene with
-// "file:line" or "file#/json/pointer" and what was expected there, io when it cannot be read,
-// usage when no such scene is shipped (names the nearest).
+// $WHIT_SCENES, beside the program, in options.shippedScenes and in the source tree. Throws Error:
+// badScene with "file:line" or "file#/json/pointer" and what was expected there, io when it cannot
+// be read, usage when no such scene is shipped (names the nearest).
 SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
 

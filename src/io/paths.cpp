@@ -31,7 +31,7 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
   return inFolder == folder.end() || inFolder->empty();
 }
 
-std::vector<fs::path> sceneFolders() {
+std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
   std::vector<fs::path> folders;
   if (const char* variable = std::getenv("WHIT_SCENES"); variable && *variable) {
     folders.emplace_back(variable);
@@ -43,6 +43,7 @@ std::vector<fs::path> sceneFolders() {
     folders.push_back(program.parent_path().parent_path() / "share/whit/scenes");
     folders.push_back(program.parent_path().parent_path() / "scenes");
   }
+  if (!shippedScenes.empty()) folders.emplace_back(shippedScenes);
   folders.emplace_back(WHIT_SCENES_DIR);
   return folders;
 }
@@ -141,10 +142,10 @@ SceneName parseSceneName(const std::string& name) {
   return result;
 }
 
-fs::path findScene(const std::string& file) {
+fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   const fs::path path(file);
   if (path.has_extension() || path.has_parent_path()) return path;
-  const std::vector<fs::path> folders = sceneFolders();
+  const std::vector<fs::path> folders = sceneFolders(shippedScenes);
   for (const fs::path& folder : folders) {
     const fs::path candidate = folder / (file + ".json");
     std::error_code error;

@@ -43,8 +43,9 @@ struct SceneName {
 SceneName parseSceneName(const std::string& name);
 
 // A path for names that look like one (a separator or an extension), a shipped scene for bare
-// names. Throws Error(usage) for a bare name that is not shipped, naming the nearest.
-std::filesystem::path findScene(const std::string& file);
+// names, which are also looked for in `shippedScenes` unless that is empty. Throws Error(usage) for
+// a bare name that is not shipped, naming the nearest.
+std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
 // The scenes of hard cases to look at, shipped in the folder `hard`; in order of their names.
 std::vector<std::filesystem::path> hardScenes();
 

@@ -7,6 +7,21 @@
 
 namespace whit {
 
+namespace {
+
+// Linear pixel, display code, and what the encoder needs while it writes.
+constexpr std::uint64_t kBytesPerPixel = 32;
+
+Camera aimed(Camera camera, const RenderOptions& options) {
+  camera.eye = options.eye.value_or(camera.eye);
+  camera.at = options.at.value_or(camera.at);
+  camera.up = options.up.value_or(camera.up);
+  camera.fov = options.fov.value_or(camera.fov);
+  return camera;
+}
+
+}  // namespace
+
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   Camera camera = scene.cameras.front();
   if (!options.camera.empty()) {
@@ -22,14 +37,15 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
     }
     camera = *found;
   }
-  if (options.eye) camera.eye = *options.eye;
-  if (options.at) camera.at = *options.at;
-  if (options.up) camera.up = *options.up;
-  if (options.fov) camera.fov = *options.fov;
-  return camera;
+  return aimed(camera, options);
 }
 
-Film makeFilm(const Scene& scene, const RenderOptions& options) {
+Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds) {
+  if (scene.cameraPath.empty()) throwUsage("scene '" + scene.name + "' has no camera path");
+  return aimed(cameraAt(scene.cameraPath, seconds), options);
+}
+
+Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t maxBytes) {
   const ImageSize size = options.size.value_or(ImageSize{scene.width, scene.height});
   const Crop window = options.crop.value_or(Crop{0, 0, size.width, size.height});
   if (window.x0 < 0 || window.y0 < 0 || window.x1 > size.width || window.y1 > size.height ||
@@ -37,9 +53,22 @@ Film makeFilm(const Scene& scene, const RenderOptions& options) {
     throwUsage("--crop must lie within the image of " + std::to_string(size.width) + "x" +
                std::to_string(size.height) + " pixels and hold at least one");
   }
+  const std::uint64_t bytes = static_cast<std::uint64_t>(window.x1 - window.x0) *
+                              static_cast<std::uint64_t>(window.y1 - window.y0) * kBytesPerPixel;
+  if (bytes > maxBytes) {
+    throwLimit("the image needs " + std::to_string(bytes / 1000000) +
+               " MB, more than --max-memory allows");
+  }
   Film film;
   film.image = Image(size.width, size.height, window);
   return film;
+}
+
+void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {
+  if (!options.strict || frame.nonFinitePixels == 0) return;
+  throw Error(ExitStatus::badScene, scene.name + ": the image has " +
+                                        std::to_string(frame.nonFinitePixels) +
+                                        " pixels that are not finite (refused by --strict)");
 }
 
 }  // namespace whit

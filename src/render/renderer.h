@@ -2,6 +2,8 @@
 // frame (--batch frame).
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -84,8 +86,15 @@ class Renderer {
 // The camera that the options ask for: --camera, then --eye, --at, --up, --fov on top of it.
 // Throws Error(usage) naming the nearest camera.
 Camera chooseCamera(const Scene& scene, const RenderOptions& options);
-// An empty film of the size and crop that the options ask for.
-Film makeFilm(const Scene& scene, const RenderOptions& options);
+// Where the scene's camera path is at `seconds`, with --eye, --at, --up, --fov on top. Throws
+// Error(usage) when the scene has no path.
+Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
+// An empty film of the size and crop that the options ask for. Throws Error(usage) for a crop
+// outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
+Film makeFilm(const Scene& scene, const RenderOptions& options,
+              std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
+// Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
+void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
 
 // One row of `whit compare --stages`: the worst difference between a vector stage's output and its
 // scalar twin on the same input, in ulps of the column's magnitude.

@@ -8,6 +8,7 @@
 #include "accuracy/digest.h"
 #include "cli/parse_options.h"
 #include "core/error.h"
+#include "core/picture_options.h"
 
 namespace whit::accuracy {
 namespace {
@@ -30,7 +31,7 @@ TEST(Knobs, LabelsAreWhatTheCommandLineTakes) {
       value.apply(options);
       std::vector<std::string> words{"--" + knob.name, value.label};
       words.insert(words.end(), value.alongside.begin(), value.alongside.end());
-      EXPECT_EQ(cli::pictureOptions(options), cli::pictureOptions(parsed(words)))
+      EXPECT_EQ(pictureOptions(options), pictureOptions(parsed(words)))
           << knob.name << "=" << value.label;
     }
   }

@@ -1,5 +1,6 @@
 // Images that the program writes: what they say, and that nothing half-written is left.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <map>
@@ -118,12 +119,58 @@ TEST(Images, FramesFollowThePath) {
   EXPECT_EQ(metadataOf(folder / "f-000.exr").at("eye"), "0,2,6");
   EXPECT_EQ(metadataOf(folder / "f-002.exr").at("eye"), "6,2,0");  // frame 2 of 2 a second: 1 s
   EXPECT_EQ(metadataOf(folder / "f-001.exr").at("frame"), "1");
-  // What is there stays; what is missing comes.
-  std::ofstream(folder / "f-000.exr") << "kept";
-  fs::remove(folder / "f-001.exr");
-  render({tiny, "-o", folder / "f-###.exr", "--frames", "0..2", "--fps", "2", "--skip-existing"});
-  EXPECT_EQ(readFile(folder / "f-000.exr"), "kept");
-  EXPECT_TRUE(fs::exists(folder / "f-001.exr"));
+}
+
+// A file that is written anew is another file of that name.
+ino_t fileNumber(const std::string& path) {
+  struct stat info {};
+  EXPECT_EQ(stat(path.c_str(), &info), 0) << path;
+  return info.st_ino;
+}
+
+TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  for (const std::string type : {".exr", ".png"}) {
+    const auto frame = [&](int i) { return folder / ("f-" + std::to_string(i) + type); };
+    std::vector<std::string> words{tiny, "-o", folder / ("f-#" + type), "--frames", "0..5"};
+    render(words);
+    std::vector<std::string> whole;
+    for (int i = 0; i <= 5; ++i) whole.push_back(readFile(frame(i)));
+    fs::remove(frame(1));
+    std::ofstream(frame(2), std::ios::binary) << whole[2].substr(0, whole[2].size() - 9);
+    std::ofstream(frame(3), std::ios::binary) << "no image at all";
+    render({tiny, "-o", words[2], "--frames", "4", "--depth", "1"});
+    // The other machine may have had other lanes; the picture's place is not its own.
+    render({tiny, "-o", words[2], "--frames", "5", "--simd", "sse4", "--packet", "4"});
+    const std::string others = readFile(frame(5));
+    const ino_t kept[] = {fileNumber(frame(0)), fileNumber(frame(5))};
+    words.insert(words.end(), {"--resume", "--threads", "1"});
+    render(words);
+    for (int i = 0; i <= 4; ++i)
+      EXPECT_TRUE(readFile(frame(i)) == whole[static_cast<std::size_t>(i)]) << i << type;
+    EXPECT_EQ(fileNumber(frame(0)), kept[0]) << "traced again";
+    EXPECT_EQ(fileNumber(frame(5)), kept[1]) << "traced again";
+    words.insert(words.end(), {"--packet", "8"});  // now it is said
+    render(words);
+    EXPECT_FALSE(readFile(frame(5)) == others);
+  }
+}
+
+TEST(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const std::vector<std::string> words{
+      tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--crop", "8,4,40,20", "--resume"};
+  render(words);
+  const ino_t first = fileNumber(folder / "a.exr");
+  render(words);
+  EXPECT_EQ(fileNumber(folder / "a.exr"), first);
+  fs::remove(folder / "a.png");
+  render(words);
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+  render({tiny, "-o", folder / "a.exr", "--crop", "8,4,40,21", "--resume"});
+  EXPECT_EQ(read(folder / "a.exr").windowHeight(), 17);
 }
 
 TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "cli/image_output.h"
-#include "cli/option_values.h"
 #include "cli/parse_options.h"
 #include "core/error.h"
+#include "core/option_values.h"
 #include "core/quality.h"
 
 namespace whit::cli {

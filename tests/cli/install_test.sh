@@ -13,4 +13,7 @@ bin/whit render only-installed --size 32x20 -o picture.png --quiet
 test -s picture.png
 bin/whit info only-installed --quiet | grep -q triangles
 test -s share/doc/whit/LICENSE
+for program in bin/*; do
+  test -s "share/man/man1/$(basename "$program").1"
+done
 echo "installed and used: 1 passed"

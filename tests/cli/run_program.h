@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -43,8 +44,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Starts whit with standard output and error going to files in `folder`; returns the process.
-inline pid_t startWhit(const std::vector<std::string>& words, const TemporaryFolder& folder) {
+// Starts whit with standard output and error going to files in `folder`, after `prepare` has been
+// called in the new process; returns the process.
+inline pid_t startWhit(
+    const std::vector<std::string>& words, const TemporaryFolder& folder,
+    const std::function<void()>& prepare = [] {}) {
   std::vector<std::string> all{WHIT_PROGRAM};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> argv;
@@ -55,6 +59,7 @@ inline pid_t startWhit(const std::vector<std::string>& words, const TemporaryFol
   if (child == 0) {
     dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    prepare();
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -86,9 +91,10 @@ struct Outcome {
   std::string out, err;
 };
 
-inline Outcome runWhit(const std::vector<std::string>& words) {
+inline Outcome runWhit(
+    const std::vector<std::string>& words, const std::function<void()>& prepare = [] {}) {
   const TemporaryFolder folder;
-  const int status = waitFor(startWhit(words, folder));
+  const int status = waitFor(startWhit(words, folder, prepare));
   return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
 }
 

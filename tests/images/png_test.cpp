@@ -29,6 +29,23 @@ std::vector<std::string> chunks(const Bytes& file, const std::string& type) {
   return found;
 }
 
+TEST_F(PngTest, TextComesBackFromWholeFilesOnly) {
+  const ImageMetadata metadata{{"software", "whit"}, {"place", "K\u00f6ln"}, {"eye", "1,2,3"}};
+  writePng(path("a.png"), gradient(16, 16), metadata);
+  EXPECT_EQ(readPngMetadata(path("a.png")), metadata);
+  const Bytes whole = load(path("a.png"));
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{20}, whole.size() / 2, whole.size() - 9}) {
+    save("cut.png", Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    EXPECT_EQ(statusOf([&] { readPngMetadata(path("cut.png")); }), ExitStatus::badScene) << size;
+  }
+  Bytes damaged = whole;
+  damaged[whole.size() - 30] ^= 1;  // among the pixels: the checksum tells
+  save("damaged.png", damaged);
+  EXPECT_EQ(statusOf([&] { readPngMetadata(path("damaged.png")); }), ExitStatus::badScene);
+  EXPECT_EQ(statusOf([&] { readPngMetadata(path("none.png")); }), ExitStatus::io);
+}
+
 TEST_F(PngTest, PixelsComeBack) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {16, 16}}) {
     const DisplayImage image = gradient(width, height);

@@ -1,11 +1,17 @@
 #include "core/worker_pool.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include "core/error.h"
+#include "sanitized.h"
 
 namespace whit::test {
 namespace {
@@ -60,6 +66,25 @@ TEST(WorkerPool, H55_denormalsAreFlushedInEveryWorkerAndNowhereElse) {
   pool.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
   for (const float p : products) EXPECT_EQ(p, 0.0f);
   EXPECT_GT(denormalProduct(), 0.0f);
+}
+
+// Some threads can be started, others not: those that were are ended in order.
+TEST(WorkerPoolDeathTest, noRoomForThreadsIsALimit) {
+  if (kSanitized) GTEST_SKIP() << "addresses cannot be limited under this sanitizer";
+  const auto fillUp = [] {
+    rlimit stack{};
+    getrlimit(RLIMIT_STACK, &stack);
+    const rlim_t room = stack.rlim_cur == RLIM_INFINITY ? rlim_t{64} << 20 : 8 * stack.rlim_cur;
+    const rlimit addresses{room, room};
+    setrlimit(RLIMIT_AS, &addresses);
+    try {
+      const WorkerPool pool(1000);
+    } catch (const Error& error) {
+      std::exit(error.status() == ExitStatus::limit ? 7 : 8);
+    }
+    std::exit(9);
+  };
+  EXPECT_EXIT(fillUp(), testing::ExitedWithCode(7), "");
 }
 
 TEST(WorkerPool, thereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }

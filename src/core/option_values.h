@@ -7,7 +7,7 @@
 
 #include "core/options.h"
 
-namespace whit::cli {
+namespace whit {
 
 // What a value may be. A placeholder with '|' lists the only words that are accepted; of an
 // enumeration they stand in the order of its enumerators.
@@ -67,4 +67,4 @@ std::string formatValue(const OptionSpec& spec, const std::optional<T>& value) {
   return value ? formatValue(spec, *value) : std::string();
 }
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,4 +1,4 @@
-#include "cli/option_values.h"
+#include "core/option_values.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 
-namespace whit::cli {
+namespace whit {
 
 namespace {
 
@@ -199,4 +199,4 @@ std::string formatValue(const OptionSpec&, const EffectSet& value) {
   return names;
 }
 
-}  // namespace whit::cli
+}  // namespace whit

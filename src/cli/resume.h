@@ -1,0 +1,18 @@
+// Going on where an earlier run was stopped.
+#pragma once
+
+#include <string>
+
+#include "core/image.h"
+#include "core/options.h"
+#include "io/image_file.h"
+
+namespace whit::cli {
+
+// Whether `path` (.exr or .png) is what a render into `image` would write: there, readable to its
+// last byte, and made with the same options. What the options leave to the machine (--simd auto,
+// --packet auto) may differ. Throws Error(io) when it is there but cannot be read.
+bool isWhole(const std::string& path, const Image& image, const ImageMetadata& expected,
+             const RenderOptions& options);
+
+}  // namespace whit::cli

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace whit {
+
+const char* versionText();  // "0.1.0"
+
+}  // namespace whit

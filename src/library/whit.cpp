@@ -1,0 +1,264 @@
+#include "library/whit.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/error.h"
+#include "core/failure.h"
+#include "core/nearest_name.h"
+#include "core/option_values.h"
+#include "core/quality.h"
+#include "core/version.h"
+#include "io/image_file.h"
+#include "io/load_scene.h"
+#include "render/describe_image.h"
+#include "render/renderer.h"
+
+namespace whit::api {
+
+namespace {
+
+// Calls `body` and lets nothing out but api::Error.
+template <typename Body>
+decltype(auto) guarded(Body&& body) {
+  try {
+    return body();
+  } catch (const std::exception& error) {
+    const Failure failure = failureOf(error);
+    throw Error(static_cast<int>(failure.status), failure.what);
+  }
+}
+
+[[noreturn]] void throwUnknownOption(const std::string& name) {
+  std::vector<std::string> names;
+  const RenderOptions options;
+  forEachOption(options, [&](const char* known, const char*, const char*, const auto&) {
+    names.emplace_back(known);
+  });
+  throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
+}
+
+// Calls visit(spec, field) for the option of this name.
+template <typename Options, typename Visitor>
+void visitOption(Options& options, const std::string& name, Visitor&& visit) {
+  bool found = false;
+  forEachOption(options, [&](const char* known, const char* placeholder, const char*, auto& field) {
+    if (name != known) return;
+    found = true;
+    visit(renderOptionSpec(name, placeholder), field);
+  });
+  if (!found) throwUnknownOption(name);
+}
+
+FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
+  FrameStatistics said;
+  said.frameMs = frame.frameMs;
+  said.embreeMs = frame.embreeMs();
+  said.nonFinitePixels = frame.nonFinitePixels;
+  for (std::size_t i = 0; i < kStageCount && mode == Mode::packets; ++i) {
+    said.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
+  }
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    said.rays.push_back({kRayKindNames[i], frame.tally[i].rays});
+  }
+  return said;
+}
+
+}  // namespace
+
+struct Scene::Data {
+  explicit Data(bool strict) : warnings(strict) {}
+  whit::Scene scene;
+  Warnings warnings;
+  std::uint64_t maxMemoryBytes = 0;
+};
+
+Scene::Scene(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+Scene loadScene(const std::string& name, const LoadOptions& options, const char* shippedScenes) {
+  return guarded([&] {
+    whit::LoadOptions load;
+    load.allowOutside = options.allowOutside;
+    load.maxMemoryBytes = static_cast<std::uint64_t>(std::max(options.maxMemoryGb, 0.0) * 1e9);
+    load.threads = options.threads;
+    load.shippedScenes = shippedScenes;
+    auto data = std::make_shared<Scene::Data>(options.strict);
+    data->scene =
+        whit::Scene::finalize(whit::loadScene(name, load, data->warnings), data->warnings);
+    data->maxMemoryBytes = load.maxMemoryBytes;
+    return Scene(std::move(data));
+  });
+}
+
+const std::string& Scene::name() const { return data_->scene.name; }
+int Scene::width() const { return data_->scene.width; }
+int Scene::height() const { return data_->scene.height; }
+std::uint64_t Scene::triangles() const { return data_->scene.instancedTriangles; }
+
+std::vector<std::string> Scene::cameras() const {
+  std::vector<std::string> names;
+  for (const Camera& camera : data_->scene.cameras) names.push_back(camera.name);
+  return names;
+}
+
+double Scene::pathSeconds() const {
+  const std::vector<Keyframe>& path = data_->scene.cameraPath;
+  return path.empty() ? 0 : static_cast<double>(path.back().time);
+}
+
+std::vector<std::string> Scene::warnings() const {
+  std::vector<std::string> all;
+  for (const auto& [kind, entry] : data_->warnings.entries()) {
+    all.push_back(kind + " (" + std::to_string(entry.count) + " times, first: " + entry.first +
+                  ")");
+  }
+  return all;
+}
+
+struct Image::Data {
+  Film film;
+  ImageMetadata metadata;
+};
+
+Image::Image() : data_(std::make_unique<Data>()) {}
+Image::Image(const Image& other) : data_(std::make_unique<Data>(*other.data_)) {}
+Image::Image(Image&& other) : Image() { data_.swap(other.data_); }
+Image& Image::operator=(Image other) noexcept {
+  data_.swap(other.data_);
+  return *this;
+}
+Image::~Image() = default;
+
+int Image::width() const { return data_->film.image.windowWidth(); }
+int Image::height() const { return data_->film.image.windowHeight(); }
+int Image::left() const { return data_->film.image.window.x0; }
+int Image::top() const { return data_->film.image.window.y0; }
+
+std::span<const float> Image::rgb() const {
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  const std::vector<Rgb>& pixels = data_->film.image.pixels;
+  return {pixels.empty() ? nullptr : &pixels.front().x, 3 * pixels.size()};
+}
+
+std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.rgba; }
+
+void Image::write(const std::string& path) const {
+  guarded([&] {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
+    if (extension == ".exr") {
+      writeExr(path, data_->film.image, data_->metadata);
+    } else if (extension == ".png") {
+      writePng(path, data_->film.display, data_->metadata);
+    } else {
+      throwUsage("'" + path + "': expected a name that ends in .exr or .png");
+    }
+  });
+}
+
+struct Renderer::Data {
+  explicit Data(Scene s) : scene(std::move(s)) {}
+
+  const whit::Scene& internal() const { return scene.data_->scene; }
+  void prepare();
+  void prepare(Film& film) const;
+  void render(const Camera& camera, Image& image);
+
+  Scene scene;
+  RenderOptions options;  // as set
+  std::set<std::string> given;
+  RenderOptions settled;  // with what --quality stands for
+  bool changed = true;
+  std::unique_ptr<whit::Renderer> renderer;
+  FrameStatistics statistics;
+};
+
+// After options were set: the renderer takes them over, or is made anew.
+void Renderer::Data::prepare() {
+  if (!changed) return;
+  settled = options;
+  applyQuality(settled, given);
+  if (renderer && renderer->canSetOptions(settled)) {
+    renderer->setOptions(settled);
+  } else {
+    renderer.reset();  // two acceleration structures at a time could be too many
+    renderer = std::make_unique<whit::Renderer>(internal(), settled);
+  }
+  changed = false;
+}
+
+void Renderer::Data::prepare(Film& film) const {
+  const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
+  const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
+  const whit::Image& image = film.image;
+  if (image.width == size.width && image.height == size.height && image.window == window) return;
+  film = makeFilm(internal(), settled, scene.data_->maxMemoryBytes);
+}
+
+void Renderer::Data::render(const Camera& camera, Image& image) {
+  Film& film = image.data_->film;
+  prepare(film);
+  const FrameStats frame = settled.mode == Mode::reference ? renderer->renderReference(camera, film)
+                                                           : renderer->render(camera, film);
+  refuseNonFinite(internal(), settled, frame);
+  image.data_->metadata = describeImage(internal(), camera, *renderer, film, settled);
+  statistics = statisticsOf(frame, settled.mode);
+}
+
+Renderer::Renderer(Scene scene) : data_(std::make_unique<Data>(std::move(scene))) {}
+Renderer::Renderer(Renderer&& other) noexcept = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
+Renderer::~Renderer() = default;
+
+Renderer& Renderer::set(const std::string& name, const std::string& value) {
+  return guarded([&]() -> Renderer& {
+    visitOption(data_->options, name,
+                [&](const OptionSpec& spec, auto& field) { parseValue(spec, value, field); });
+    data_->given.insert(name);
+    data_->changed = true;
+    return *this;
+  });
+}
+
+std::string Renderer::get(const std::string& name) const {
+  return guarded([&] {
+    RenderOptions settled = data_->options;
+    applyQuality(settled, data_->given);
+    std::string text;
+    visitOption(settled, name, [&](const OptionSpec& spec, const auto& field) {
+      text = formatValue(spec, field);
+    });
+    return text;
+  });
+}
+
+Image Renderer::render() {
+  Image image;
+  render(image);
+  return image;
+}
+
+void Renderer::render(Image& image) {
+  guarded([&] {
+    data_->prepare();
+    data_->render(chooseCamera(data_->internal(), data_->settled), image);
+  });
+}
+
+void Renderer::renderOnPath(double seconds, Image& image) {
+  guarded([&] {
+    data_->prepare();
+    data_->render(cameraOnPath(data_->internal(), data_->settled, seconds), image);
+  });
+}
+
+const FrameStatistics& Renderer::statistics() const { return data_->statistics; }
+
+std::string version() { return versionText(); }
+
+}  // namespace whit::api

@@ -1,0 +1,110 @@
+// When something runs out: disk, memory, processors.
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "sanitized.h"
+
+namespace whit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void limit(int resource, rlim_t most) {
+  const rlimit both{most, most};
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+
+class Limits : public testing::Test {
+ protected:
+  Limits() : tiny_(writeTinyScene(folder_)) {}
+
+  void expectFailure(const Outcome& outcome, int status, const std::string& said) {
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("whit: ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  }
+
+  TemporaryFolder folder_, results_;
+  std::string tiny_;
+};
+
+TEST_F(Limits, AFullDeviceIsAnErrorOfWriting) {
+  for (const char* name : {"full.exr", "full.png", "full.json"}) {
+    fs::create_symlink("/dev/full", results_ / name);
+  }
+  for (const char* name : {"full.exr", "full.png"}) {
+    expectFailure(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4,
+                  "No space left on device");
+  }
+  expectFailure(runWhit({"info", tiny_, "--json", results_ / "full.json", "--quiet"}), 4,
+                "full.json");
+  const auto toFull = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  expectFailure(runWhit({"info", tiny_, "--quiet"}, toFull), 4, "cannot write");
+  expectFailure(runWhit({"render", "--help"}, toFull), 4, "cannot write");
+}
+
+TEST_F(Limits, AFileThatMayNotGrowIsLeftOutWhole) {
+  for (const std::string type : {".exr", ".png"}) {
+    const std::string old = results_ / ("old" + type);
+    ASSERT_EQ(runWhit({"render", tiny_, "-o", old, "--size", "8x8", "--quiet"}).status, 0);
+    const std::string before = readFile(old);
+    ASSERT_LT(before.size(), 4096u);
+    for (const std::string& path : {old, results_ / ("new" + type)}) {
+      const Outcome outcome = runWhit({"render", tiny_, "-o", path, "--size", "200x200", "--quiet"},
+                                      [] { limit(RLIMIT_FSIZE, 4096); });
+      expectFailure(outcome, 4, "File too large");
+    }
+    EXPECT_TRUE(readFile(old) == before) << "what was there is gone";
+    EXPECT_FALSE(fs::exists(results_ / ("new" + type)));
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(results_.path()), {}), 2)
+      << "temporary files left";
+}
+
+// With ever more memory: a message and status 5, until there is enough. Below 64 MB not even the
+// shared libraries find room, and no line of ours runs.
+TEST_F(Limits, TooLittleMemoryIsALimit) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";
+  int failures = 0, successes = 0;
+  for (rlim_t megabytes = 64; successes < 2 && megabytes < 65536; megabytes += megabytes / 4) {
+    const Outcome outcome = runWhit({"render", tiny_, "-o", results_ / "a.png", "--quiet"},
+                                    [&] { limit(RLIMIT_AS, megabytes << 20); });
+    if (outcome.status == 127) continue;  // the loader
+    if (outcome.status == 0) {
+      ++successes;
+    } else {
+      ++failures;
+      expectFailure(outcome, 5, "");
+      EXPECT_EQ(std::distance(fs::directory_iterator(results_.path()), {}), successes > 0);
+    }
+  }
+  EXPECT_GT(failures, 0);
+  EXPECT_EQ(successes, 2);
+}
+
+TEST_F(Limits, WorkersAreNoMoreThanTheProcessMayUse) {
+  const auto threadsWith = [&](int cpus) {
+    const Outcome outcome =
+        runWhit({"render", tiny_, "-o", results_ / "a.exr", "--quiet", "--json", "-"}, [cpus] {
+          cpu_set_t allowed, wanted;
+          sched_getaffinity(0, sizeof allowed, &allowed);
+          CPU_ZERO(&wanted);
+          for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&wanted) < cpus; ++i) {
+            if (CPU_ISSET(i, &allowed)) CPU_SET(i, &wanted);
+          }
+          sched_setaffinity(0, sizeof wanted, &wanted);
+        });
+    return nlohmann::json::parse(outcome.out)["threads"].get<int>();
+  };
+  EXPECT_EQ(threadsWith(1), 1);
+  cpu_set_t here;
+  sched_getaffinity(0, sizeof here, &here);
+  EXPECT_LE(threadsWith(2), std::min(2, CPU_COUNT(&here)));
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# scenes/farm on this machine: a worker is killed half way, the same line again goes on, and the
+# frames are those of one process: farm_test.sh WHIT
+set -euo pipefail
+
+whit=$1
+farm=$(cd "$(dirname "$0")/../../scenes/farm" && pwd)
+if ! command -v parallel >/dev/null; then
+  echo "GNU parallel is not installed (apt-get install parallel): farms are NOT checked" >&2
+  exit 77
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+mkdir whole farmed slurm
+# A frame takes long enough to be killed in, a tenth of a second or so.
+options=(--size 64x40 --spp 16 --threads 1)
+"$whit" render whitted -o "whole/####.exr" --frames 0..7 "${options[@]}" --quiet
+
+farm() { WHIT=$whit JOBS=2 CHUNK=4 RETRIES=${1:-1} "$farm/parallel.sh" frames whitted "farmed/####.exr" 0..7 \
+  "${options[@]}"; }
+farm >log 2>&1 &
+run=$!
+until compgen -G "farmed/00*.exr" >/dev/null; do
+  kill -0 $run 2>/dev/null || { cat log; exit 1; }
+  sleep 0.01
+done
+# Its own frames: no other program has this folder as its own.
+for process in /proc/[0-9]*; do
+  if [ "$(readlink "$process/exe")" = "$(readlink -f "$whit")" ] &&
+    [ "$(readlink "$process/cwd")" = "$work" ]; then
+    kill -KILL "${process#/proc/}"
+    break
+  fi
+done
+status=0
+wait $run || status=$?
+test $status = 1
+grep -q "1 of 2 jobs failed" log
+count=$(ls farmed | wc -l)
+test "$count" -gt 0
+test "$count" -lt 8
+echo "killed with $count of 8 frames done"
+
+before=$(ls -i farmed | sort)
+farm
+for frame in whole/*; do cmp "$frame" "farmed/${frame#whole/}"; done
+test "$(comm -12 <(echo "$before") <(ls -i farmed | sort) | wc -l)" = "$count" # none traced again
+test "$(ls -A farmed | wc -l)" = 8                                             # nothing left behind
+
+# One image in bands equals the image of one process.
+"$whit" render whitted -o whole.exr --size 96x60 --quiet
+WHIT=$whit JOBS=2 CHUNK=25 "$farm/parallel.sh" image whitted bands.exr 96x60
+cmp whole.exr bands.exr
+test ! -e bands.exr.parts
+
+# The job array, task by task as Slurm would start them; the last has nothing to do.
+for task in 0 1 2; do
+  WHIT=$whit SLURM_ARRAY_TASK_ID=$task CHUNK=5 "$farm/slurm.sbatch" whitted "slurm/####.exr" 0..7 "${options[@]}"
+done
+for frame in whole/*; do cmp "$frame" "slurm/${frame#whole/}"; done
+echo "farms: 1 passed"

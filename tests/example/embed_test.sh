@@ -1,0 +1,26 @@
+#!/bin/sh
+# Builds the example against what is installed and compares its picture with the program's:
+# embed_test.sh BUILD-FOLDER CMAKE C++-COMPILER
+set -eu
+
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$2" --install "$1" --prefix "$work/usr" >/dev/null
+"$2" -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/usr" -DCMAKE_CXX_COMPILER="$3" \
+  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >"$work/log" || { cat "$work/log"; exit 1; }
+"$2" --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }
+
+# Elsewhere than beside the scenes, and with one that exists only among the installed ones.
+scenes=$work/usr/share/whit/scenes
+cp "$scenes/whitted.json" "$scenes/only-installed.json"
+cd "$work"
+build/embed only-installed embedded.exr
+usr/bin/whit render only-installed -o rendered.exr --size 96x60 --depth 4 --quiet
+cmp embedded.exr rendered.exr
+
+status=0
+build/embed no-such-scene none.exr 2>said || status=$?
+test "$status" = 2
+grep -q 'no-such-scene' said
+echo "embedded: 1 passed"

@@ -1,0 +1,180 @@
+// The public header against the insides: the same bits, the same errors, values that are values.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "io/image_file.h"
+#include "io/load_scene.h"
+#include "library/whit.h"
+#include "render/renderer.h"
+
+namespace whit::api {
+namespace {
+
+const Scene& whittedScene() {
+  static const Scene scene = loadScene("whitted");
+  return scene;
+}
+
+Renderer smallRenderer() {
+  Renderer renderer(whittedScene());
+  renderer.set("size", "40x24").set("threads", "1");
+  return renderer;
+}
+
+int statusOf(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()), "");
+    return error.status();
+  }
+  return 0;
+}
+
+bool sameBits(const whit::Image& expected, const Image& image) {
+  return image.rgb().size() == 3 * expected.pixels.size() &&
+         std::memcmp(image.rgb().data(), expected.pixels.data(), image.rgb().size_bytes()) == 0;
+}
+
+struct Inside {
+  Inside() {
+    Warnings warnings;
+    scene =
+        whit::Scene::finalize(whit::loadScene("whitted", whit::LoadOptions(), warnings), warnings);
+    options.size = ImageSize{40, 24};
+    options.threads = 1;
+  }
+  Film render(const Camera& camera, Mode mode = Mode::packets) {
+    whit::Renderer renderer(scene, options);
+    Film film = makeFilm(scene, options);
+    if (mode == Mode::packets) {
+      renderer.render(camera, film);
+    } else {
+      renderer.renderReference(camera, film);
+    }
+    return film;
+  }
+  whit::Scene scene;
+  RenderOptions options;
+};
+
+TEST(Library, RendersTheSameBits) {
+  Inside inside;
+  Renderer renderer = smallRenderer();
+  const Film film = inside.render(inside.scene.cameras[0]);
+  const Image image = renderer.render();
+  EXPECT_EQ(image.width(), 40);
+  EXPECT_EQ(image.height(), 24);
+  EXPECT_TRUE(sameBits(film.image, image));
+  EXPECT_TRUE(std::equal(image.srgb().begin(), image.srgb().end(), film.display.rgba.begin(),
+                         film.display.rgba.end()));
+}
+
+TEST(Library, TakesOptionsOverForFramesToCome) {
+  Inside inside;
+  Renderer renderer = smallRenderer();
+  Image image = renderer.render();
+  const std::vector<float> deep(image.rgb().begin(), image.rgb().end());
+  renderer.set("depth", "0").render(image);  // planned anew
+  inside.options.depth = 0;
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
+  EXPECT_FALSE(std::equal(deep.begin(), deep.end(), image.rgb().begin()));
+  renderer.set("robust", "off").set("depth", "8").render(image);  // built anew
+  inside.options.depth = 8;
+  inside.options.robust = false;
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
+  renderer.set("mode", "reference").render(image);
+  EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0], Mode::reference).image, image));
+  EXPECT_TRUE(renderer.statistics().stages.empty());
+}
+
+TEST(Library, FollowsThePathAndCrops) {
+  Inside inside;
+  Renderer renderer = smallRenderer();
+  Image image;
+  renderer.renderOnPath(0.5, image);
+  EXPECT_TRUE(sameBits(inside.render(cameraAt(inside.scene.cameraPath, 0.5)).image, image));
+  EXPECT_GT(whittedScene().pathSeconds(), 0.5);
+  renderer.set("crop", "8,4,20,16").renderOnPath(0.5, image);
+  EXPECT_EQ(image.width(), 12);
+  EXPECT_EQ(image.left(), 8);
+  EXPECT_EQ(image.top(), 4);
+  inside.options.crop = Crop{8, 4, 20, 16};
+  EXPECT_TRUE(sameBits(inside.render(cameraAt(inside.scene.cameraPath, 0.5)).image, image));
+}
+
+TEST(Library, PresetsGiveWayToWhatIsSaid) {
+  Renderer renderer(whittedScene());
+  EXPECT_EQ(renderer.get("depth"), "8");
+  EXPECT_EQ(renderer.get("size"), "");
+  renderer.set("depth", "3").set("quality", "fine");
+  EXPECT_EQ(renderer.get("depth"), "3");
+  EXPECT_EQ(renderer.get("spp"), "4");
+  EXPECT_EQ(renderer.set("quality", "draft").get("spp"), "1");
+}
+
+TEST(Library, TellsWhatAFrameCost) {
+  Renderer renderer = smallRenderer();
+  renderer.render();
+  const FrameStatistics& cost = renderer.statistics();
+  ASSERT_EQ(cost.stages.size(), kStageCount);
+  EXPECT_EQ(cost.stages[0].name, "generateRays");
+  double sum = 0;
+  for (const auto& stage : cost.stages) sum += stage.ms;
+  EXPECT_GT(sum, 0);
+  EXPECT_LE(sum, cost.frameMs * 1.0001);  // one worker: its stages are within the frame
+  ASSERT_EQ(cost.rays.size(), kRayKindCount);
+  EXPECT_EQ(cost.rays[0].count, 40u * 24u);
+}
+
+TEST(Library, ImagesAreValues) {
+  Renderer renderer = smallRenderer();
+  const Image first = renderer.render();
+  Image second = first;
+  renderer.set("depth", "0").render(second);
+  EXPECT_NE(first.rgb().data(), second.rgb().data());
+  EXPECT_FALSE(std::equal(first.rgb().begin(), first.rgb().end(), second.rgb().begin()));
+  const float* const pixels = second.rgb().data();
+  const Image third = std::move(second);
+  EXPECT_EQ(third.rgb().data(), pixels);
+  renderer.render(second);  // what was moved from can be used again
+  EXPECT_EQ(second.width(), 40);
+}
+
+TEST(Library, FailsWithTheProgramsStatus) {
+  Renderer renderer = smallRenderer();
+  EXPECT_EQ(statusOf([&] { renderer.set("detph", "3"); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.set("depth", "many"); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.get("sise"); }), 2);
+  EXPECT_EQ(statusOf([] { loadScene("no-such-scene"); }), 2);
+  EXPECT_EQ(statusOf([] { loadScene("no/such/file.json"); }), 4);
+  EXPECT_EQ(statusOf([] { Image().write("nothing.png"); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.render().write("no/such/folder/a.png"); }), 4);
+  EXPECT_EQ(statusOf([&] { renderer.render().write("a.jpg"); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.set("camera", "nobody").render(); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.set("camera", "").set("size", "65536x65536").render(); }), 5);
+  renderer.set("size", "16x16");
+  EXPECT_EQ(renderer.render().width(), 16);  // and goes on
+}
+
+TEST(Library, ScenesThatAreNotGoodSayWhere) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("whit-library-" + std::to_string(::getpid()) + ".json");
+  std::ofstream(file) << R"({"whit": 1, "size": ["wide", 3]})";
+  try {
+    loadScene(file.string());
+    ADD_FAILURE() << "loaded";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), 3);
+    EXPECT_NE(std::string(error.what()).find("#/size"), std::string::npos) << error.what();
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace whit::api
