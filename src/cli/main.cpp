@@ -17,7 +17,8 @@ void showHelp() {
       versionText());
   for (const Command& c : kCommands) std::printf("  %-10s%s\n", c.name, c.summary);
   std::printf(
-      "\nSCENE is a scene file (.json), a model (.obj), or the name of a shipped scene (atrium).\n"
+      "\nSCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of\n"
+      "a shipped scene (atrium).\n"
       "Options of a command: whit COMMAND --help. Version: whit --version.\n\n"
       "Exit status: 0 done; 1 a comparison or check failed; 2 wrong usage; 3 a bad scene or "
       "image;\n"
