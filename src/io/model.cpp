@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/gltf_model.h"
 #include "io/obj_model.h"
 
 namespace whit {
@@ -21,7 +22,8 @@ using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const Pa
                                           MemoryBudget&, Warnings&);
 
 const std::map<std::string, Opener>& openers() {
-  static const std::map<std::string, Opener> all = {{".obj", open<ObjModel>}};
+  static const std::map<std::string, Opener> all = {
+      {".glb", open<GltfModel>}, {".gltf", open<GltfModel>}, {".obj", open<ObjModel>}};
   return all;
 }
 
