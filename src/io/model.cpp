@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "io/gltf_model.h"
 #include "io/obj_model.h"
+#include "io/ply_model.h"
 
 namespace whit {
 namespace {
@@ -22,8 +23,10 @@ using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const Pa
                                           MemoryBudget&, Warnings&);
 
 const std::map<std::string, Opener>& openers() {
-  static const std::map<std::string, Opener> all = {
-      {".glb", open<GltfModel>}, {".gltf", open<GltfModel>}, {".obj", open<ObjModel>}};
+  static const std::map<std::string, Opener> all = {{".glb", open<GltfModel>},
+                                                    {".gltf", open<GltfModel>},
+                                                    {".obj", open<ObjModel>},
+                                                    {".ply", open<PlyModel>}};
   return all;
 }
 
