@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace whit {
 namespace {
@@ -10,6 +11,7 @@ using Value = tinygltf::Value;
 using Extensions = tinygltf::ExtensionMap;
 
 constexpr float kLargestIor = 10;
+constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
 constexpr float kLeastAttenuation = 1e-6f;  // of a colour; the logarithm is taken
 
 const Value* find(const Extensions& extensions, const char* name) {
@@ -63,7 +65,11 @@ class Converter {
     m_.metallic = unit(pbr.metallicFactor);
     m_.roughness = unit(pbr.roughnessFactor);
     const std::vector<double>& e = source_.emissiveFactor;
-    m_.emission = {unit(e[0]), unit(e[1]), unit(e[2])};
+    // Above 1 is a strength that some writers leave in.
+    for (std::size_t i = 0; i < 3; ++i) {
+      m_.emission[static_cast<int>(i)] =
+          static_cast<float>(std::clamp(e[i], 0.0, kLargestEmission));
+    }
     if (source_.alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
     if (source_.alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
     m_.alphaCutoff = static_cast<float>(std::clamp(source_.alphaCutoff, 0.0, 2.0));
@@ -137,7 +143,8 @@ class Converter {
     m_.f0 = Rgb(step * step);
     if (const Value* e = find(source_.extensions, "KHR_materials_specular")) specular(*e);
     if (const Value* e = find(source_.extensions, "KHR_materials_emissive_strength")) {
-      m_.emission *= static_cast<float>(std::clamp(numberOf(*e, "emissiveStrength", 1), 0.0, 1e18));
+      m_.emission *= static_cast<float>(
+          std::clamp(numberOf(*e, "emissiveStrength", 1), 0.0, kLargestEmission));
     }
     if (const Value* e = find(source_.extensions, "KHR_materials_transmission")) transmission(*e);
     if (const Value* e = find(source_.extensions, "KHR_materials_volume")) volume(*e);
@@ -184,6 +191,15 @@ class Converter {
   GltfMaterial m_;
 };
 
+// A mask that cuts everything, with or without a map.
+Material invisible(Material m) {
+  m.diffuse = m.emission = Rgb(0.0f);
+  m.transmission = Rgb(1.0f);
+  m.ior = 1;
+  m.castsShadow = false;
+  return m;
+}
+
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
 }  // namespace
@@ -216,6 +232,9 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;
+  if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) {
+    return invisible(std::move(m));
+  }
   if (g.unlit) {
     m.diffuse = g.baseMap.exists() ? g.base : Rgb(0.0f);
     if (!g.baseMap.exists()) m.emission = g.base;

@@ -174,6 +174,62 @@ TEST_F(GltfHostile, UnknownExtensionsAreReportedOnce) {
   EXPECT_EQ(warnings_.entries().size(), 1u);
 }
 
+// Every number of a file that has some of everything, replaced by each of these.
+TEST_F(GltfHostile, ReplacedNumbers) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string uv = std::to_string(b.uvs({0, 0, 1, 0, 0, 1}));
+  const std::string indices = std::to_string(b.indices({0, 1, 2}));
+  save("t.tga", tga(1, 1, {{9, 9, 9, 9}}));
+  const std::string whole = b.json(
+      "\"images\":[{\"uri\":\"t.tga\"}],\"samplers\":[{\"wrapS\":33071}],\"textures\":"
+      "[{\"source\":0,\"sampler\":0}],\"materials\":[{\"alphaMode\":\"BLEND\",\"alphaCutoff\":0.5,"
+      "\"emissiveFactor\":[1,1,1],\"normalTexture\":{\"index\":0,\"scale\":2},"
+      "\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,\"roughnessFactor\":0.1,"
+      "\"baseColorFactor\":[1,1,1,0.5],\"baseColorTexture\":{\"index\":0,\"texCoord\":0,"
+      "\"extensions\":{\"KHR_texture_transform\":{\"offset\":[1,2],\"rotation\":3,\"scale\":[1,1]}}"
+      "}},"
+      "\"extensions\":{\"KHR_materials_ior\":{\"ior\":1.4},\"KHR_materials_transmission\":"
+      "{\"transmissionFactor\":0.5,\"transmissionTexture\":{\"index\":0}},\"KHR_materials_volume\":"
+      "{\"attenuationDistance\":1,\"attenuationColor\":[1,0.5,0]},\"KHR_materials_specular\":"
+      "{\"specularFactor\":0.5,\"specularColorFactor\":[1,1,1]},\"KHR_materials_clearcoat\":"
+      "{\"clearcoatFactor\":1},\"KHR_materials_emissive_strength\":{\"emissiveStrength\":2}}}],"
+      "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1,"
+      "\"aspectRatio\":2}}],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":"
+      "\"point\","
+      "\"intensity\":2,\"color\":[1,1,1]}]}},\"meshes\":[{\"primitives\":[{\"attributes\":{"
+      "\"POSITION\":" +
+      position + ",\"TEXCOORD_0\":" + uv + "},\"indices\":" + indices +
+      ",\"material\":0,\"mode\":4}]}],\"nodes\":[{\"mesh\":0,\"children\":[1],\"scale\":[1,2,3],"
+      "\"rotation\":[0,0,0,1],\"translation\":[1,2,3]},{\"camera\":0,\"extensions\":"
+      "{\"KHR_lights_punctual\":{\"light\":0}}}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0");
+  options_.threads = 1;
+  options_.maxMemoryBytes = 64 << 20;
+  std::size_t loaded = 0;
+  const auto tryText = [&](const std::string& text) {
+    try {
+      Warnings warnings;
+      Scene::finalize(loadScene(save("m.gltf", text), options_, warnings), warnings);
+      ++loaded;
+    } catch (const Error& error) {
+      EXPECT_NE(error.status(), ExitStatus::usage);
+    }
+  };
+  tryText(whole);
+  EXPECT_EQ(loaded, 1u);
+  for (std::size_t at = 0, end = 0; end < whole.size(); at = whole.find_first_of(":[,", end)) {
+    if (at == std::string::npos) break;
+    end = whole.find_first_not_of("0123456789.", at + 1);
+    if (end == at + 1) continue;
+    for (const char* number :
+         {"-1", "0", "1e-320", "0.5", "2147483648", "4294967295", "9007199254740992",
+          "18446744073709551615", "1e300", "-1e300", "null", "[]", "{}", "\"\""}) {
+      tryText(whole.substr(0, at + 1) + number + whole.substr(end));
+    }
+  }
+  EXPECT_GT(loaded, 100u);
+}
+
 // Every byte with one bit flipped: a picture or an error of ours, and no more than that.
 TEST_F(GltfHostile, FlippedBits) {
   GltfBuilder b;

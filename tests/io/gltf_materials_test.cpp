@@ -226,6 +226,14 @@ TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
   expectColour(show("0.75", ",\"alphaCutoff\":0.3")[0], Rgb(0.0f));  // 0.294 is below 0.3
 }
 
+TEST_F(GltfMaterials, MasksThatCutEverything) {
+  const auto p =
+      picture({{0, matte("\"baseColorFactor\":[1,1,1,0.25]", "\"alphaMode\":\"MASK\""), 1},
+               {-1, glowing("[0.5,1,0]"), 4}},
+              1);
+  expectColour(p[0], {0.5f, 1, 0});
+}
+
 TEST_F(GltfMaterials, BlendingLetsTheRestThrough) {
   const std::string behind = glowing("[0.5,1,0]");
   const auto p =
