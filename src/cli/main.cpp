@@ -12,20 +12,22 @@ namespace whit::cli {
 
 namespace {
 
-const ManPage kPage{"whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
-                    "Renders scenes with Embree packets and SIMD kernels, measures where the time "
-                    "goes, and checks itself against a scalar reference in double precision. "
-                    "SCENE is a scene file (.json), a model (.obj), or the name of a shipped scene "
-                    "(atrium). Standard output carries results, standard error everything for "
-                    "people. Files appear under their name only when complete.",
-                    "whit-view"};
+const ManPage kPage{
+    "whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
+    "Renders scenes with Embree packets and SIMD kernels, measures where the time "
+    "goes, and checks itself against a scalar reference in double precision. "
+    "SCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of "
+    "a shipped scene (atrium). Standard output carries results, standard error everything for "
+    "people. Files appear under their name only when complete.",
+    "whit-view"};
 
 void showHelp() {
   std::printf("whit %s: %s\n\nUsage: %s\n\nCommands:\n", versionText(), kPage.summary.c_str(),
               kPage.synopsis.c_str());
   for (const Command& c : kCommands) std::printf("  %-10s%s\n", c.name, c.summary);
   std::printf(
-      "\nSCENE is a scene file (.json), a model (.obj), or the name of a shipped scene (atrium).\n"
+      "\nSCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of\n"
+      "a shipped scene (atrium).\n"
       "Options of a command: whit COMMAND --help. Version: whit --version. The manual page:\n"
       "whit --man.\n\nExit status:\n");
   for (const ExitMeaning& e : kExitMeanings) std::printf("  %-5d%s\n", e.status, e.meaning);

@@ -37,15 +37,23 @@ std::vector<std::uint8_t> readBytes(const std::string& path, std::uint64_t limit
 
 bool isExrFile(const std::string& path) { return isExr(readBytes(path, 4)); }
 
-RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
-  // stb_image counts in int.
+// stb_image counts in int.
+void checkFileSize(const std::string& name, std::uint64_t size, const ImageLimits& limits) {
   const std::uint64_t longest = std::min<std::uint64_t>(limits.bytes, 0x7fffffff);
-  std::error_code error;
-  if (std::filesystem::file_size(path, error) > longest)
-    throwLimit(path + ": the file is longer than the " + std::to_string(longest) +
+  if (size > longest)
+    throwLimit(name + ": the file is longer than the " + std::to_string(longest) +
                " bytes allowed");
-  const std::vector<std::uint8_t> file = readBytes(path, longest);
-  return isJpeg(file) ? decodeJpeg(path, file, limits) : decodeWithStb(path, file, limits);
+}
+
+RawImage decodeBytes(const std::string& name, const std::vector<std::uint8_t>& file,
+                     const ImageLimits& limits) {
+  return isJpeg(file) ? decodeJpeg(name, file, limits) : decodeWithStb(name, file, limits);
+}
+
+RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
+  std::error_code error;
+  checkFileSize(path, std::filesystem::file_size(path, error), limits);
+  return decodeBytes(path, readBytes(path, limits.bytes), limits);
 }
 
 // The display window's values; what lies outside the data window is 0.
@@ -111,6 +119,14 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
   RawImage raw = isExrFile(path) ? fillDisplay(decodeExr(path, limits)) : decodeOther(path, limits);
   sanitise(path, raw.values, warnings);
+  return raw;
+}
+
+RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
+                        const ImageLimits& limits, Warnings& warnings) {
+  checkFileSize(name, file.size(), limits);
+  RawImage raw = decodeBytes(name, file, limits);
+  sanitise(name, raw.values, warnings);
   return raw;
 }
 

@@ -33,6 +33,10 @@ struct RawImage {
 // cannot be understood, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
+// The same for a file that is in memory; PNG, JPEG, BMP or Radiance HDR. `name` is for errors.
+RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
+                        const ImageLimits& limits, Warnings& warnings);
+
 // As linear RGB: 8-bit codes decoded from sRGB, grey spread to three channels, alpha dropped. EXR
 // keeps its data window (the part inside the display window), and floats keep their bits, NaN and
 // infinities included.

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
 
 constexpr int kSchemaVersion = 1;
 
-std::string lowerExtension(const fs::path& path) {
+bool isSceneFile(const fs::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return extension == ".json";
 }
 
 // The scene's own values, then those that were given with its name.
@@ -84,20 +84,42 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   return std::move(context.scene);
 }
 
-// A light above, beside and in front of the model, and light from all around.
-void supplyLight(SceneDescription& scene) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  Vec3f lower(kInfinity), upper(-kInfinity);
-  for (const Object& object : scene.objects) {
-    for (const Mesh& mesh : object.meshes) {
-      for (const Vec3f& p : mesh.positions) {
-        if (!isFinite(p)) continue;
-        lower = min(lower, p);
-        upper = max(upper, p);
-      }
+struct Bounds {
+  Vec3f lower{std::numeric_limits<float>::infinity()};
+  Vec3f upper{-std::numeric_limits<float>::infinity()};
+
+  void add(const Vec3f& p) {
+    if (!isFinite(p)) return;
+    lower = min(lower, p);
+    upper = max(upper, p);
+  }
+  bool empty() const { return !(lower.x <= upper.x); }
+};
+
+// Of the objects' boxes where their instances stand.
+Bounds boundsOf(const SceneDescription& scene) {
+  std::vector<Bounds> objects(scene.objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const Mesh& mesh : scene.objects[i].meshes) {
+      for (const Vec3f& p : mesh.positions) objects[i].add(p);
     }
   }
-  if (!(lower.x <= upper.x)) lower = upper = Vec3f();
+  Bounds all;
+  for (const Instance& instance : scene.instances) {
+    const Bounds& own = objects[instance.object];
+    if (own.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
+                    corner & 4 ? own.upper.z : own.lower.z};
+      all.add(Vec3f(instance.toWorld.point(Vec3d(p))));
+    }
+  }
+  return all.empty() ? Bounds{Vec3f(), Vec3f()} : all;
+}
+
+// A light above, beside and in front of the model, and light from all around.
+void supplyLight(SceneDescription& scene) {
+  const auto [lower, upper] = boundsOf(scene);
   const float size = std::max(length(upper - lower), 1e-6f);
   const Vec3f offset = Vec3f(0.6f, 1.0f, 0.8f) * size;
   PointLight light;
@@ -121,7 +143,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   MaterialReader materials(file, context);
   ItemReader(context, materials).readModelAlone(path);
   finishTextures(context, std::nullopt);
-  supplyLight(context.scene);
+  if (context.scene.lights.empty()) supplyLight(context.scene);
   return std::move(context.scene);
 }
 
@@ -131,11 +153,10 @@ SceneDescription loadScene(const std::string& name, const LoadOptions& options, 
                            Progress* progress) {
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, options.shippedScenes);
-  const std::string extension = lowerExtension(path);
-  if (extension == ".obj") return loadModelFile(path, parsed, options, warnings, progress);
-  if (extension == ".json") return loadSceneFile(path, parsed, options, warnings, progress);
-  throwUsage("\"" + parsed.file +
-             "\": expected a scene (.json), a model (.obj), or the name of a " + "shipped scene");
+  if (isModelFile(path)) return loadModelFile(path, parsed, options, warnings, progress);
+  if (isSceneFile(path)) return loadSceneFile(path, parsed, options, warnings, progress);
+  throwUsage("\"" + parsed.file + "\": expected a scene (.json), a model (" + modelExtensions() +
+             "), or the name of a shipped scene");
 }
 
 }  // namespace whit

@@ -17,10 +17,10 @@ struct LoadOptions {
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
 };
 
-// `name`: a scene file (.json), a model (.obj), or the bare name of a shipped scene, looked for in
-// $WHIT_SCENES, beside the program, in options.shippedScenes and in the source tree. Throws Error:
-// badScene with "file:line" or "file#/json/pointer" and what was expected there, io when it cannot
-// be read, usage when no such scene is shipped (names the nearest).
+// `name`: a scene file (.json), a model (model.h), or the bare name of a shipped scene, looked for
+// in $WHIT_SCENES, beside the program, in options.shippedScenes and in the source tree. Throws
+// Error: badScene with "file:line" or "file#/json/pointer" and what was expected there, io when it
+// cannot be read, usage when no such scene is shipped (names the nearest).
 SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
 

@@ -1,78 +1,68 @@
 #include "io/model.h"
 
-#include <sstream>
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <string>
 
 #include "core/error.h"
-#include "io/obj_geometry.h"
+#include "io/gltf_model.h"
+#include "io/obj_model.h"
+#include "io/ply_model.h"
 
 namespace whit {
 namespace {
 
-constexpr float kGrey = 0.6f;
-
-MtlMaterial greyMaterial(const std::string& name, const std::string& where) {
-  MtlMaterial grey;
-  grey.material.name = name;
-  grey.material.diffuse = Rgb(kGrey);
-  grey.where = where;
-  return grey;
+template <typename Kind>
+std::unique_ptr<Model> open(const std::filesystem::path& path, const PathRules& rules,
+                            MemoryBudget& budget, Warnings& warnings) {
+  return std::make_unique<Kind>(path, rules, budget, warnings);
 }
 
-// A library's name may hold blanks, or the line may name several libraries: the name that exists.
-std::vector<std::string> libraryNames(const std::string& line, const std::filesystem::path& folder,
-                                      const std::string& where, const PathRules& rules) {
-  std::error_code error;
-  if (std::filesystem::exists(rules.resolve(line, folder, where, true), error)) return {line};
-  std::istringstream in(line);
-  std::vector<std::string> names;
-  for (std::string name; in >> name;) names.push_back(name);
-  return names;
+using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const PathRules&,
+                                          MemoryBudget&, Warnings&);
+
+const std::map<std::string, Opener>& openers() {
+  static const std::map<std::string, Opener> all = {{".glb", open<GltfModel>},
+                                                    {".gltf", open<GltfModel>},
+                                                    {".obj", open<ObjModel>},
+                                                    {".ply", open<PlyModel>}};
+  return all;
+}
+
+Opener openerOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto found = openers().find(extension);
+  return found == openers().end() ? nullptr : found->second;
 }
 
 }  // namespace
 
-Model::Model(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-             Warnings& warnings)
-    : path_(path), budget_(budget), warnings_(warnings) {
-  text_.emplace(readTextFile(path, budget.left()), path.string());
-  readMaterials(rules);
+bool isModelFile(const std::filesystem::path& path) { return openerOf(path) != nullptr; }
+
+std::string modelExtensions() {
+  std::string list;
+  for (const auto& [extension, opener] : openers()) {
+    list += (list.empty() ? "" : ", ") + extension;
+  }
+  return list;
 }
 
-void Model::readMaterials(const PathRules& rules) {
-  const std::filesystem::path folder = path_.parent_path();
-  std::map<std::string, MtlMaterial> library;
-  for (const ObjSummary::Name& line : text_->summary().libraries) {
-    const std::string where = path_.string() + ":" + std::to_string(line.line);
-    for (const std::string& name : libraryNames(line.text, folder, where, rules)) {
-      const auto file = rules.resolve(name, folder, where, /*backslashes=*/true);
-      std::error_code error;
-      if (std::filesystem::is_regular_file(file, error)) {
-        readMtl(file, library, warnings_);
-      } else {
-        warnings_.add("material library missing", where + ": " + name);
-      }
-    }
-  }
-  for (const ObjSummary::Name& name : text_->summary().materials) {
-    const auto known = library.find(name.text);
-    if (known != library.end()) {
-      materials_.push_back(known->second);
-      continue;
-    }
-    const std::string where = path_.string() + ":" + std::to_string(name.line);
-    warnings_.add("material missing, grey instead", where + ": " + name.text);
-    materials_.push_back(greyMaterial(name.text, where));
-  }
-  materials_.push_back(greyMaterial("default", path_.string()));
+std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
+                                 MemoryBudget& budget, Warnings& warnings) {
+  if (const Opener opener = openerOf(path)) return opener(path, rules, budget, warnings);
+  throwBadScene(path.string(), "expected a model (" + modelExtensions() + ")");
 }
 
-const std::vector<Mesh>& Model::meshes() {
-  if (text_) {
-    meshes_ = readObjGeometry(*text_, budget_, warnings_);
-    text_.reset();
-    for (Mesh& mesh : meshes_) mesh.name = path_.stem().string();
+void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& materials,
+              const std::string& file, MemoryBudget& budget, Body& to) {
+  for (const Mesh& mesh : meshes) {
+    budget.charge(1, bytesOf(mesh), file);
+    auto copy = std::make_shared<Mesh>(mesh);
+    for (std::uint32_t& material : copy->materials) material = materials[material];
+    to.parts.push_back({std::move(copy), Affine()});
   }
-  return meshes_;
 }
 
 }  // namespace whit

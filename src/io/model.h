@@ -1,45 +1,60 @@
-// Models: an OBJ file with its materials.
+// Models: files with geometry and the materials that belong to it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/warnings.h"
 #include "io/memory_budget.h"
-#include "io/mtl_reader.h"
-#include "io/obj_text.h"
 #include "io/paths.h"
-#include "scene/mesh.h"
+#include "io/scene_layout.h"
+#include "io/texture_loader.h"
+#include "scene/scene.h"
 
 namespace whit {
 
-// Opened first, so that textures can be asked for before the faces are parsed.
+// The maps of a model's material that a scene file has replaced.
+struct GivenMaps {
+  bool diffuse = false, specular = false, normal = false, alpha = false;
+};
+
+struct TexturedMaterial {
+  Material material;
+  // Not empty where something depends on what the images hold: called once they are decoded.
+  std::function<void(Material&)> whenDecoded;
+};
+
+// Opened first, so that textures can be asked for before the geometry is read.
 class Model {
  public:
-  // Reads the text and the material libraries. A library or a material that is not there is a
-  // warning; such materials are grey.
-  Model(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-        Warnings& warnings);
+  virtual ~Model() = default;
 
-  const std::filesystem::path& path() const { return path_; }
-  // One for each material that faces use, and a grey one last for faces without any.
-  const std::vector<MtlMaterial>& materials() const { return materials_; }
-  // Mesh::materials are indices into materials(). Parsed at the first call.
-  const std::vector<Mesh>& meshes();
-
- private:
-  void readMaterials(const PathRules& rules);
-
-  std::filesystem::path path_;
-  MemoryBudget& budget_;
-  Warnings& warnings_;
-  std::optional<ObjText> text_;  // until it is parsed
-  std::vector<MtlMaterial> materials_;
-  std::vector<Mesh> meshes_;
+  // As the file has them, without their maps.
+  virtual const std::vector<Material>& materials() const = 0;
+  // `material` is materials()[i] or an edited copy of it; comes back with slots for the maps of the
+  // file, but for those `given`.
+  virtual TexturedMaterial withMaps(std::size_t i, Material material, const GivenMaps& given,
+                                    TextureLoader& textures) = 0;
+  // What the model holds, its shared meshes being bodies of their own in `layout`. `materials` has
+  // the scene's index for each of materials().
+  virtual Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) = 0;
+  // Adds the file's own cameras and lights. Asked of a model that is a scene by itself.
+  virtual void addView(SceneDescription&) {}
 };
+
+// Whether openModel() reads such a file, by its extension (any case).
+bool isModelFile(const std::filesystem::path& path);
+std::string modelExtensions();  // ".gltf, .obj"
+// By the extension. `rules` and what else is given here outlive the model.
+std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
+                                 MemoryBudget& budget, Warnings& warnings);
+
+// Copies of `meshes` as parts, their materials replaced by the scene's.
+void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& materials,
+              const std::string& file, MemoryBudget& budget, Body& to);
 
 }  // namespace whit

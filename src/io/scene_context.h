@@ -32,7 +32,7 @@ struct SceneContext {
   // The model at `path`, opened once.
   Model& model(const std::filesystem::path& path) {
     std::unique_ptr<Model>& entry = models[path.string()];
-    if (!entry) entry = std::make_unique<Model>(path, rules, budget, warnings);
+    if (!entry) entry = openModel(path, rules, budget, warnings);
     return *entry;
   }
 

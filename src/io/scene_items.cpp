@@ -45,12 +45,12 @@ void ItemReader::read(JsonObject& file) {
 void ItemReader::readModelAlone(const std::filesystem::path& path) {
   Model& model = context_.model(path);
   std::vector<std::uint32_t> materials;
-  for (const MtlMaterial& material : model.materials()) {
-    materials.push_back(materials_.add(
-        loadTextures(material, path.parent_path(), context_.rules, context_.textures)));
+  for (std::size_t i = 0; i < model.materials().size(); ++i) {
+    materials.push_back(addMaterial(model, i, model.materials()[i], {}));
   }
-  addMeshes(model, materials, layout_.body(0));
+  layout_.append(contentOf(model, path, materials), {Affine()}, layout_.body(0));
   layout_.moveTo(context_.scene);
+  model.addView(context_.scene);
 }
 
 std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& name) {
@@ -139,50 +139,54 @@ Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
 Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
   const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
   Model& model = context_.model(file);
-  Body content;
-  addMeshes(model, modelMaterials(model, item), content);
-  return content;
+  return contentOf(model, file, modelMaterials(model, item));
 }
 
-// Overrides first, then images are asked for: they are decoded while the faces are parsed.
+// Overrides first, then images are asked for: they are decoded while the geometry is read.
 std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
-  std::vector<MtlMaterial> materials = model.materials();
+  std::vector<Material> materials = model.materials();
+  std::vector<GivenMaps> given(materials.size());
   if (const auto overrides = item.find("materials")) {
     std::vector<std::string> names;
-    for (const MtlMaterial& material : materials) names.push_back(material.material.name);
-    const auto apply = [&](const JsonValue& value, MtlMaterial& material) {
+    for (const Material& material : materials) names.push_back(material.name);
+    const auto apply = [&](const JsonValue& value, std::size_t i) {
       JsonObject object(value);
-      materials_.override(object, material);
+      materials_.override(object, materials[i], given[i]);
       object.finish();
     };
     for (const auto& [name, value] : overrides->members()) {
       if (name != "*") continue;
-      for (MtlMaterial& material : materials) apply(value, material);
+      for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
     }
     for (const auto& [name, value] : overrides->members()) {
       if (name == "*") continue;
       const auto found = std::find(names.begin(), names.end(), name);
       if (found == names.end()) failSlot(value, name, names, "material of this model");
-      apply(value, materials[static_cast<std::size_t>(found - names.begin())]);
+      apply(value, static_cast<std::size_t>(found - names.begin()));
     }
   }
   std::vector<std::uint32_t> indices;
-  const auto folder = model.path().parent_path();
-  for (const MtlMaterial& material : materials) {
-    indices.push_back(
-        materials_.add(loadTextures(material, folder, context_.rules, context_.textures)));
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    indices.push_back(addMaterial(model, i, std::move(materials[i]), given[i]));
   }
   return indices;
 }
 
-void ItemReader::addMeshes(Model& model, const std::vector<std::uint32_t>& materials, Body& to) {
-  reportProgress(context_.progress, "reading " + model.path().filename().string(), 0);
-  for (const Mesh& mesh : model.meshes()) {
-    context_.budget.charge(1, bytesOf(mesh), model.path().string());
-    auto copy = std::make_shared<Mesh>(mesh);
-    for (std::uint32_t& material : copy->materials) material = materials[material];
-    to.parts.push_back({std::move(copy), Affine()});
+std::uint32_t ItemReader::addMaterial(Model& model, std::size_t i, Material material,
+                                      const GivenMaps& given) {
+  TexturedMaterial textured = model.withMaps(i, std::move(material), given, context_.textures);
+  const std::uint32_t index = materials_.add(std::move(textured.material));
+  if (textured.whenDecoded) {
+    context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
+                                   SceneDescription& scene) { change(scene.materials[index]); });
   }
+  return index;
+}
+
+Body ItemReader::contentOf(Model& model, const std::filesystem::path& path,
+                           const std::vector<std::uint32_t>& materials) {
+  reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+  return model.content(layout_, materials);
 }
 
 }  // namespace whit

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,7 +36,9 @@ class ItemReader {
   Body readShape(JsonObject& item, const JsonValue& name);
   Body readModel(JsonObject& item, const JsonValue& path);
   std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
-  void addMeshes(Model& model, const std::vector<std::uint32_t>& materials, Body& to);
+  std::uint32_t addMaterial(Model& model, std::size_t i, Material material, const GivenMaps& given);
+  Body contentOf(Model& model, const std::filesystem::path& path,
+                 const std::vector<std::uint32_t>& materials);
   std::uint32_t object(const JsonValue& name);
   std::uint32_t readObject(NamedObject& object, const std::string& name);
 

@@ -186,18 +186,12 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   }
 }
 
-void MaterialReader::override(JsonObject& object, MtlMaterial& source) {
-  read(object, source.material);
-  if (object.has("diffuseMap")) source.diffuse.name.clear();
-  if (object.has("specularMap")) source.specular.name.clear();
-  if (object.has("normalMap")) {
-    source.normal.name.clear();
-    source.bump.name.clear();
-  }
-  if (object.has("alphaMap")) {
-    source.alpha.name.clear();
-    source.alphaFromDiffuse = false;
-  }
+void MaterialReader::override(JsonObject& object, Material& material, GivenMaps& given) {
+  read(object, material);
+  given.diffuse = given.diffuse || object.has("diffuseMap");
+  given.specular = given.specular || object.has("specularMap");
+  given.normal = given.normal || object.has("normalMap");
+  given.alpha = given.alpha || object.has("alphaMap");
 }
 
 }  // namespace whit

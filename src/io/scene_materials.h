@@ -30,9 +30,9 @@ class MaterialReader {
 
   // Changes what `object` gives and nothing else. A map may be null: none.
   void read(JsonObject& object, Material& material);
-  // The same for a material of a model, before its images are asked for: maps that are given here
-  // take the place of those in the file.
-  void override(JsonObject& object, MtlMaterial& material);
+  // The same for a material of a model, before its images are asked for. Maps that are given here
+  // take the place of those in the file, and are added to `given`.
+  void override(JsonObject& object, Material& material, GivenMaps& given);
 
  private:
   struct NamedTexture {

@@ -61,13 +61,34 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
 }
 
 std::int32_t TextureLoader::add(std::function<Texture()> make) {
-  std::optional<Texture>& target = slots_.emplace_back();
-  queue_.add([this, make = std::move(make), &target] {
-    Texture texture = make();
-    budget_.charge(texture.texels.size(), sizeof(std::uint32_t), "texture " + texture.name);
-    target = std::move(texture);
+  return add(1, [make = std::move(make)] {
+    std::vector<std::optional<Texture>> made;
+    made.emplace_back(make());
+    return made;
+  })[0];
+}
+
+std::vector<std::int32_t> TextureLoader::add(
+    std::size_t count, std::function<std::vector<std::optional<Texture>>()> make) {
+  std::vector<std::int32_t> slots;
+  std::vector<std::optional<Texture>*> targets;
+  for (std::size_t i = 0; i < count; ++i) {
+    slots.push_back(static_cast<std::int32_t>(slots_.size()));
+    targets.push_back(&slots_.emplace_back());
+  }
+  queue_.add([this, make = std::move(make), targets] {
+    std::vector<std::optional<Texture>> made = make();
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      if (!made[i]) continue;
+      budget_.charge(made[i]->texels.size(), sizeof(std::uint32_t), "texture " + made[i]->name);
+      *targets[i] = std::move(made[i]);
+    }
   });
-  return static_cast<std::int32_t>(slots_.size() - 1);
+  return slots;
+}
+
+void TextureLoader::whenDone(std::function<void(SceneDescription&)> change) {
+  changes_.push_back(std::move(change));
 }
 
 void TextureLoader::addEnvironment(const std::string& path, EnvironmentImage& image) {
@@ -79,10 +100,14 @@ void TextureLoader::addEnvironment(const std::string& path, EnvironmentImage& im
   });
 }
 
-RawImage TextureLoader::read(const std::string& path) {
+ImageLimits TextureLoader::limits() const {
   ImageLimits limits;
   limits.bytes = std::min(limits.bytes, budget_.left());
-  return readRawImage(path, limits, warnings_);
+  return limits;
+}
+
+RawImage TextureLoader::read(const std::string& path) {
+  return readRawImage(path, limits(), warnings_);
 }
 
 void TextureLoader::decode(const TextureSource& source, const std::vector<TextureUse>& uses,
@@ -110,6 +135,7 @@ void TextureLoader::decode(const TextureSource& source, const std::vector<Textur
 
 void TextureLoader::finish(SceneDescription& scene) {
   queue_.finish();
+  for (const auto& change : changes_) change(scene);
   // Only what some material refers to is kept: a colour without alpha leaves an empty slot, and an
   // override may have replaced a map.
   std::vector<std::int32_t> number(slots_.size(), kNoTexture);

@@ -47,8 +47,15 @@ class TextureLoader {
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
   // A texture that `make` computes, beside the rest.
   std::int32_t add(std::function<Texture()> make);
+  // `count` of them, some of which there may turn out to be none of.
+  std::vector<std::int32_t> add(std::size_t count,
+                                std::function<std::vector<std::optional<Texture>>()> make);
   // The equirectangular map at `path`, in `sky` after finish().
   void addEnvironment(const std::string& path, EnvironmentImage& image);
+  // `change` is called by finish() when all textures are there, before they are numbered.
+  void whenDone(std::function<void(SceneDescription&)> change);
+  // What an image may take that is decoded now.
+  ImageLimits limits() const;
 
   // Waits for all images, moves them to scene.textures and replaces the slots in its materials by
   // their indices there. Throws what the decoding of an image threw.
@@ -65,6 +72,7 @@ class TextureLoader {
   Warnings& warnings_;
   std::deque<std::optional<Texture>> slots_;  // a deque: tasks keep references
   std::map<Key, std::int32_t> known_;
+  std::vector<std::function<void(SceneDescription&)>> changes_;
   DecodeQueue queue_;  // last: its workers write to the rest
 };
 

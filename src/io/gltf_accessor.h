@@ -1,0 +1,20 @@
+// What accessors of a glTF document hold. glTF 2.0 specification, section 3.6.2.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+#include "io/gltf_document.h"
+
+namespace whit {
+
+// Every component type, normalised or not, with any stride, sparse or not. Each throws badScene
+// "file#/accessors/i" where the accessor is of another type (VEC3, VEC2, SCALAR; indices: unsigned)
+// or reaches beyond its buffer view, limit where its elements do not fit into memory.
+std::vector<Vec3f> readVectors(const GltfDocument& document, std::size_t accessor);
+std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor);
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor);
+
+}  // namespace whit

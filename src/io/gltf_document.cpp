@@ -1,0 +1,211 @@
+#include "io/gltf_document.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+#include "io/gltf_file.h"
+#include "io/gltf_schema.h"
+
+namespace whit {
+namespace {
+
+constexpr std::array<std::string_view, 10> kSupported = {
+    "KHR_lights_punctual",  "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit",  "KHR_materials_volume",    "KHR_mesh_quantization",
+    "KHR_texture_transform"};
+// Names of extensions become kinds of warnings.
+constexpr std::size_t kReportedExtensions = 64, kReportedLetters = 64;
+// Of the structures that elements of the lists become.
+constexpr std::uint64_t kBytesPerElement = 2048;
+
+// A JSON list that may be missing.
+const Json& listOf(const Json& object, const char* name) {
+  static const Json nothing = Json::array();
+  const auto found = object.find(name);
+  return found == object.end() ? nothing : *found;
+}
+
+std::uint64_t wholeOf(const Json& object, const char* name) {
+  return object.value(name, std::uint64_t{0});
+}
+
+int hexValue(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+// RFC 3986, section 2.1.
+std::string percentDecoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool code = uri[i] == '%' && i + 2 < uri.size() && hexValue(uri[i + 1]) >= 0 &&
+                      hexValue(uri[i + 2]) >= 0;
+    text += code ? static_cast<char>(16 * hexValue(uri[i + 1]) + hexValue(uri[i + 2])) : uri[i];
+    if (code) i += 2;
+  }
+  return text;
+}
+
+std::vector<std::uint8_t> decodeDataUri(const std::string& uri, const std::string& where,
+                                        MemoryBudget& budget) {
+  budget.charge(uri.size(), 2, where);
+  std::vector<std::uint8_t> bytes;
+  std::string type;
+  if (!tinygltf::DecodeDataURI(&bytes, type, uri, 0, false)) {
+    throwBadScene(where, "expected a path or base64 data of a buffer or an image");
+  }
+  return bytes;
+}
+
+bool isSupported(const std::string& extension) {
+  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
+}
+
+}  // namespace
+
+struct GltfDocument::Source {
+  GltfFile file;
+  std::filesystem::path folder;
+  const PathRules& rules;
+
+  std::filesystem::path resolve(const Json& uri, const std::string& where) const {
+    return rules.resolve(percentDecoded(uri.get<std::string>()), folder, where);
+  }
+};
+
+GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& rules,
+                           MemoryBudget& budget, Warnings& warnings)
+    : name_(path.string()), budget_(budget), warnings_(warnings) {
+  Source source{readGltfFile(path, budget), path.parent_path(), rules};
+  checkGltf(source.file.json, name_);
+  checkExtensions(source);
+  readBuffers(source);
+  checkViews(source);
+  readImages(source);
+  readStructure(source);
+}
+
+std::string GltfDocument::where(const std::string& list, std::size_t index,
+                                const std::string& rest) const {
+  return gltfPlace(name_, list, index) + rest;
+}
+
+Bytes GltfDocument::view(std::size_t bufferView) const {
+  const tinygltf::BufferView& view = model_.bufferViews[bufferView];
+  return Bytes(buffers_[static_cast<std::size_t>(view.buffer)])
+      .subspan(view.byteOffset, view.byteLength);
+}
+
+void GltfDocument::checkExtensions(const Source& source) const {
+  const Json& json = source.file.json;
+  const std::string version = json["asset"]["version"].get<std::string>();
+  if (!version.starts_with("2.")) {
+    throwBadScene(name_ + "#/asset/version", "expected 2.0, found \"" + version + "\"");
+  }
+  const Json& required = listOf(json, "extensionsRequired");
+  for (std::size_t i = 0; i < required.size(); ++i) {
+    const std::string extension = required[i].get<std::string>();
+    if (isSupported(extension)) continue;
+    throwBadScene(where("extensionsRequired", i),
+                  "the file cannot be shown without " + extension + ", which is not supported");
+  }
+  std::size_t reported = 0;
+  for (const Json& used : listOf(json, "extensionsUsed")) {
+    const std::string extension = used.get<std::string>();
+    if (isSupported(extension) || ++reported > kReportedExtensions) continue;
+    warnings_.add("extension ignored: " + extension.substr(0, kReportedLetters), name_);
+  }
+}
+
+void GltfDocument::readBuffers(Source& source) {
+  const Json& list = listOf(source.file.json, "buffers");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::uint64_t length = wholeOf(list[i], "byteLength");
+    const auto uri = list[i].find("uri");
+    std::vector<std::uint8_t>& bytes = buffers_.emplace_back();
+    const std::string place = where("buffers", i, "/uri");
+    if (uri == list[i].end()) {
+      if (i > 0 || !source.file.hasBinary) {
+        throwBadScene(where("buffers", i), "expected a member \"uri\"");
+      }
+      bytes = std::move(source.file.binary);
+    } else if (tinygltf::IsDataURI(uri->get_ref<const std::string&>())) {
+      bytes = decodeDataUri(uri->get_ref<const std::string&>(), place, budget_);
+    } else {
+      const std::string text = readTextFile(source.resolve(*uri, place), budget_.left() / 2);
+      budget_.charge(text.size(), 1, place);
+      bytes.assign(text.begin(), text.end());
+    }
+    if (bytes.size() < length) {
+      throwBadScene(where("buffers", i, "/byteLength"), "expected " + std::to_string(length) +
+                                                            " bytes of data, found " +
+                                                            std::to_string(bytes.size()));
+    }
+  }
+}
+
+void GltfDocument::checkViews(const Source& source) const {
+  const Json& list = listOf(source.file.json, "bufferViews");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::uint64_t size = buffers_[wholeOf(list[i], "buffer")].size();
+    const std::uint64_t offset = wholeOf(list[i], "byteOffset");
+    const std::uint64_t length = wholeOf(list[i], "byteLength");
+    if (offset > size || length > size - offset) {
+      throwBadScene(where("bufferViews", i), "expected a range within the buffer's " +
+                                                 std::to_string(size) + " bytes, found " +
+                                                 std::to_string(length) + " from byte " +
+                                                 std::to_string(offset));
+    }
+    const std::uint64_t stride = wholeOf(list[i], "byteStride");
+    if (stride % 4 != 0) {
+      throwBadScene(where("bufferViews", i, "/byteStride"), "expected a multiple of 4");
+    }
+  }
+}
+
+void GltfDocument::readImages(const Source& source) {
+  const Json& list = listOf(source.file.json, "images");
+  const Json& views = listOf(source.file.json, "bufferViews");
+  images_.resize(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    GltfImageSource& image = images_[i];
+    image.where = where("images", i);
+    const auto uri = list[i].find("uri");
+    if (uri == list[i].end()) {
+      if (!list[i].contains("bufferView")) {
+        throwBadScene(image.where, "expected a member \"uri\" or \"bufferView\"");
+      }
+      const Json& view = views[wholeOf(list[i], "bufferView")];
+      image.bytes = Bytes(buffers_[wholeOf(view, "buffer")])
+                        .subspan(wholeOf(view, "byteOffset"), wholeOf(view, "byteLength"));
+    } else if (tinygltf::IsDataURI(uri->get_ref<const std::string&>())) {
+      image.own = decodeDataUri(uri->get_ref<const std::string&>(), image.where, budget_);
+      image.bytes = image.own;
+    } else {
+      image.path = source.resolve(*uri, image.where + "/uri").string();
+    }
+  }
+}
+
+// What tinygltf would load or does not need is taken out before.
+void GltfDocument::readStructure(Source& source) {
+  Json& json = source.file.json;
+  for (const char* list : {"buffers", "images", "animations", "skins", "extras"}) json.erase(list);
+  for (const auto& [name, list] : json.items()) {
+    if (list.is_array()) budget_.charge(list.size(), kBytesPerElement, name_);
+  }
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  tinygltf::TinyGLTF reader;
+  std::string error, warning;
+  if (!reader.LoadASCIIFromString(&model_, &error, &warning, text.c_str(),
+                                  static_cast<unsigned int>(text.size()), "")) {
+    throwBadScene(name_, error.substr(0, error.find('\n')));
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,67 @@
+// A glTF file, read and checked: its structure as tinygltf has it, its bytes within their bounds.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/warnings.h"
+#include "io/memory_budget.h"
+#include "io/paths.h"
+
+namespace whit {
+
+using Bytes = std::span<const std::uint8_t>;
+
+// An image that is not decoded: `path`, or the bytes of a file.
+struct GltfImageSource {
+  std::string where;              // "file#/images/3"
+  std::string path;               // empty: `bytes`
+  std::vector<std::uint8_t> own;  // of a data URI
+  Bytes bytes;
+};
+
+class GltfDocument {
+ public:
+  // Throws Error as readGltfFile() and checkGltf() do; badScene for a required extension that is
+  // not supported, for URIs that leave the folder of the file (PathRules), and for buffers, views
+  // of them or images that reach beyond their ends. Other extensions that are not supported are
+  // warnings, once each.
+  GltfDocument(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+               Warnings& warnings);
+  GltfDocument(const GltfDocument&) = delete;
+  GltfDocument& operator=(const GltfDocument&) = delete;
+
+  // Everything but buffers and images, whose lists are empty. Indices are in range.
+  const tinygltf::Model& model() const { return model_; }
+  const std::string& name() const { return name_; }
+  // "file#/list/index" + rest.
+  std::string where(const std::string& list, std::size_t index, const std::string& rest = "") const;
+  Bytes view(std::size_t bufferView) const;
+  const std::vector<GltfImageSource>& images() const { return images_; }
+  Warnings& warnings() const { return warnings_; }
+  MemoryBudget& budget() const { return budget_; }
+
+ private:
+  struct Source;  // what the buffers and images are read from
+
+  void checkExtensions(const Source& source) const;
+  void readBuffers(Source& source);
+  void checkViews(const Source& source) const;
+  void readImages(const Source& source);
+  void readStructure(Source& source);
+
+  std::string name_;
+  MemoryBudget& budget_;
+  Warnings& warnings_;
+  std::vector<std::vector<std::uint8_t>> buffers_;
+  std::vector<GltfImageSource> images_;
+  tinygltf::Model model_;
+};
+
+}  // namespace whit

@@ -1,0 +1,272 @@
+#include "io/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace whit {
+namespace {
+
+using Value = tinygltf::Value;
+using Extensions = tinygltf::ExtensionMap;
+
+constexpr float kLargestIor = 10;
+constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
+constexpr float kLeastAttenuation = 1e-6f;  // of a colour; the logarithm is taken
+
+const Value* find(const Extensions& extensions, const char* name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+double numberOf(const Value& object, const char* key, double fallback) {
+  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+}
+Rgb colourOf(const Value& object, const char* key, const Rgb& fallback) {
+  if (!object.Has(key)) return fallback;
+  const Value& list = object.Get(key);
+  const auto at = [&](int i) { return static_cast<float>(list.Get(i).GetNumberAsDouble()); };
+  return {at(0), at(1), at(2)};
+}
+
+class Converter {
+ public:
+  Converter(const GltfDocument& document, const tinygltf::Material& source, std::string where)
+      : document_(document), source_(source) {
+    m_.name = source.name;
+    m_.where = std::move(where);
+  }
+
+  GltfMaterial convert() {
+    factors();
+    maps();
+    extensions();
+    if (!m_.emission.operator==(Rgb()) && source_.emissiveTexture.index >= 0) {
+      warn("emission by a texture left out");
+      m_.emission = Rgb();
+    }
+    return std::move(m_);
+  }
+
+ private:
+  void warn(const char* what) { document_.warnings().add(what, m_.where); }
+
+  float unit(double x) {
+    if (x >= 0 && x <= 1) return static_cast<float>(x);
+    warn("material value clamped to [0, 1]");
+    return x > 0 ? 1.0f : 0.0f;
+  }
+  Rgb unit(const Rgb& c) { return {unit(c.x), unit(c.y), unit(c.z)}; }
+
+  void factors() {
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    const std::vector<double>& base = pbr.baseColorFactor;
+    m_.base = {unit(base[0]), unit(base[1]), unit(base[2])};
+    m_.alpha = unit(base[3]);
+    m_.metallic = unit(pbr.metallicFactor);
+    m_.roughness = unit(pbr.roughnessFactor);
+    const std::vector<double>& e = source_.emissiveFactor;
+    // Above 1 is a strength that some writers leave in.
+    for (std::size_t i = 0; i < 3; ++i) {
+      m_.emission[static_cast<int>(i)] =
+          static_cast<float>(std::clamp(e[i], 0.0, kLargestEmission));
+    }
+    if (source_.alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
+    if (source_.alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
+    m_.alphaCutoff = static_cast<float>(std::clamp(source_.alphaCutoff, 0.0, 2.0));
+  }
+
+  void maps() {
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    m_.baseMap = texture(pbr.baseColorTexture);
+    m_.metallicRoughnessMap = texture(pbr.metallicRoughnessTexture);
+    m_.normalMap = texture(source_.normalTexture);
+    m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
+    for (const GltfTexture* map : {&m_.baseMap, &m_.metallicRoughnessMap, &m_.normalMap}) {
+      if (map->exists() && !(map->uv == m_.uv())) {
+        warn("textures of one material with different coordinates: those of the first taken");
+      }
+    }
+  }
+
+  template <typename Info>
+  GltfTexture texture(const Info& info) {
+    GltfTexture result;
+    if (info.index < 0) return result;
+    const tinygltf::Texture& texture =
+        document_.model().textures[static_cast<std::size_t>(info.index)];
+    if (texture.source < 0) {
+      warn("texture in a format that is not supported left out");
+      return result;
+    }
+    result.image = texture.source;
+    if (texture.sampler >= 0) {
+      const tinygltf::Sampler& sampler =
+          document_.model().samplers[static_cast<std::size_t>(texture.sampler)];
+      result.wrapU = wrap(sampler.wrapS);
+      result.wrapV = wrap(sampler.wrapT);
+      if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
+        warn("texture to be looked up at its nearest texel, interpolated instead");
+      }
+    }
+    result.uv.set = static_cast<std::size_t>(std::max(info.texCoord, 0));
+    if (const Value* t = find(info.extensions, "KHR_texture_transform")) transform(*t, result.uv);
+    return result;
+  }
+
+  static Wrap wrap(int code) {
+    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+           : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                           : Wrap::repeat;
+  }
+
+  static double elementOf(const Value& object, const char* key, int i, double fallback) {
+    return object.Has(key) ? object.Get(key).Get(i).GetNumberAsDouble() : fallback;
+  }
+  // Translation * rotation * scale; with v pointing down, counter-clockwise as seen.
+  static void transform(const Value& t, GltfUvMap& uv) {
+    const double r = numberOf(t, "rotation", 0), c = std::cos(r), s = std::sin(r);
+    const double su = elementOf(t, "scale", 0, 1), sv = elementOf(t, "scale", 1, 1);
+    uv.uu = c * su;
+    uv.uv = s * sv;
+    uv.u0 = elementOf(t, "offset", 0, 0);
+    uv.vu = -s * su;
+    uv.vv = c * sv;
+    uv.v0 = elementOf(t, "offset", 1, 0);
+    uv.set = static_cast<std::size_t>(
+        std::max(numberOf(t, "texCoord", static_cast<double>(uv.set)), 0.0));
+  }
+
+  void extensions() {
+    if (const Value* e = find(source_.extensions, "KHR_materials_ior"))
+      ior(numberOf(*e, "ior", 1.5));
+    const float step = (m_.ior - 1) / (m_.ior + 1);
+    m_.f0 = Rgb(step * step);
+    if (const Value* e = find(source_.extensions, "KHR_materials_specular")) specular(*e);
+    if (const Value* e = find(source_.extensions, "KHR_materials_emissive_strength")) {
+      m_.emission *= static_cast<float>(
+          std::clamp(numberOf(*e, "emissiveStrength", 1), 0.0, kLargestEmission));
+    }
+    if (const Value* e = find(source_.extensions, "KHR_materials_transmission")) transmission(*e);
+    if (const Value* e = find(source_.extensions, "KHR_materials_volume")) volume(*e);
+    if (const Value* e = find(source_.extensions, "KHR_materials_clearcoat")) {
+      m_.clearcoat = unit(numberOf(*e, "clearcoatFactor", 0));
+      m_.clearcoatRoughness = unit(numberOf(*e, "clearcoatRoughnessFactor", 0));
+    }
+    m_.unlit = find(source_.extensions, "KHR_materials_unlit") != nullptr;
+    if (m_.unlit && m_.baseMap.exists()) warn("unlit material with a texture, lit nevertheless");
+  }
+
+  void ior(double x) {
+    if (!(x >= 1 && x <= kLargestIor)) warn("index of refraction clamped to [1, 10]");
+    m_.ior = static_cast<float>(std::clamp(x, 1.0, static_cast<double>(kLargestIor)));
+  }
+
+  void specular(const Value& e) {
+    m_.f90 = unit(numberOf(e, "specularFactor", 1));
+    const Rgb colour = colourOf(e, "specularColorFactor", Rgb(1.0f));
+    m_.f0 = min(max(m_.f0 * colour, Rgb(0.0f)), Rgb(1.0f)) * m_.f90;
+  }
+
+  void transmission(const Value& e) {
+    m_.transmission = unit(numberOf(e, "transmissionFactor", 0));
+    if (!e.Has("transmissionTexture")) return;
+    tinygltf::TextureInfo info;
+    info.index = e.Get("transmissionTexture").Get("index").GetNumberAsInt();
+    m_.transmissionMap = texture(info);
+    if (m_.transmission > 0) warn("transmission by a texture taken by its mean");
+  }
+
+  void volume(const Value& e) {
+    const double distance = numberOf(e, "attenuationDistance", 0);
+    if (!(distance > 0)) return;  // infinite
+    const Rgb colour = unit(colourOf(e, "attenuationColor", Rgb(1.0f)));
+    for (int i = 0; i < 3; ++i) {
+      const double kept = std::max(colour[i], kLeastAttenuation);
+      m_.absorption[i] = static_cast<float>(std::min(-std::log(kept) / distance, 1e18));
+    }
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Material& source_;
+  GltfMaterial m_;
+};
+
+// A mask that cuts everything, with or without a map.
+Material invisible(Material m) {
+  m.diffuse = m.emission = Rgb(0.0f);
+  m.transmission = Rgb(1.0f);
+  m.ior = 1;
+  m.castsShadow = false;
+  return m;
+}
+
+Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
+
+}  // namespace
+
+GltfUvMap GltfMaterial::uv() const {
+  for (const GltfTexture* map : {&baseMap, &metallicRoughnessMap, &normalMap}) {
+    if (map->exists()) return map->uv;
+  }
+  return {};
+}
+
+std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
+  std::vector<GltfMaterial> materials;
+  const std::vector<tinygltf::Material>& sources = document.model().materials;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    materials.push_back(Converter(document, sources[i], document.where("materials", i)).convert());
+  }
+  GltfMaterial fallback;
+  fallback.name = "default";
+  fallback.where = document.name();
+  materials.push_back(fallback);
+  return materials;
+}
+
+Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
+  Material m;
+  m.name = g.name;
+  m.roughness = g.roughness * means.roughness;
+  m.emission = g.emission;
+  m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
+                      ? std::min(g.alphaCutoff / g.alpha, 1.0f)
+                      : 0.5f;
+  if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) {
+    return invisible(std::move(m));
+  }
+  if (g.unlit) {
+    m.diffuse = g.baseMap.exists() ? g.base : Rgb(0.0f);
+    if (!g.baseMap.exists()) m.emission = g.base;
+    return m;
+  }
+  const Rgb base = g.base * means.base;
+  const float metal = g.metallic * means.metallic;
+  const float clear = g.transmission * means.transmission;
+  const bool blends = g.alphaMode == GltfMaterial::Alpha::blend;
+  const float coverage = blends ? g.alpha * means.alpha : 1.0f;
+  m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear) * coverage);
+  m.specular = (g.mixesMetal() ? Rgb(1.0f) : mix(g.f0, g.base, metal)) * coverage;
+  const float through = clear * (1 - metal);
+  m.transmission = base * (through * coverage) + Rgb(1 - coverage);
+  if (through > 0) {
+    m.ior = g.ior;
+    m.absorption = g.absorption;
+  } else if (coverage < 1) {
+    m.ior = 1;
+  }
+  if (m.roughness <= kGltfSmoothRoughness) {
+    // The dielectric adds its own reflectance.
+    const float share = through > 0 ? metal : 1.0f;
+    m.mirror = mix(g.f0, base, metal) * (share * coverage);
+    m.mirrorGrazing = Rgb((g.f90 * (1 - metal) + metal) * share * coverage);
+  }
+  if (g.clearcoatRoughness <= kGltfSmoothRoughness) {
+    m.mirror = min(m.mirror + Rgb(0.04f * g.clearcoat), Rgb(1.0f));
+    m.mirrorGrazing = max(m.mirrorGrazing, Rgb(g.clearcoat));
+  }
+  m.castsShadow = !m.hasTransmission();
+  return m;
+}
+
+}  // namespace whit

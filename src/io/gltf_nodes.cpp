@@ -1,0 +1,166 @@
+#include "io/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+namespace whit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr char kLights[] = "KHR_lights_punctual";
+
+Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
+  return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
+}
+
+Affine rotationOf(const std::vector<double>& q) {
+  if (q.empty()) return {};
+  const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  if (!(norm > 0) || !std::isfinite(norm)) return {};
+  const double x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / norm;
+  return {{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
+          {s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)},
+          {s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)},
+          {}};
+}
+
+// Translation * rotation * scale, or the matrix, which is column by column.
+Affine mapOf(const tinygltf::Node& node) {
+  if (!node.matrix.empty()) {
+    const auto column = [&](std::size_t i) {
+      return Vec3d{node.matrix[4 * i], node.matrix[4 * i + 1], node.matrix[4 * i + 2]};
+    };
+    return {column(0), column(1), column(2), column(3)};
+  }
+  return Affine::translation(tripleOr(node.translation, {})) * rotationOf(node.rotation) *
+         Affine::scaling(tripleOr(node.scale, {1, 1, 1}));
+}
+
+// As Scene::finalize() wants maps to be.
+bool isUsable(const Affine& a) {
+  constexpr double kSmallestSine = 1e-12;
+  for (const Vec3d& column : {a.x, a.y, a.z, a.p}) {
+    if (!isFinite(column) || !(maxComponent(abs(column)) <= kLargestCoordinate)) return false;
+  }
+  return std::abs(a.determinant()) > kSmallestSine * length(a.x) * length(a.y) * length(a.z);
+}
+
+class TreeReader {
+ public:
+  explicit TreeReader(const GltfDocument& document)
+      : document_(document), model_(document.model()), seen_(model_.nodes.size()) {}
+
+  GltfStage read() {
+    checkTree();
+    for (const std::size_t root : roots()) visit(root, Affine(), 0);
+    return std::move(stage_);
+  }
+
+ private:
+  void warn(const char* what, std::size_t node) {
+    document_.warnings().add(what, document_.where("nodes", node));
+  }
+
+  // No node has two parents or is its own ancestor, which then is a root that is never reached.
+  void checkTree() {
+    std::vector<bool> hasParent(model_.nodes.size());
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+      for (const int child : model_.nodes[i].children) {
+        const auto c = static_cast<std::size_t>(child);
+        if (hasParent[c]) {
+          throwBadScene(document_.where("nodes", i, "/children"),
+                        "expected a tree: node " + std::to_string(child) + " has two parents");
+        }
+        hasParent[c] = true;
+      }
+    }
+    for (std::size_t i = 0; i < hasParent.size(); ++i) {
+      if (!hasParent[i]) topmost_.push_back(i);
+    }
+    if (topmost_.empty() && !model_.nodes.empty()) {
+      throwBadScene(document_.where("nodes", 0), "expected a tree: every node has a parent");
+    }
+  }
+
+  std::vector<std::size_t> roots() const {
+    if (model_.scenes.empty()) return topmost_;
+    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+    const std::vector<int>& nodes = model_.scenes[scene].nodes;
+    return {nodes.begin(), nodes.end()};
+  }
+
+  void visit(std::size_t index, const Affine& toScene, int depth) {
+    if (depth > kGltfDepthLimit) {
+      throwBadScene(document_.where("nodes", index),
+                    "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+    }
+    if (seen_[index]) {
+      throwBadScene(document_.where("nodes", index), "expected a tree: this node is reached twice");
+    }
+    seen_[index] = true;
+    const tinygltf::Node& node = model_.nodes[index];
+    const Affine map = toScene * mapOf(node);
+    if (!isUsable(map)) return warn("node that flattens space left out", index);
+    if (node.mesh >= 0) stage_.meshes.push_back({static_cast<std::size_t>(node.mesh), map});
+    if (node.mesh >= 0 && node.skin >= 0) warn("skinned mesh shown as it was modelled", index);
+    if (node.camera >= 0) addCamera(index, map);
+    const auto light = node.extensions.find(kLights);
+    if (light != node.extensions.end()) {
+      addLight(index, light->second.Get("light").GetNumberAsInt(), map);
+    }
+    for (const int child : node.children) visit(static_cast<std::size_t>(child), map, depth + 1);
+  }
+
+  void addCamera(std::size_t index, const Affine& map) {
+    const tinygltf::Node& node = model_.nodes[index];
+    const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
+    const double fov = source.perspective.yfov * 180 / kPi;
+    if (source.type != "perspective" || !(fov > 0 && fov < 180)) {
+      return warn("camera that is not a perspective one left out", index);
+    }
+    Camera camera;
+    camera.name = !node.name.empty() ? node.name : source.name.empty() ? "camera" : source.name;
+    camera.eye = Vec3f(map.p);
+    // Far enough for the direction to survive the rounding of eye and at.
+    camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
+    camera.up = Vec3f(normalized(map.y));
+    camera.fov = static_cast<float>(fov);
+    if (stage_.cameras.empty()) stage_.aspect = source.perspective.aspectRatio;
+    stage_.cameras.push_back(camera);
+  }
+
+  void addLight(std::size_t index, int number, const Affine& map) {
+    const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(number)];
+    if (source.type != "point") {
+      const std::string kind = source.type == "spot"          ? "spot light"
+                               : source.type == "directional" ? "directional light"
+                                                              : "light of an unknown type";
+      document_.warnings().add(kind + " left out",
+                               document_.where("nodes", index) + " (" + source.name + ")");
+      return;
+    }
+    const std::vector<double>& c = source.color;
+    PointLight light;
+    light.name = source.name.empty() ? model_.nodes[index].name : source.name;
+    light.position = Vec3f(map.p);
+    const Vec3d colour = c.empty() ? Vec3d(1.0) : Vec3d{c[0], c[1], c[2]};
+    light.intensity = Rgb(colour * (source.intensity / kLumensPerWatt));
+    stage_.lights.push_back(light);
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Model& model_;
+  std::vector<bool> seen_;
+  std::vector<std::size_t> topmost_;
+  GltfStage stage_;
+};
+
+}  // namespace
+
+GltfStage readGltfNodes(const GltfDocument& document) { return TreeReader(document).read(); }
+
+}  // namespace whit

@@ -1,0 +1,39 @@
+// The node tree of a glTF document: what stands where. glTF 2.0 specification, section 3.5;
+// KHR_lights_punctual.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/affine.h"
+#include "io/gltf_document.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+
+namespace whit {
+
+inline constexpr int kGltfDepthLimit = 256;
+
+// Radiometric units: KHR_lights_punctual gives candela, and a watt is taken for 683 lumens, as
+// Blender's exporter does, so that an exported lamp of P watts has P / (4 pi) W/sr again.
+inline constexpr double kLumensPerWatt = 683;
+
+struct GltfPlacedMesh {
+  std::size_t mesh = 0;
+  Affine toScene;
+};
+
+struct GltfStage {
+  std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
+  std::vector<Camera> cameras;
+  double aspect = 0;  // of the first camera; 0: none is given
+  std::vector<PointLight> lights;
+};
+
+// Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
+// what they hold; orthographic cameras, spot and directional lights are left out; skins are not
+// applied: each is counted in the document's warnings. Throws badScene "file#/nodes/i" where the
+// nodes are no tree or deeper than kGltfDepthLimit.
+GltfStage readGltfNodes(const GltfDocument& document);
+
+}  // namespace whit

@@ -1,0 +1,24 @@
+// What glTF asks of each property that is read here: its kind, its range, and that an index exists.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "io/json_text.h"
+
+namespace whit {
+
+// Elements of one list, and in all: far beyond any real file.
+inline constexpr std::uint64_t kGltfCountLimit = 1u << 20;
+
+// Throws badScene "file#/pointer" where `json` differs from the specification's schemas, limit
+// where a list is too long. Afterwards every property that the readers use is of its kind and every
+// index refers to something; what lies behind the indices (sizes, offsets, cycles) is theirs to
+// check. Properties that nobody reads are not looked at.
+void checkGltf(const Json& json, const std::string& file);
+
+// "file#/list/index".
+std::string gltfPlace(const std::string& file, const std::string& list, std::size_t index);
+
+}  // namespace whit

@@ -1,0 +1,101 @@
+#include "io/obj_model.h"
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "io/obj_geometry.h"
+
+namespace whit {
+namespace {
+
+constexpr float kGrey = 0.6f;
+
+MtlMaterial greyMaterial(const std::string& name, const std::string& where) {
+  MtlMaterial grey;
+  grey.material.name = name;
+  grey.material.diffuse = Rgb(kGrey);
+  grey.where = where;
+  return grey;
+}
+
+// A library's name may hold blanks, or the line may name several libraries: the name that exists.
+std::vector<std::string> libraryNames(const std::string& line, const std::filesystem::path& folder,
+                                      const std::string& where, const PathRules& rules) {
+  std::error_code error;
+  if (std::filesystem::exists(rules.resolve(line, folder, where, true), error)) return {line};
+  std::istringstream in(line);
+  std::vector<std::string> names;
+  for (std::string name; in >> name;) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+                   Warnings& warnings)
+    : path_(path), rules_(rules), budget_(budget), warnings_(warnings) {
+  text_.emplace(readTextFile(path, budget.left()), path.string());
+  readMaterials();
+  for (const MtlMaterial& source : sources_) materials_.push_back(source.material);
+}
+
+void ObjModel::readMaterials() {
+  const std::filesystem::path folder = path_.parent_path();
+  std::map<std::string, MtlMaterial> library;
+  for (const ObjSummary::Name& line : text_->summary().libraries) {
+    const std::string where = path_.string() + ":" + std::to_string(line.line);
+    for (const std::string& name : libraryNames(line.text, folder, where, rules_)) {
+      const auto file = rules_.resolve(name, folder, where, /*backslashes=*/true);
+      std::error_code error;
+      if (std::filesystem::is_regular_file(file, error)) {
+        readMtl(file, library, warnings_);
+      } else {
+        warnings_.add("material library missing", where + ": " + name);
+      }
+    }
+  }
+  for (const ObjSummary::Name& name : text_->summary().materials) {
+    const auto known = library.find(name.text);
+    if (known != library.end()) {
+      sources_.push_back(known->second);
+      continue;
+    }
+    const std::string where = path_.string() + ":" + std::to_string(name.line);
+    warnings_.add("material missing, grey instead", where + ": " + name.text);
+    sources_.push_back(greyMaterial(name.text, where));
+  }
+  sources_.push_back(greyMaterial("default", path_.string()));
+}
+
+TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMaps& given,
+                                    TextureLoader& textures) {
+  MtlMaterial source = sources_[i];
+  source.material = std::move(material);
+  if (given.diffuse) source.diffuse.name.clear();
+  if (given.specular) source.specular.name.clear();
+  if (given.normal) {
+    source.normal.name.clear();
+    source.bump.name.clear();
+  }
+  if (given.alpha) {
+    source.alpha.name.clear();
+    source.alphaFromDiffuse = false;
+  }
+  return {loadTextures(source, path_.parent_path(), rules_, textures), {}};
+}
+
+Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
+  if (text_) {
+    meshes_ = readObjGeometry(*text_, budget_, warnings_);
+    text_.reset();
+    for (Mesh& mesh : meshes_) mesh.name = path_.stem().string();
+  }
+  Body body;
+  addParts(meshes_, materials, path_.string(), budget_, body);
+  return body;
+}
+
+}  // namespace whit

@@ -1,0 +1,94 @@
+#include "io/ply_data.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace whit {
+namespace {
+
+template <typename T>
+double valueOf(const std::array<char, 8>& bytes) {
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return static_cast<double>(value);
+}
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+}  // namespace
+
+double PlyData::number(PlyType type) {
+  return format_ == PlyHeader::Format::ascii ? textNumber() : binaryNumber(type);
+}
+
+double PlyData::textNumber() {
+  for (; at_ < text_.size() && isBlank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+  if (at_ < text_.size() && text_[at_] == '+') ++at_;
+  double value = 0;
+  const char* end = text_.data() + text_.size();
+  const auto [rest, error] = std::from_chars(text_.data() + at_, end, value);
+  const bool wellFormed = error != std::errc::invalid_argument && (rest == end || isBlank(*rest));
+  if (!wellFormed) throwBadScene(place(), "expected a number");
+  at_ = static_cast<std::size_t>(rest - text_.data());
+  return value;
+}
+
+double PlyData::binaryNumber(PlyType type) {
+  const std::size_t size = bytesOf(type);
+  if (text_.size() - at_ < size) throwBadScene(place(), "expected a number, found the file's end");
+  std::array<char, 8> bytes{};
+  std::memcpy(bytes.data(), text_.data() + at_, size);
+  at_ += size;
+  const bool little = format_ == PlyHeader::Format::littleEndian;
+  if (little != (std::endian::native == std::endian::little)) {
+    std::reverse(bytes.data(), bytes.data() + size);
+  }
+  switch (type) {
+    case PlyType::int8:
+      return valueOf<std::int8_t>(bytes);
+    case PlyType::uint8:
+      return valueOf<std::uint8_t>(bytes);
+    case PlyType::int16:
+      return valueOf<std::int16_t>(bytes);
+    case PlyType::uint16:
+      return valueOf<std::uint16_t>(bytes);
+    case PlyType::int32:
+      return valueOf<std::int32_t>(bytes);
+    case PlyType::uint32:
+      return valueOf<std::uint32_t>(bytes);
+    case PlyType::float32:
+      return valueOf<float>(bytes);
+    case PlyType::float64:
+      return valueOf<double>(bytes);
+  }
+  return 0;
+}
+
+std::uint64_t PlyData::listLength(const PlyProperty& property) {
+  const double length = number(property.countType);
+  const std::size_t least = format_ == PlyHeader::Format::ascii ? 2 : bytesOf(property.type);
+  const double most = static_cast<double>((text_.size() - at_ + 1) / least);
+  if (!(length >= 0 && length <= most)) {
+    throwBadScene(place(), "expected a list that fits into the rest of the file");
+  }
+  return static_cast<std::uint64_t>(length);
+}
+
+void PlyData::skip(const PlyElement& element) {
+  for (const PlyProperty& property : element.properties) {
+    const std::uint64_t count = property.isList ? listLength(property) : 1;
+    for (std::uint64_t i = 0; i < count; ++i) number(property.type);
+  }
+}
+
+std::string PlyData::place() const {
+  if (format_ == PlyHeader::Format::ascii) return file_ + ":" + std::to_string(line_);
+  return file_ + ": byte " + std::to_string(at_);
+}
+
+}  // namespace whit

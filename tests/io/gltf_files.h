@@ -1,0 +1,125 @@
+// glTF files built by tests.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "scene_files.h"
+
+namespace whit {
+
+inline std::string base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool there = i + k < bytes.size();
+      group = group << 8 | (there ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+    }
+  }
+  return text;
+}
+
+template <typename T>
+std::string bytesOf(const std::vector<T>& values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+// Gathers buffer views and accessors over one buffer.
+class GltfBuilder {
+ public:
+  // The number of the view.
+  int view(const std::string& bytes, int stride = 0) {
+    while (data_.size() % 4 != 0) data_ += '\0';
+    views_ += std::string(views_.empty() ? "" : ",") +
+              "{\"buffer\":0,\"byteOffset\":" + std::to_string(data_.size()) +
+              ",\"byteLength\":" + std::to_string(bytes.size()) +
+              (stride > 0 ? ",\"byteStride\":" + std::to_string(stride) : "") + "}";
+    data_ += bytes;
+    return viewCount_++;
+  }
+  // `rest` begins with a comma: further members.
+  int accessor(int view, int componentType, const std::string& type, std::size_t count,
+               const std::string& rest = "") {
+    accessors_ += std::string(accessors_.empty() ? "" : ",") +
+                  (view >= 0 ? "{\"bufferView\":" + std::to_string(view) + "," : "{") +
+                  "\"componentType\":" + std::to_string(componentType) + ",\"type\":\"" + type +
+                  "\",\"count\":" + std::to_string(count) + rest + "}";
+    return accessorCount_++;
+  }
+  int positions(const std::vector<float>& xyz) {
+    return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3);
+  }
+  int uvs(const std::vector<float>& uv) {
+    return accessor(view(bytesOf(uv)), 5126, "VEC2", uv.size() / 2);
+  }
+  int indices(const std::vector<std::uint16_t>& i) {
+    return accessor(view(bytesOf(i)), 5123, "SCALAR", i.size());
+  }
+
+  // `members` are those of the root object besides asset, buffers, views and accessors.
+  std::string json(const std::string& members, bool binary = false) const {
+    std::string text = "{\"asset\":{\"version\":\"2.0\"}";
+    if (!data_.empty()) {
+      text += ",\"buffers\":[{\"byteLength\":" + std::to_string(data_.size());
+      if (!binary)
+        text += ",\"uri\":\"data:application/octet-stream;base64," + base64(data_) + "\"";
+      text += "}],\"bufferViews\":[" + views_ + "]";
+    }
+    if (!accessors_.empty()) text += ",\"accessors\":[" + accessors_ + "]";
+    return text + (members.empty() ? "" : "," + members) + "}";
+  }
+  std::string glb(const std::string& members) const {
+    std::string text = json(members, true), data = data_;
+    while (text.size() % 4 != 0) text += ' ';
+    while (data.size() % 4 != 0) data += '\0';
+    const auto word = [](std::size_t x) {
+      return bytesOf<std::uint32_t>({static_cast<std::uint32_t>(x)});
+    };
+    const std::string chunks =
+        word(text.size()) + "JSON" + text + word(data.size()) + std::string("BIN\0", 4) + data;
+    return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
+  }
+
+ private:
+  std::string data_, views_, accessors_;
+  int viewCount_ = 0, accessorCount_ = 0;
+};
+
+// A scene whose only node shows a mesh of one primitive.
+inline std::string oneMesh(const std::string& primitive) {
+  return "\"meshes\":[{\"primitives\":[" + primitive +
+         "]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0";
+}
+
+class GltfTest : public SceneFileTest {
+ protected:
+  SceneDescription loadText(const std::string& text) { return load(save("m.gltf", text)); }
+  std::string errorOfText(const std::string& text) {
+    return errorOf([&] { loadText(text); });
+  }
+  // Corner `corner` of triangle `triangle` of instance `i`, in the world.
+  static Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t triangle,
+                        std::size_t corner) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.objects[instance.object].meshes[0];
+    return instance.toWorld.point(Vec3d(mesh.positions[mesh.triangles[triangle][corner]]));
+  }
+};
+
+inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = 1e-6) {
+  EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
+}
+
+// The unit triangle in the plane z = 0, seen from +z.
+inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+}  // namespace whit

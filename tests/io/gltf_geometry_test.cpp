@@ -1,0 +1,250 @@
+// Meshes and nodes of glTF files: each way the format has to say where a triangle is.
+#include "gltf_files.h"
+#include "scene/scene.h"
+
+namespace whit {
+namespace {
+
+using GltfGeometry = GltfTest;
+using Triangle = std::array<std::uint32_t, 3>;
+
+std::string triangleText(const std::string& nodes) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  return b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + position +
+                "}}]}]," + nodes);
+}
+
+TEST_F(GltfGeometry, TextBinaryAndExternalBuffersAreTheSame) {
+  GltfBuilder b;
+  const std::string members =
+      oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}");
+  std::string external = b.json(members);
+  const std::size_t from = external.find("data:"), to = external.find('"', from);
+  external.replace(from, to - from, "a%20b.bin");
+  save("a b.bin", bytesOf(kTriangleXyz));
+  for (const std::string& file :
+       {save("t.gltf", b.json(members)), save("t.glb", b.glb(members)), save("e.gltf", external)}) {
+    const SceneDescription scene = load(file);
+    ASSERT_EQ(triangleCount(scene), 1u) << file;
+    for (std::size_t i = 0; i < 3; ++i) {
+      expectNear(cornerOf(scene, 0, 0, i),
+                 {kTriangleXyz[3 * i], kTriangleXyz[3 * i + 1], kTriangleXyz[3 * i + 2]});
+    }
+  }
+}
+
+TEST_F(GltfGeometry, NodesTransformByScaleRotationTranslationAndParents) {
+  // A quarter turn about z takes (2, 0, 0) to (0, 2, 0); the parent adds (0, 0, 5) and doubles.
+  const SceneDescription scene = loadText(
+      triangleText("\"nodes\":[{\"children\":[1],\"matrix\":[2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,5,1]},"
+                   "{\"mesh\":0,\"translation\":[10,0,0],\"rotation\":[0,0,0.70710678118654757,"
+                   "0.70710678118654757],\"scale\":[2,1,1]}],\"scenes\":[{\"nodes\":[0]}]"));
+  ASSERT_EQ(scene.instances.size(), 1u);
+  expectNear(cornerOf(scene, 0, 0, 0), {20, 0, 5});
+  expectNear(cornerOf(scene, 0, 0, 1), {20, 4, 5});
+  expectNear(cornerOf(scene, 0, 0, 2), {18, 0, 5});
+}
+
+TEST_F(GltfGeometry, NegativeScaleKeepsTheOutside) {
+  SceneDescription scene = loadText(triangleText("\"nodes\":[{\"mesh\":0,\"scale\":[-1,1,1]}]"));
+  const Scene baked = Scene::finalize(std::move(scene), warnings_);
+  ASSERT_EQ(baked.triangles.size(), 1u);
+  const float* p = baked.triangles[0].position;
+  const Vec3d normal = cross(Vec3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]),
+                             Vec3d(p[6] - p[0], p[7] - p[1], p[8] - p[2]));
+  expectNear(normal, {0, 0, 1});
+}
+
+TEST_F(GltfGeometry, MeshesThatNodesShareBecomeInstances) {
+  SceneDescription scene =
+      loadText(triangleText("\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[5,0,0]}],"
+                            "\"scenes\":[{\"nodes\":[0,1]}]"));
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.instances.size(), 2u);
+  expectNear(cornerOf(scene, 1, 0, 1), {6, 0, 0});
+}
+
+TEST_F(GltfGeometry, OnlyTheDefaultSceneIsShown) {
+  const std::string nodes = "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[5,0,0]}]";
+  const SceneDescription second =
+      loadText(triangleText(nodes + ",\"scenes\":[{\"nodes\":[0]},{\"nodes\":[1]}],\"scene\":1"));
+  ASSERT_EQ(second.instances.size(), 1u);
+  expectNear(cornerOf(second, 0, 0, 0), {5, 0, 0});
+  EXPECT_EQ(loadText(triangleText(nodes)).instances.size(), 2u);  // no scene: all
+}
+
+TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
+  GltfBuilder b;
+  const std::string position =
+      std::to_string(b.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}));
+  const auto trianglesOf = [&](int mode) {
+    const SceneDescription scene = loadText(b.json(oneMesh(
+        "{\"attributes\":{\"POSITION\":" + position + "},\"mode\":" + std::to_string(mode) + "}")));
+    return scene.objects[0].meshes[0].triangles;
+  };
+  EXPECT_EQ(trianglesOf(5), (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
+  EXPECT_EQ(trianglesOf(6), (std::vector<Triangle>{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}));
+}
+
+TEST_F(GltfGeometry, PointsAndLinesAreCounted) {
+  GltfBuilder b;
+  const std::string attributes =
+      "{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "},\"mode\":";
+  const SceneDescription scene =
+      loadText(b.json(oneMesh(attributes + "0}," + attributes + "3}," + attributes + "4}")));
+  EXPECT_EQ(triangleCount(scene), 1u);
+  EXPECT_EQ(warned("points or lines left out"), 2u);
+}
+
+// The same corners by every component type that an index can have.
+TEST_F(GltfGeometry, IndicesOfEveryType) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const int byType[] = {b.accessor(b.view(bytesOf<std::uint8_t>({2, 0, 1})), 5121, "SCALAR", 3),
+                        b.accessor(b.view(bytesOf<std::uint16_t>({2, 0, 1})), 5123, "SCALAR", 3),
+                        b.accessor(b.view(bytesOf<std::uint32_t>({2, 0, 1})), 5125, "SCALAR", 3)};
+  for (const int indices : byType) {
+    const SceneDescription scene =
+        loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position +
+                                "},\"indices\":" + std::to_string(indices) + "}")));
+    EXPECT_EQ(scene.objects[0].meshes[0].triangles, (std::vector<Triangle>{{2, 0, 1}})) << indices;
+  }
+}
+
+// Whole numbers as they are, and normalised by the largest of their type.
+TEST_F(GltfGeometry, PositionsOfEveryType) {
+  GltfBuilder b;
+  struct Case {
+    int accessor;
+    double one;  // what the components, given as `one`, come out as
+  };
+  const std::string norm = ",\"normalized\":true";
+  const auto i8 = b.view(bytesOf<std::int8_t>({0, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0}), 4);
+  const auto u8 = b.view(bytesOf<std::uint8_t>({0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0}), 4);
+  const auto i16 = b.view(bytesOf<std::int16_t>({0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}), 8);
+  const auto u16 = b.view(bytesOf<std::uint16_t>({0, 0, 0, 0, 65535, 0, 0, 0, 0, 65535, 0, 0}), 8);
+  const Case cases[] = {
+      {b.accessor(i8, 5120, "VEC3", 3), 127},    {b.accessor(i8, 5120, "VEC3", 3, norm), 1},
+      {b.accessor(u8, 5121, "VEC3", 3), 255},    {b.accessor(u8, 5121, "VEC3", 3, norm), 1},
+      {b.accessor(i16, 5122, "VEC3", 3), 32767}, {b.accessor(i16, 5122, "VEC3", 3, norm), 1},
+      {b.accessor(u16, 5123, "VEC3", 3), 65535}, {b.accessor(u16, 5123, "VEC3", 3, norm), 1}};
+  for (const Case& c : cases) {
+    const SceneDescription scene = loadText(
+        b.json("\"extensionsRequired\":[\"KHR_mesh_quantization\"]," +
+               oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(c.accessor) + "}}")));
+    expectNear(cornerOf(scene, 0, 0, 1), {c.one, 0, 0});
+    expectNear(cornerOf(scene, 0, 0, 2), {0, c.one, 0});
+  }
+}
+
+TEST_F(GltfGeometry, MostNegativeNormalisedIntegerIsMinusOne) {
+  GltfBuilder b;
+  const auto view = b.view(bytesOf<std::int8_t>({-128, -127, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}), 4);
+  const auto position = b.accessor(view, 5120, "VEC3", 3, ",\"normalized\":true");
+  const SceneDescription scene =
+      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}")));
+  expectNear(cornerOf(scene, 0, 0, 0), {-1, -1, 0});
+}
+
+TEST_F(GltfGeometry, InterleavedAttributes) {
+  GltfBuilder b;
+  const int view =
+      b.view(bytesOf<float>({0, 0, 0, 0.25f, 0.75f, 1, 0, 0, 0.5f, 1, 0, 1, 0, 0, 0}), 20);
+  const int position = b.accessor(view, 5126, "VEC3", 3);
+  const int uv = b.accessor(view, 5126, "VEC2", 3, ",\"byteOffset\":12");
+  const SceneDescription scene =
+      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) +
+                              ",\"TEXCOORD_0\":" + std::to_string(uv) + "}}")));
+  expectNear(cornerOf(scene, 0, 0, 2), {0, 1, 0});
+  // v points down in the file.
+  EXPECT_EQ(scene.objects[0].meshes[0].uvs,
+            (std::vector<Vec2f>{{0.25f, 0.25f}, {0.5f, 0.0f}, {0.0f, 1.0f}}));
+}
+
+TEST_F(GltfGeometry, SparseAccessorsReplaceSomeElements) {
+  GltfBuilder b;
+  const int dense = b.view(bytesOf(kTriangleXyz));
+  const int which = b.view(bytesOf<std::uint16_t>({2}));
+  const int values = b.view(bytesOf<float>({0, 7, 0}));
+  const std::string sparse =
+      ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" + std::to_string(which) +
+      ",\"componentType\":5123},\"values\":{\"bufferView\":" + std::to_string(values) + "}}";
+  const int replaced = b.accessor(dense, 5126, "VEC3", 3, sparse);
+  const int onZeros = b.accessor(-1, 5126, "VEC3", 3, sparse);
+  const auto corner = [&](int position, std::size_t i) {
+    return cornerOf(loadText(b.json(oneMesh(
+                        "{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}"))),
+                    0, 0, i);
+  };
+  expectNear(corner(replaced, 1), {1, 0, 0});
+  expectNear(corner(replaced, 2), {0, 7, 0});
+  expectNear(corner(onZeros, 1), {0, 0, 0});
+  expectNear(corner(onZeros, 2), {0, 7, 0});
+}
+
+TEST_F(GltfGeometry, NormalsAreTakenOrFlat) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const auto n = b.view(bytesOf<std::int8_t>({0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0}), 4);
+  const std::string normal = std::to_string(b.accessor(n, 5120, "VEC3", 3, ",\"normalized\":true"));
+  const SceneDescription with = loadText(b.json(
+      oneMesh("{\"attributes\":{\"POSITION\":" + position + ",\"NORMAL\":" + normal + "}}")));
+  expectNear(Vec3d(with.objects[0].meshes[0].normals[1]), {0, 1, 0});
+  const SceneDescription without =
+      loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position + "}}")));
+  EXPECT_TRUE(without.objects[0].meshes[0].normals.empty());
+}
+
+TEST_F(GltfGeometry, CamerasAndPointLights) {
+  const SceneDescription scene = loadText(triangleText(
+      "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5235987755982988,"
+      "\"znear\":0.1,\"aspectRatio\":2}},{\"type\":\"orthographic\",\"orthographic\":"
+      "{\"xmag\":1,\"ymag\":1,\"zfar\":9,\"znear\":1}}],"
+      "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"name\":\"lamp\","
+      "\"intensity\":1366,\"color\":[1,0.5,0]},{\"type\":\"directional\",\"name\":\"sun\"}]}},"
+      "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"name\":\"eye\",\"translation\":[0,0,3],\"rotation\":"
+      "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},"
+      "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
+      "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}}]"));
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  const Camera& camera = scene.cameras[0];
+  EXPECT_EQ(camera.name, "eye");
+  EXPECT_NEAR(camera.fov, 30, 1e-4);
+  // Looking along -z, turned a quarter about +y: along -x.
+  expectNear(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
+  expectNear(Vec3d(camera.eye), {0, 0, 3});
+  EXPECT_EQ(scene.width, 2 * scene.height);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].name, "lamp");
+  expectNear(Vec3d(scene.lights[0].position), {1, 2, 3});
+  expectNear(Vec3d(scene.lights[0].intensity), {2, 1, 0});  // 1366 cd at 683 lm/W
+  EXPECT_EQ(warned("directional light left out"), 1u);
+  EXPECT_EQ(warned("camera that is not a perspective one left out"), 1u);
+}
+
+TEST_F(GltfGeometry, FilesWithoutALightAreGivenOne) {
+  const SceneDescription scene = loadText(triangleText("\"nodes\":[{\"mesh\":0}]"));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].name, "supplied");
+}
+
+TEST_F(GltfGeometry, ScenesPlaceModelsAndOverrideTheirMaterials) {
+  GltfBuilder b;
+  save("t.glb", b.glb("\"materials\":[{\"name\":\"wall\"}]," +
+                      oneMesh("{\"material\":0,\"attributes\":{\"POSITION\":" +
+                              std::to_string(b.positions(kTriangleXyz)) + "}}")));
+  const SceneDescription scene = loadMembers(
+      "\"objects\": {\"t\": [{\"model\": \"t.glb\", \"materials\": {\"wall\": {\"diffuse\": "
+      "[1,0,0], "
+      "\"roughness\": 0.125}}}]}, \"scene\": [{\"use\": \"t\"}, {\"use\": \"t\", \"transform\": "
+      "{\"translate\": [0,0,4]}}]");
+  ASSERT_EQ(scene.instances.size(), 2u);
+  expectNear(cornerOf(scene, 1, 0, 1), {1, 0, 4});
+  EXPECT_EQ(scene.materials[0].diffuse, Rgb(1, 0, 0));
+  EXPECT_EQ(scene.materials[0].roughness, 0.125f);
+  EXPECT_TRUE(scene.lights.empty());
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,260 @@
+// glTF files that are wrong, on purpose or by accident: an error that names the place, and nothing
+// else.
+#include <cstdlib>
+#include <filesystem>
+
+#include "gltf_files.h"
+#include "scene/scene.h"
+
+namespace whit {
+namespace {
+
+using GltfHostile = GltfTest;
+
+// A complete small file; tests spoil one thing in it.
+std::string wholeText() {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string indices = std::to_string(b.indices({0, 1, 2}));
+  return b.json("\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,1]}}]," +
+                oneMesh("{\"attributes\":{\"POSITION\":" + position + "},\"indices\":" + indices +
+                        ",\"material\":0}"));
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+TEST_F(GltfHostile, ErrorsNameTheirPlace) {
+  struct Case {
+    const char *what, *by, *error;
+  };
+  const Case cases[] = {
+      {"\"version\":\"2.0\"", "\"version\":\"1.0\"",
+       "#/asset/version: expected 2.0, found \"1.0\""},
+      {"\"asset\"", "\"assets\"", "#: expected a member \"asset\""},
+      {"\"count\":3", "\"count\":4",
+       "#/accessors/0: expected at most 3 elements, as many as fit into buffer view 0, found 4"},
+      {"\"count\":3", "\"count\":9007199254740992",
+       "#/accessors/0: expected at most 3 elements, as many as fit into buffer view 0, found "
+       "9007199254740992"},
+      {"\"count\":3", "\"count\":-1",
+       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992"},
+      {"\"count\":3", "\"count\":1e300",
+       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992"},
+      {"\"count\":3", "\"byteOffset\":1,\"count\":3",
+       "#/accessors/0: expected at most 2 elements, as many as fit into buffer view 0, found 3"},
+      {"\"count\":3", "\"byteOffset\":9007199254740992,\"count\":3",
+       "#/accessors/0: expected at most 0 elements, as many as fit into buffer view 0, found 3"},
+      {"{\"bufferView\":0,", "{\"bufferView\":7,",
+       "#/accessors/0/bufferView: expected an index into bufferViews, from 0 to 1"},
+      {"\"componentType\":5126", "\"componentType\":5124",
+       "#/accessors/0/componentType: expected 5120 to 5123, 5125 or 5126"},
+      {"\"VEC3\"", "\"VEC2\"", "#/accessors/0/type: expected VEC3"},
+      {"5123,\"type\":\"SCALAR\"", "5122,\"type\":\"SCALAR\"",
+       "#/accessors/1/componentType: expected 5121, 5123 or 5125"},
+      {"\"byteLength\":36}", "\"byteLength\":360}",
+       "#/bufferViews/0: expected a range within the buffer's 42 bytes, found 360 from byte 0"},
+      {"\"byteOffset\":36", "\"byteOffset\":9007199254740992",
+       "#/bufferViews/1: expected a range within the buffer's 42 bytes, found 6 from byte "
+       "9007199254740992"},
+      {"\"byteLength\":36}", "\"byteLength\":36,\"byteStride\":8}",
+       "#/bufferViews/0/byteStride: expected at least the 12 bytes of an element of "
+       "m.gltf#/accessors/0"},
+      {"\"byteLength\":42", "\"byteLength\":43",
+       "#/buffers/0/byteLength: expected 43 bytes of data, found 42"},
+      {"\"material\":0", "\"material\":1",
+       "#/meshes/0/primitives/0/material: expected an index into materials, from 0 to 0"},
+      {"\"POSITION\":0", "\"POSITION\":\"0\"",
+       "#/meshes/0/primitives/0/attributes/POSITION: expected an index into accessors, from 0 to "
+       "1"},
+      {"\"POSITION\":0", "\"POSITION\":0,\"NORMAL\":1", "#/accessors/1/type: expected VEC3"},
+      {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1,2]}", "#/nodes/0/scale: expected 3 numbers"},
+      {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1]}", "#/nodes/0/matrix: expected 16 numbers"},
+      {"[1,1,1,1]", "[1,1,1]",
+       "#/materials/0/pbrMetallicRoughness/baseColorFactor: expected 4 numbers"},
+      {"{\"mesh\":0}", "{\"mesh\":0},7", "#/nodes/1: expected an object"},
+      {"\"scene\":0", "\"scene\":3", "#/scene: expected an index into scenes, from 0 to 0"},
+      {"\"nodes\":[0]", "\"nodes\":0", "#/scenes/0/nodes: expected a list"},
+      {"\"scene\":0", "\"scene\":0,\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
+       "#/extensionsRequired/0: the file cannot be shown without KHR_draco_mesh_compression, which "
+       "is not supported"},
+      {"data:application/octet-stream;base64,", "http://example.org/",
+       "#/buffers/0/uri: expected the path of a file on this machine"},
+      {"data:application/octet-stream;base64,AAA", "../", nullptr},
+  };
+  const std::string whole = wholeText();
+  EXPECT_EQ(triangleCount(loadText(whole)), 1u);
+  for (const Case& c : cases) {
+    const std::string error = errorOfText(replaced(whole, c.what, c.by));
+    if (c.error) {
+      EXPECT_EQ(error, std::string("3 m.gltf") + c.error);
+    } else {
+      EXPECT_NE(error.find("leaves the scene's folder"), std::string::npos) << error;
+    }
+  }
+}
+
+TEST_F(GltfHostile, NodesThatAreNoTree) {
+  const auto error = [&](const std::string& nodes, const std::string& scene) {
+    return errorOfText("{\"asset\":{\"version\":\"2.0\"},\"nodes\":" + nodes +
+                       ",\"scenes\":[{\"nodes\":" + scene + "}]}");
+  };
+  EXPECT_EQ(error("[{\"children\":[0]}]", "[0]"),
+            "3 m.gltf#/nodes/0: expected a tree: every node has a parent");
+  EXPECT_EQ(error("[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "[0]"),
+            "3 m.gltf#/nodes/2/children: expected a tree: node 1 has two parents");
+  EXPECT_EQ(error("[{},{\"children\":[2]},{\"children\":[1]}]", "[1]"),
+            "3 m.gltf#/nodes/1: expected a tree: this node is reached twice");
+  EXPECT_EQ(error("[{}]", "[0,0]"),
+            "3 m.gltf#/nodes/0: expected a tree: this node is reached twice");
+  std::string chain;
+  for (int i = 1; i <= 400; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
+  EXPECT_EQ(error("[" + chain + "{}]", "[0]"), "3 m.gltf#/nodes/257: nested deeper than 256 nodes");
+}
+
+TEST_F(GltfHostile, SparseIndicesOutOfRange) {
+  GltfBuilder b;
+  const int which = b.view(bytesOf<std::uint16_t>({3}));
+  const int values = b.view(bytesOf<float>({0, 7, 0}));
+  const auto file = [&](int count, std::size_t elements) {
+    GltfBuilder copy = b;
+    const int position = copy.accessor(
+        -1, 5126, "VEC3", elements,
+        ",\"sparse\":{\"count\":" + std::to_string(count) +
+            ",\"indices\":{\"bufferView\":" + std::to_string(which) +
+            ",\"componentType\":5123},\"values\":{\"bufferView\":" + std::to_string(values) + "}}");
+    return copy.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}"));
+  };
+  EXPECT_EQ(errorOfText(file(1, 3)),
+            "3 m.gltf#/accessors/0/sparse/indices: expected indices below the accessor's count of "
+            "3, found 3");
+  EXPECT_EQ(
+      errorOfText(file(2, 3)),
+      "3 m.gltf#/accessors/0/sparse/indices: expected at most 1 elements, as many as fit into "
+      "buffer view 0, found 2");
+  EXPECT_EQ(errorOfText(file(1, 3000000000)),
+            "3 m.gltf#/accessors/0: expected a buffer view for 3000000000 elements");
+}
+
+TEST_F(GltfHostile, BrokenContainers) {
+  GltfBuilder b;
+  const std::string whole = b.glb(
+      oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}"));
+  const auto error = [&](std::string file) { return errorOf([&] { load(save("m.glb", file)); }); };
+  EXPECT_EQ(error(whole), "no error");
+  EXPECT_EQ(error(whole.substr(0, 8)), "3 m.glb: the file ends within its header");
+  EXPECT_EQ(error(replaced(whole, "JSON", "TEXT")), "3 m.glb: expected JSON in the first chunk");
+  std::string old = whole;
+  old[4] = 1;
+  EXPECT_EQ(error(old), "3 m.glb: expected version 2 of the format, found 1");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_EQ(error(whole.substr(0, size)).substr(0, 2), "3 ") << size;
+  }
+}
+
+TEST_F(GltfHostile, DeepAndWideText) {
+  const std::string deep(100000, '[');
+  EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep).substr(0, 2), "3 ");
+  options_.maxMemoryBytes = 64 << 20;
+  std::string wide;
+  for (int i = 0; i < 400000; ++i) wide += "{},";
+  EXPECT_EQ(
+      errorOfText("{\"asset\":{\"version\":\"2.0\"},\"nodes\":[" + wide + "{}]}").substr(0, 2),
+      "5 ");
+}
+
+TEST_F(GltfHostile, UnknownExtensionsAreReportedOnce) {
+  loadText(
+      "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\","
+      "\"KHR_materials_ior\"]}");
+  EXPECT_EQ(warned("extension ignored: KHR_materials_sheen"), 1u);
+  EXPECT_EQ(warnings_.entries().size(), 1u);
+}
+
+// Every number of a file that has some of everything, replaced by each of these.
+TEST_F(GltfHostile, ReplacedNumbers) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string uv = std::to_string(b.uvs({0, 0, 1, 0, 0, 1}));
+  const std::string indices = std::to_string(b.indices({0, 1, 2}));
+  save("t.tga", tga(1, 1, {{9, 9, 9, 9}}));
+  const std::string whole = b.json(
+      "\"images\":[{\"uri\":\"t.tga\"}],\"samplers\":[{\"wrapS\":33071}],\"textures\":"
+      "[{\"source\":0,\"sampler\":0}],\"materials\":[{\"alphaMode\":\"BLEND\",\"alphaCutoff\":0.5,"
+      "\"emissiveFactor\":[1,1,1],\"normalTexture\":{\"index\":0,\"scale\":2},"
+      "\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,\"roughnessFactor\":0.1,"
+      "\"baseColorFactor\":[1,1,1,0.5],\"baseColorTexture\":{\"index\":0,\"texCoord\":0,"
+      "\"extensions\":{\"KHR_texture_transform\":{\"offset\":[1,2],\"rotation\":3,\"scale\":[1,1]}}"
+      "}},"
+      "\"extensions\":{\"KHR_materials_ior\":{\"ior\":1.4},\"KHR_materials_transmission\":"
+      "{\"transmissionFactor\":0.5,\"transmissionTexture\":{\"index\":0}},\"KHR_materials_volume\":"
+      "{\"attenuationDistance\":1,\"attenuationColor\":[1,0.5,0]},\"KHR_materials_specular\":"
+      "{\"specularFactor\":0.5,\"specularColorFactor\":[1,1,1]},\"KHR_materials_clearcoat\":"
+      "{\"clearcoatFactor\":1},\"KHR_materials_emissive_strength\":{\"emissiveStrength\":2}}}],"
+      "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1,"
+      "\"aspectRatio\":2}}],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":"
+      "\"point\","
+      "\"intensity\":2,\"color\":[1,1,1]}]}},\"meshes\":[{\"primitives\":[{\"attributes\":{"
+      "\"POSITION\":" +
+      position + ",\"TEXCOORD_0\":" + uv + "},\"indices\":" + indices +
+      ",\"material\":0,\"mode\":4}]}],\"nodes\":[{\"mesh\":0,\"children\":[1],\"scale\":[1,2,3],"
+      "\"rotation\":[0,0,0,1],\"translation\":[1,2,3]},{\"camera\":0,\"extensions\":"
+      "{\"KHR_lights_punctual\":{\"light\":0}}}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0");
+  options_.threads = 1;
+  options_.maxMemoryBytes = 64 << 20;
+  std::size_t loaded = 0;
+  const auto tryText = [&](const std::string& text) {
+    try {
+      Warnings warnings;
+      Scene::finalize(loadScene(save("m.gltf", text), options_, warnings), warnings);
+      ++loaded;
+    } catch (const Error& error) {
+      EXPECT_NE(error.status(), ExitStatus::usage);
+    }
+  };
+  tryText(whole);
+  EXPECT_EQ(loaded, 1u);
+  for (std::size_t at = 0, end = 0; end < whole.size(); at = whole.find_first_of(":[,", end)) {
+    if (at == std::string::npos) break;
+    end = whole.find_first_not_of("0123456789.", at + 1);
+    if (end == at + 1) continue;
+    for (const char* number :
+         {"-1", "0", "1e-320", "0.5", "2147483648", "4294967295", "9007199254740992",
+          "18446744073709551615", "1e300", "-1e300", "null", "[]", "{}", "\"\""}) {
+      tryText(whole.substr(0, at + 1) + number + whole.substr(end));
+    }
+  }
+  EXPECT_GT(loaded, 100u);
+}
+
+// Every byte with one bit flipped: a picture or an error of ours, and no more than that.
+TEST_F(GltfHostile, FlippedBits) {
+  GltfBuilder b;
+  const std::string position = std::to_string(b.positions(kTriangleXyz));
+  const std::string indices = std::to_string(b.indices({0, 1, 2}));
+  const std::string whole = b.glb("\"materials\":[{\"alphaMode\":\"BLEND\"}]," +
+                                  oneMesh("{\"attributes\":{\"POSITION\":" + position +
+                                          "},\"indices\":" + indices + ",\"material\":0}"));
+  options_.threads = 1;
+  options_.maxMemoryBytes = 64 << 20;
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string file = whole;
+    file[i] = static_cast<char>(file[i] ^ (1 << (i % 8)));
+    const std::string path = save("m.glb", file);
+    try {
+      Warnings warnings;
+      Scene::finalize(loadScene(path, options_, warnings), warnings);
+    } catch (const Error& error) {
+      EXPECT_NE(error.status(), ExitStatus::usage);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, whole.size() / 2);  // most of the file is structure
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,336 @@
+// Materials of glTF files: pictures of a square, their colours worked out by hand.
+#include <cmath>
+
+#include "core/srgb.h"
+#include "gltf_files.h"
+#include "io/image_file.h"
+#include "render/renderer.h"
+
+namespace whit {
+namespace {
+
+// Some roundings of float, and of texels to 10 bits of their square roots.
+constexpr double kClose = 2e-3;
+constexpr double kPi = 3.14159265358979323846;
+
+// [-1, 1]^2 at `z`, facing +z, its texture upright and not mirrored as seen from there.
+struct Square {
+  double z = 0;
+  std::string material;  // JSON
+  double size = 1;
+};
+
+// Seen from (0, 0, 3) by a camera that holds exactly [-1, 1]^2 of the plane z = 0.
+class GltfMaterials : public GltfTest {
+ protected:
+  std::string sceneText(const std::vector<Square>& squares) {
+    GltfBuilder b;
+    const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));
+    const std::string indices = std::to_string(b.indices({0, 1, 2, 0, 2, 3}));
+    std::string meshes, nodes, roots, materials;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const auto z = static_cast<float>(squares[i].z), s = static_cast<float>(squares[i].size);
+      const std::string position =
+          std::to_string(b.positions({-s, -s, z, s, -s, z, s, s, z, -s, s, z}));
+      const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
+      materials += comma + squares[i].material;
+      meshes += comma + "{\"primitives\":[{\"material\":" + number + ",\"indices\":" + indices +
+                ",\"attributes\":{\"POSITION\":" + position + ",\"TEXCOORD_0\":" + uv + "}}]}";
+      nodes += "{\"mesh\":" + number + "},";
+      roots += number + ",";
+    }
+    const std::string n = std::to_string(squares.size());
+    const double cd = 683 * candela_;
+    return b.json("\"materials\":[" + materials + "],\"meshes\":[" + meshes + "],\"nodes\":[" +
+                  nodes + "{\"camera\":0,\"translation\":[0,0,3]},{\"translation\":[" + light_ +
+                  "],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"scenes\":"
+                  "[{\"nodes\":[" +
+                  roots + n + "," + std::to_string(squares.size() + 1) +
+                  "]}],"
+                  "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"znear\":1,\"yfov\":" +
+                  std::to_string(2 * std::atan(1.0 / 3)) +
+                  "}}],\"extensions\":"
+                  "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":" +
+                  std::to_string(cd) + "}]}}" + images_);
+  }
+
+  // n x n pixels, row by row from the top.
+  std::vector<Rgb> picture(const std::vector<Square>& squares, int n) {
+    const Scene scene = Scene::finalize(loadText(sceneText(squares)), warnings_);
+    RenderOptions options;
+    options.size = ImageSize{n, n};
+    options.threads = 1;
+    Renderer renderer(scene, options);
+    Film film = makeFilm(scene, options);
+    renderer.render(scene.cameras[0], film);
+    return film.image.pixels;
+  }
+  Rgb pixel(const std::string& material) { return picture({{0, material, 1}}, 1)[0]; }
+
+  // Textures 0, 1, ...: images beside the scene, by their own samplers.
+  void useImages(const std::vector<std::string>& files, const std::string& sampler = "") {
+    std::string images, textures;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      const std::string comma = i > 0 ? "," : "";
+      images += comma + "{\"uri\":\"" + files[i] + "\"}";
+      textures += comma + "{\"source\":" + std::to_string(i) +
+                  (sampler.empty() ? "" : ",\"sampler\":0") + "}";
+    }
+    images_ = ",\"images\":[" + images + "],\"textures\":[" + textures + "]" +
+              (sampler.empty() ? "" : ",\"samplers\":[{" + sampler + "}]");
+  }
+
+  // Of what is no metal, without a highlight.
+  static std::string matte(const std::string& pbr, const std::string& rest = "") {
+    return "{\"pbrMetallicRoughness\":{\"metallicFactor\":0" + (pbr.empty() ? "" : "," + pbr) +
+           "},\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}" +
+           (rest.empty() ? "" : "," + rest) + "}";
+  }
+  static std::string glowing(const std::string& colour) {
+    return matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":" + colour);
+  }
+
+  // Lit from the eye, a white Lambertian square is seen as this at (x, y) of its plane: as 1 in the
+  // middle.
+  static double lit(double x, double y) {
+    const double d = std::sqrt(x * x + y * y + 9);
+    return 27 / (d * d * d);
+  }
+  static void expectColour(const Rgb& got, const Rgb& wanted, double tolerance = kClose) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
+  }
+
+  double candela_ = 9 * kPi;  // at 683 lm/W
+  std::string light_ = "0,0,3", images_;
+};
+
+TEST_F(GltfMaterials, LambertianBaseColour) {
+  expectColour(pixel(matte("\"baseColorFactor\":[0.5,0.25,1,1]")), {0.5f, 0.25f, 1});
+}
+
+// Straight on and with alpha 1, GGX's lobe is f0 / 4 pi: an eighth and a quarter of the base
+// colour.
+TEST_F(GltfMaterials, RoughMetalReflectsItsBaseColour) {
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.4,0.2,1]}}"),
+               {0.2f, 0.1f, 0.05f});
+}
+
+// 1 for the albedo, 0.04 / 4 for the lobe.
+TEST_F(GltfMaterials, RoughDielectricHasBoth) {
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}"), Rgb(1.01f));
+}
+
+TEST_F(GltfMaterials, HalfMetalIsTheMean) {
+  // 0.5 * 0.8 + (0.5 * 0.04 + 0.5 * 0.8) / 4
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
+                     "\"baseColorFactor\":[0.8,0.8,0.8,1]}}"),
+               Rgb(0.505f));
+}
+
+TEST_F(GltfMaterials, SpecularExtensionSetsTheReflectance) {
+  // Roughness 0.5 has alpha 0.25: straight on the lobe is f0 / (4 alpha^2) = 4 f0 here.
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5,"
+                     "\"baseColorFactor\":[0,0,0,1]},\"extensions\":{\"KHR_materials_specular\":"
+                     "{\"specularFactor\":0.5,\"specularColorFactor\":[1,0.5,0]},"
+                     "\"KHR_materials_ior\":{\"ior\":1.5}}}"),
+               {0.08f, 0.04f, 0});
+}
+
+TEST_F(GltfMaterials, TexturesAreUprightAndDecodedFromSrgb) {
+  save("t.tga", tga(2, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {188, 188, 188}}));
+  useImages({"t.tga"});
+  const auto p = picture(
+      {{0, matte("\"baseColorFactor\":[1,0.5,1,1],\"baseColorTexture\":{\"index\":0}"), 1}}, 2);
+  const auto at = static_cast<float>(lit(0.5, 0.5));
+  const auto grey = static_cast<float>(srgbToLinear(188 / 255.0));
+  expectColour(p[0], Rgb{1, 0, 0} * at);
+  expectColour(p[1], Rgb{0, 0.5f, 0} * at);
+  expectColour(p[2], Rgb{0, 0, 1} * at);
+  expectColour(p[3], Rgb{grey, grey / 2, grey} * at);
+}
+
+TEST_F(GltfMaterials, ImagesInDataUris) {
+  DisplayImage image{1, 1, {0, 255, 0, 255}};
+  images_ = ",\"images\":[{\"uri\":\"data:image/png;base64," + base64(encodePng(image)) +
+            "\"}],\"textures\":[{\"source\":0}]";
+  expectColour(pixel(matte("\"baseColorTexture\":{\"index\":0}")), {0, 1, 0});
+}
+
+TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
+  save("t.tga", tga(2, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}}));
+  const auto show = [&](const std::string& transform) {
+    return picture({{0,
+                     matte("\"baseColorTexture\":{\"index\":0,\"extensions\":"
+                           "{\"KHR_texture_transform\":{" +
+                           transform + "}}}"),
+                     1}},
+                   2);
+  };
+  const auto at = static_cast<float>(lit(0.5, 0.5));
+  const Rgb red = Rgb{1, 0, 0} * at, green = Rgb{0, 1, 0} * at, blue = Rgb{0, 0, 1} * at, white(at);
+  const auto expectPicture = [&](const std::vector<Rgb>& got, const std::vector<Rgb>& wanted) {
+    for (std::size_t i = 0; i < 4; ++i) expectColour(got[i], wanted[i]);
+  };
+  useImages({"t.tga"});
+  expectPicture(show("\"offset\":[0.5,0]"), {green, red, white, blue});
+  expectPicture(show("\"offset\":[0,0.5]"), {blue, white, red, green});
+  // u' = v, v' = 1 - u: the image turned clockwise by a quarter.
+  expectPicture(show("\"offset\":[0,1],\"rotation\":1.5707963267948966"),
+                {blue, red, white, green});
+  expectPicture(show("\"offset\":[0,1],\"scale\":[1,-1]"), {blue, white, red, green});
+  useImages({"t.tga"}, "\"wrapS\":33071,\"wrapT\":10497");
+  expectPicture(show("\"offset\":[1,0]"), {green, green, white, white});
+  useImages({"t.tga"}, "\"wrapS\":33648");
+  expectPicture(show("\"offset\":[1,0]"), {green, red, white, blue});
+}
+
+// The texture's blue is the metalness; its green, the roughness, is 1.
+TEST_F(GltfMaterials, MetalnessTexelByTexel) {
+  save("mr.tga", tga(2, 1, {{0, 255, 255}, {0, 255, 0}}));
+  useImages({"mr.tga"});
+  const auto p = picture({{0,
+                           "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.4,0.2,1],"
+                           "\"metallicRoughnessTexture\":{\"index\":0}}}",
+                           1}},
+                         2);
+  // Off the middle the lobe of alpha 1 is f0 / (4 pi cos), which the cosine cancels.
+  const double d2 = 0.25 + 0.25 + 9, lobe = 9 / (4 * d2);
+  const auto metal = static_cast<float>(lobe), rest = static_cast<float>(lit(0.5, 0.5));
+  expectColour(p[0], Rgb{0.8f, 0.4f, 0.2f} * metal);
+  expectColour(p[1], Rgb{0.8f, 0.4f, 0.2f} * rest + Rgb(0.04f * metal));
+}
+
+TEST_F(GltfMaterials, RoughnessIsTheMeanOfItsMap) {
+  save("mr.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));  // 0.2 and 0.6: 0.4
+  useImages({"mr.tga"});
+  const SceneDescription scene = loadText(sceneText(
+      {{0, "{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}", 1}}));
+  EXPECT_NEAR(scene.materials[0].roughness, 0.4f, 1e-6f);
+}
+
+TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
+  save("t.tga", tga(2, 1, {{255, 255, 255, 100}, {255, 255, 255, 255}}));
+  useImages({"t.tga"});
+  const auto show = [&](const std::string& alpha, const std::string& rest) {
+    return picture(
+        {{0,
+          matte("\"baseColorFactor\":[1,1,1," + alpha + "],\"baseColorTexture\":{\"index\":0}",
+                "\"alphaMode\":\"MASK\"" + rest),
+          1}},
+        2);
+  };
+  const Rgb seen(static_cast<float>(lit(0.5, 0.5)));
+  expectColour(show("1", "")[0], Rgb(0.0f));  // 100 / 255 is below 0.5
+  expectColour(show("1", "")[1], seen);
+  expectColour(show("1", ",\"alphaCutoff\":0.3")[0], seen);
+  expectColour(show("0.75", ",\"alphaCutoff\":0.3")[0], Rgb(0.0f));  // 0.294 is below 0.3
+}
+
+TEST_F(GltfMaterials, MasksThatCutEverything) {
+  const auto p =
+      picture({{0, matte("\"baseColorFactor\":[1,1,1,0.25]", "\"alphaMode\":\"MASK\""), 1},
+               {-1, glowing("[0.5,1,0]"), 4}},
+              1);
+  expectColour(p[0], {0.5f, 1, 0});
+}
+
+TEST_F(GltfMaterials, BlendingLetsTheRestThrough) {
+  const std::string behind = glowing("[0.5,1,0]");
+  const auto p =
+      picture({{0, matte("\"baseColorFactor\":[1,1,1,0.25]", "\"alphaMode\":\"BLEND\""), 1},
+               {-1, behind, 4}},
+              1);
+  expectColour(p[0], Rgb(0.25f) + Rgb{0.5f, 1, 0} * 0.75f);
+}
+
+TEST_F(GltfMaterials, EvenlyTranslucentTexturesBlendByTheirMean) {
+  save("t.tga", tga(2, 1, {{255, 255, 255, 51}, {255, 255, 255, 153}}));  // 0.2, 0.6
+  useImages({"t.tga"});
+  const auto p =
+      picture({{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"BLEND\""), 1},
+               {-1, glowing("[1,0,0]"), 4}},
+              1);
+  expectColour(p[0], Rgb{0.4f + 0.6f, 0.4f, 0.4f});
+}
+
+TEST_F(GltfMaterials, TransmissionIsADielectric) {
+  // Straight through one surface: 1 - ((1.5 - 1) / (1.5 + 1))^2 = 0.96 of the tinted light behind.
+  candela_ = 0;
+  const std::string glass =
+      "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0,\"baseColorFactor\":"
+      "[1,0.5,0.25,1]},\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}";
+  const auto through = [&](const std::string& rest) {
+    return picture({{0, glass + rest + "}}", 1}, {-2, glowing("[1,1,1]"), 9}}, 1)[0];
+  };
+  expectColour(through(""), Rgb{0.96f, 0.48f, 0.24f});
+  // ior 2: a ninth is reflected.
+  expectColour(through(",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
+  // Over a distance of 2, the square of what a distance of 1 leaves.
+  expectColour(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
+                       "\"attenuationColor\":[0.5,1,1]}"),
+               Rgb{0.24f, 0.48f, 0.24f});
+}
+
+TEST_F(GltfMaterials, SmoothSurfacesMirror) {
+  candela_ = 0;
+  const std::string behindTheEye = glowing("[1,1,1]");
+  const auto mirrored = [&](const std::string& material) {
+    return picture({{0, material, 1}, {6, behindTheEye, 9}}, 1)[0];
+  };
+  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"baseColorFactor\":"
+                        "[0.9,0.6,0.3,1]}}"),
+               {0.9f, 0.6f, 0.3f});
+  expectColour(
+      mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"metallicFactor\":0}}"),
+      Rgb(0.04f));
+  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
+  expectColour(mirrored(matte("\"roughnessFactor\":1").insert(1, "\"name\":\"x\",")), Rgb(0.0f));
+  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
+                        "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1}}}"),
+               Rgb(0.04f));
+}
+
+TEST_F(GltfMaterials, EmissionAndUnlit) {
+  candela_ = 0;
+  expectColour(pixel("{\"emissiveFactor\":[0.5,0.25,0],\"extensions\":"
+                     "{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":8}}}"),
+               {4, 2, 0});
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,1]},"
+                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+               {0.5f, 0.25f, 1});
+}
+
+// Codes of (0.6, 0, 0.8): tilted to the right, or upwards with red and green exchanged.
+TEST_F(GltfMaterials, NormalMaps) {
+  save("right.tga", tga(1, 1, {{204, 128, 230}}));
+  save("up.tga", tga(1, 1, {{128, 204, 230}}));
+  const double distance2 = 18, cosine = (0.6 + 0.8) / std::sqrt(2.0), arriving = 9 / distance2;
+  const auto show = [&](const char* light, const std::string& image, const std::string& scale) {
+    light_ = light;
+    useImages({image});
+    return pixel(matte("", "\"normalTexture\":{\"index\":0" + scale + "}"));
+  };
+  constexpr double kCode = 0.01;  // of a normal in 8 bits
+  const Rgb facing(static_cast<float>(arriving * cosine));
+  expectColour(show("3,0,3", "right.tga", ""), facing, kCode);
+  expectColour(show("0,3,3", "up.tga", ""), facing, kCode);
+  const double away = (0.8 - 0.6) / std::sqrt(2.0);
+  expectColour(show("-3,0,3", "right.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
+  expectColour(show("0,-3,3", "up.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
+  const double half = (0.3 + 0.8) / std::sqrt(2 * (0.09 + 0.64));
+  expectColour(show("3,0,3", "right.tga", ",\"scale\":0.5"),
+               Rgb(static_cast<float>(arriving * half)), kCode);
+}
+
+TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
+  save("t.tga", tga(1, 1, {{255, 255, 255}}));
+  useImages({"t.tga", "missing.png"}, "\"magFilter\":9728");
+  loadText(sceneText({{0, "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0}}", 1},
+                      {1, matte("\"baseColorTexture\":{\"index\":1}"), 1}}));
+  EXPECT_EQ(warned("emission by a texture left out"), 1u);
+  EXPECT_EQ(warned("texture left out"), 1u);
+  EXPECT_EQ(warned("texture to be looked up at its nearest texel, interpolated instead"), 1u);
+}
+
+}  // namespace
+}  // namespace whit

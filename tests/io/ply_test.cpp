@@ -1,0 +1,165 @@
+// PLY files: the same model in every form that the format has, and files that are wrong.
+#include <algorithm>
+#include <cstring>
+
+#include "scene/scene.h"
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+template <typename T>
+std::string bytes(T value, bool little) {
+  std::string text(sizeof value, '\0');
+  std::memcpy(text.data(), &value, sizeof value);
+  if (!little) std::reverse(text.begin(), text.end());
+  return text;
+}
+
+class Ply : public SceneFileTest {
+ protected:
+  SceneDescription loadPly(const std::string& text) { return load(save("m.ply", text)); }
+  std::string errorOfPly(const std::string& text) {
+    return errorOf([&] { loadPly(text); });
+  }
+  static std::string header(const std::string& format, const std::string& rest) {
+    return "ply\nformat " + format + " 1.0\ncomment made by hand\n" + rest + "end_header\n";
+  }
+  // A unit square with an element in between that nobody knows.
+  static std::string squareHeader(const std::string& format) {
+    return header(format,
+                  "element vertex 4\nproperty float x\nproperty double y\nproperty short z\n"
+                  "property uchar red\nelement oddity 1\nproperty list uchar int things\n"
+                  "property float rest\nelement face 1\nproperty uchar flags\n"
+                  "property list uchar int vertex_indices\n");
+  }
+  static std::string binarySquare(bool little) {
+    std::string text = squareHeader(little ? "binary_little_endian" : "binary_big_endian");
+    for (int i = 0; i < 4; ++i) {
+      text += bytes(i == 1 || i == 2 ? 1.0f : 0.0f, little) + bytes(i >= 2 ? 1.0 : 0.0, little) +
+              bytes<std::int16_t>(-300, little) + bytes<std::uint8_t>(255, little);
+    }
+    text +=
+        bytes<std::uint8_t>(2, little) + bytes(7, little) + bytes(8, little) + bytes(1.5f, little);
+    text += bytes<std::uint8_t>(9, little) + bytes<std::uint8_t>(4, little);
+    for (int i = 0; i < 4; ++i) text += bytes(i, little);
+    return text;
+  }
+};
+
+constexpr char kTriangle[] =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar uint vertex_index\n";
+
+TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
+  const std::string text = squareHeader("ascii") +
+                           "0 0 -300 255\n1 0 -300 255\n1 1 -300 255\n0 1 -300 255\n"
+                           "2 7 8 1.5\n9 4 0 1 2 3\n";
+  for (const std::string& file : {text, binarySquare(true), binarySquare(false)}) {
+    const SceneDescription scene = loadPly(file);
+    ASSERT_EQ(triangleCount(scene), 2u);
+    EXPECT_EQ(scene.objects[0].meshes[0].positions,
+              (std::vector<Vec3f>{{0, 0, -300}, {1, 0, -300}, {1, 1, -300}, {0, 1, -300}}));
+  }
+  EXPECT_EQ(warned("vertex colours left out"), 3u);
+  EXPECT_EQ(warned("elements of a kind that is not shown"), 3u);
+}
+
+TEST_F(Ply, LineEndsOfAnySystem) {
+  std::string text = header("ascii", kTriangle) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) {
+    text.replace(at, 1, "\r\n");
+  }
+  EXPECT_EQ(triangleCount(loadPly(text)), 1u);
+}
+
+TEST_F(Ply, NormalsAndTextureCoordinates) {
+  const SceneDescription scene =
+      loadPly(header("ascii",
+                     "element vertex 3\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                     "property float x\nproperty float y\nproperty float z\nproperty float s\n"
+                     "property float t\nelement face 1\nproperty list uchar int vertex_indices\n") +
+              "0 0 1 0 0 0 0.5 0.25\n0 0 1 1 0 0 1 0\n0 0 1 +0 1e0 0 0 1\n3 0 1 2\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
+  EXPECT_EQ(mesh.uvs[0], (Vec2f{0.5f, 0.25f}));
+  EXPECT_EQ(mesh.positions[2], Vec3f(0, 1, 0));
+}
+
+TEST_F(Ply, PolygonsThatAreNotConvex) {
+  // An arrowhead: the fan from its first corner would cover the notch.
+  const SceneDescription scene =
+      loadPly(header("ascii",
+                     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 1\nproperty list uchar int vertex_indices\n") +
+              "-2 -2 0\n0 -1 0\n2 -2 0\n0 2 0\n4 0 1 2 3\n");
+  EXPECT_EQ(scene.objects[0].meshes[0].triangles.size(), 2u);
+  for (const Triangle& t : scene.objects[0].meshes[0].triangles) {
+    EXPECT_TRUE(std::count(t.begin(), t.end(), 1u) && std::count(t.begin(), t.end(), 3u));
+  }
+}
+
+TEST_F(Ply, BadFacesAreDroppedAndCounted) {
+  const SceneDescription scene =
+      loadPly(header("ascii",
+                     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 4\nproperty list uchar int vertex_indices\n") +
+              "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n2 0 1\n3 0 1 -1\n3 0 1 2\n");
+  EXPECT_EQ(triangleCount(scene), 1u);
+  EXPECT_EQ(warned("face with a vertex index out of range dropped"), 2u);
+  EXPECT_EQ(warned("face with fewer than three corners dropped"), 1u);
+}
+
+TEST_F(Ply, ScenesUseThem) {
+  save("t.ply", header("ascii", kTriangle) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2");
+  const SceneDescription scene = loadMembers(
+      "\"scene\": [{\"model\": \"t.ply\", \"materials\": {\"*\": {\"diffuse\": [1,0,0]}}}]");
+  EXPECT_EQ(triangleCount(scene), 1u);
+  EXPECT_EQ(scene.materials[0].diffuse, Rgb(1, 0, 0));
+}
+
+TEST_F(Ply, ErrorsNameTheirPlace) {
+  const std::string data = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(errorOfPly("obj\n"), "3 m.ply:1: expected a line \"ply\"");
+  EXPECT_EQ(errorOfPly("ply\nend_header\n"),
+            "3 m.ply:2: expected a line \"format\" before the header's end");
+  EXPECT_EQ(errorOfPly("ply\nformat ascii 2.0\n"),
+            "3 m.ply:2: expected ascii, binary_little_endian or binary_big_endian, and 1.0");
+  EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0\nproperty float x\n"),
+            "3 m.ply:3: expected an element before its properties");
+  EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0\nelement vertex -3\n"),
+            "3 m.ply:3: expected the name of an element and how many there are");
+  EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0\nelement v 1\nproperty half x\n"),
+            "3 m.ply:4: \"half\" is no type of a property");
+  EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0"), "3 m.ply:2: expected a line of a PLY header");
+  const std::string whole = header("ascii", kTriangle);
+  EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
+            "3 m.ply:12: expected a number");
+  EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 0 0\n0 1 0\n255 0 1 2\n"),
+            "3 m.ply:14: expected a list that fits into the rest of the file");
+  std::string many = whole;
+  many.replace(many.find("vertex 3"), 8, "vertex 18446744073709551615");
+  EXPECT_EQ(
+      errorOfPly(many + data),
+      "3 m.ply: expected at most 4 elements \"vertex\", as many as fit into the 26 bytes after "
+      "the header, found 18446744073709551615");
+}
+
+TEST_F(Ply, CutShortAndFlipped) {
+  options_.threads = 1;
+  const std::string whole = binarySquare(true);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_EQ(errorOfPly(whole.substr(0, size)).substr(0, 2), "3 ") << size;
+  }
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string file = whole;
+    file[i] = static_cast<char>(file[i] ^ (1 << (i % 8)));
+    const std::string error = errorOfPly(file);
+    EXPECT_TRUE(error == "no error" || error.starts_with("3 ")) << error;
+  }
+}
+
+}  // namespace
+}  // namespace whit
