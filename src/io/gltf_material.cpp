@@ -40,7 +40,7 @@ class Converter {
     factors();
     maps();
     extensions();
-    if (!m_.emission.operator==(Rgb()) && source_.emissiveTexture.index >= 0) {
+    if (!(m_.emission == Rgb()) && source_.emissiveTexture.index >= 0) {
       warn("emission by a texture left out");
       m_.emission = Rgb();
     }
