@@ -54,8 +54,6 @@ constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <typename T>
 constexpr bool kPlain<Vec3<T>> = sizeof(Vec3<T>) == 3 * sizeof(T);
 template <>
-constexpr bool kPlain<Vec2f> = sizeof(Vec2f) == 2 * sizeof(float);
-template <>
 constexpr bool kPlain<Affine> = sizeof(Affine) == 12 * sizeof(double);
 template <>
 constexpr bool kPlain<TriangleRecord> = sizeof(TriangleRecord) == 16 * sizeof(float);

@@ -11,9 +11,9 @@ namespace whit::accuracy {
 namespace {
 
 std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
-template <typename... Values>
-std::string cell(const char* format, Values... values) {
-  return cell(formatted(format, values...));
+template <typename Value, typename... Values>
+std::string cell(const char* format, Value value, Values... values) {
+  return cell(formatted(format, value, values...));
 }
 
 // A number with a bar behind it, as long as `share` of the cell.

@@ -98,7 +98,7 @@ Finding criticalFlag(const Setup& setup) {
     // Within the rounding of g2 itself either answer is right: F is 1 to four digits.
     if (std::fabs(g2) < 2 * static_cast<Real>(kUnit)) continue;
     finding.count((got.refracted[i] == 0) != (g2 <= 0),
-                  [&] { return describe(from, to, in.cosines[i]); });
+                  [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
   }
   return finding;
 }
@@ -113,7 +113,7 @@ Finding criticalReflectance(const Setup& setup) {
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real exact = fresnel(from, to, static_cast<Real>(in.cosines[i]));
     finding.note(std::fabs(got.reflected[i] - static_cast<double>(exact)),
-                 [&] { return describe(from, to, in.cosines[i]); });
+                 [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
   }
   return finding;
 }
@@ -157,7 +157,7 @@ Finding reflectanceError(const std::vector<std::pair<float, float>>& pairs, doub
       if (eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L) continue;
       if (exact < 1e-30L) continue;
       finding.note(static_cast<double>(std::fabs(got.reflected[i] - exact) / exact),
-                   [&] { return describe(from, to, in.cosines[i]); });
+                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
     }
   }
   return finding;
@@ -203,7 +203,7 @@ Finding snell(const Setup& setup) {
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       const double s1 = static_cast<double>(in.rays[i].direction.x), s2 = got.direction[i].x;
       finding.note(std::fabs(s2 - s1 * static_cast<double>(from) / static_cast<double>(to)),
-                   [&] { return describe(from, to, in.cosines[i]); });
+                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
     }
   }
   return finding;
@@ -270,7 +270,7 @@ Finding energyOfOneEvent(const Setup& setup) {
     const Interfaces got = throughKernels(from, to, in, setup);
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       finding.note(std::fabs(got.reflected[i] + got.refracted[i] - 1),
-                   [&] { return describe(from, to, in.cosines[i]); });
+                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
     }
   }
   return finding;
