@@ -69,8 +69,7 @@ mutations() {
     'f = hn::IfThenElse(total, one, hn::Min(f, one));' 'f = hn::Min(f, one); (void)total;'
   plant same-index-reflects simd/fresnel-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
-    'hn::And(hn::Gt(Dot(ng, toLight), zero), hn::Gt(Dot(ns, toLight), zero))' \
-    'hn::Gt(Dot(ns, toLight), zero)'
+    'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
   plant shadow-ray-too-long simd/find_radiance_and_shadow_rays.cpp \
     'shortest = hn::Set(d, 1.0f - 0x1p-22f)' 'shortest = hn::Set(d, 1.0f + 0x1p-10f)'
   plant light-without-radius simd/find_radiance_and_shadow_rays.cpp \
@@ -105,7 +104,7 @@ mutations() {
     'std::size_t lane = live - (live > 1 ? 1 : 0); lane < kWidth'
   plant bad-rays-traced src/accel/bad_rays.h 'if (good == kWidth) return;' 'return;'
   plant no-retry src/render/renderer.cpp \
-    'options.robust && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
+    'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
   plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media};' '0};'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
   plant empty-materials src/render/build_tables.cpp \
