@@ -18,6 +18,8 @@ plant() {
   names+=("$1")
   if [ "${#wanted[@]}" -gt 0 ] && [[ ! " ${wanted[*]} " =~ " $1 " ]]; then return; fi
   if [ "$mode" = list ]; then echo "$1"; return; fi
+  # An interrupted run must not leave its mistake to the next.
+  trap "cp '$root/$2' '$copy/$2'" EXIT
   cp "$root/$2" "$copy/$2"
   if ! OLD=$3 NEW=$4 perl -0pi -e '$n = s/\Q$ENV{OLD}\E/$ENV{NEW}/g; END { exit($n != 1) }' \
       "$copy/$2"; then
@@ -66,7 +68,8 @@ mutations() {
     'const VF g2 = hn::MulAdd(c, c, k);' \
     'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'
   plant no-total-reflection simd/fresnel-inl.h \
-    'f = hn::IfThenElse(total, one, hn::Min(f, one));' 'f = hn::Min(f, one); (void)total;'
+    'f = hn::IfThenElse(total, one, hn::Min(f, one));' \
+    'f = hn::IfThenElse(total, zero, hn::Min(f, one));'
   plant same-index-reflects simd/fresnel-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
     'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
@@ -88,7 +91,8 @@ mutations() {
   plant no-lift simd/add_impulses.cpp \
     'const MF low = hn::Lt(height, lift);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)lift;'
   plant wrong-bend simd/add_impulses.cpp \
-    'Scale3(bent, hn::Div(one, interface.eta))' 'Scale3(bent, interface.eta)'
+    'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
+    'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
   plant nan-throughput simd/add_impulses.cpp \
     'hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))))' \
     'hn::AndNot(hn::Lt(throughput, hn::Set(d, cutoff)), live)'

@@ -132,6 +132,7 @@ std::vector<double> cosines(std::uint64_t seed, std::size_t n, double least) {
 Finding equalIndices(const Setup& setup) {
   Finding finding(0);
   std::vector<double> all = cosines(38, 2000, 1e-7);
+  all.push_back(0);  // along the surface
   for (const float n : {1.0f, 1.5f, 1.3333f}) {
     const Incidence in = raysAt(all);
     const Interfaces got = throughKernels(n, n, in, setup);
