@@ -111,8 +111,6 @@ mutations() {
     'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
   plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media};' '0};'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
-  plant empty-materials src/render/build_tables.cpp \
-    'tables.materials.push_back(recordOf(Material{}, 0, effects))' 'static_cast<void>(0)'
 }
 
 mode=run

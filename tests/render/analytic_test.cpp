@@ -58,6 +58,19 @@ TEST(Analytic, lightFallsOffOverAPlane) {
   EXPECT_LE(worst, kBound);
 }
 
+// Not even a material: the tables of the kernels must not be empty for that.
+TEST(Analytic, nothingShowsTheSky) {
+  SceneBuilder builder;
+  builder.sky(0.25f);
+  SceneDescription description = builder.description;
+  description.materials.clear();
+  Warnings warnings;
+  const Scene scene = Scene::finalize(std::move(description), warnings);
+  ASSERT_TRUE(scene.materials.empty());
+  const Image image = pictureOf(scene, lookingDown(), smallOptions());
+  for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(0.25f));
+}
+
 // A mirror of reflectance R under a sky of radiance 1, and nothing else.
 TEST(Analytic, mirrorShowsTheSky) {
   SceneBuilder builder;
