@@ -279,6 +279,7 @@ void Accel::findHits(const RayColumns& rays, std::size_t n, bool coherent, const
       meter.tally->lanes += n;
     }
   }
+  if (parts_->packet != 1) settleEdges(rays, n, hits);
   if (enclosed_) retryMisses(rays, n, hits);
 }
 

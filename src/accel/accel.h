@@ -56,7 +56,9 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // The nearest hit of rays [0, n). Up to 15 slots behind them may be overwritten.
+  // The nearest hit of rays [0, n). Up to 15 slots behind them may be overwritten. A ray's hit does
+  // not depend on the rays beside it, but where two surfaces lie in each other's place or cross at
+  // its very distance (to the last bit): which of them it meets is then left to Embree.
   void findHits(const RayColumns& rays, std::size_t n, bool coherent, const HitColumns& hits,
                 TraceMeter& meter) const noexcept;
   // visible[slot] = 1 for each of the n shadow rays that meets nothing before tFar.
@@ -84,6 +86,7 @@ class Accel {
  private:
   bool findHit(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
                std::uint32_t& instance, float& t, float& u, float& v) const noexcept;
+  void settleEdges(const RayColumns& rays, std::size_t n, const HitColumns& hits) const noexcept;
   void retryMisses(const RayColumns& rays, std::size_t n, const HitColumns& hits) const noexcept;
 
   struct Parts;

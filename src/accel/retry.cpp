@@ -1,4 +1,5 @@
-// Rays that found nothing, once more.
+// Rays that are traced once more, singly: those that found nothing, and those that met an edge.
+#include <algorithm>
 #include <cmath>
 
 #include "accel/accel.h"
@@ -17,7 +18,36 @@ Vec3f nudged(const Vec3f& d, int attempt) {
   return result;
 }
 
+// Weight of a corner below which the hit is taken to lie on the edge opposite. Triangles that share
+// the edge may both be met there, at distances whose difference is lost in rounding; seen from a
+// thousand times their size away, rounding moves the edge by 1e-4 of it.
+constexpr float kNearEdge = 0x1p-12f;
+
+bool isNearEdge(float u, float v) { return std::min(std::min(u, v), 1 - u - v) < kNearEdge; }
+
 }  // namespace
+
+// Which of several triangles at one distance stays depends on the order in which Embree tests them,
+// which a packet's other rays change. A ray alone has but one order.
+void Accel::settleEdges(const RayColumns& rays, std::size_t n,
+                        const HitColumns& hits) const noexcept {
+  for (std::size_t begin = 0; begin < n; begin += kBlock) {
+    bool any = false;
+    for (std::size_t i = begin; i < begin + kBlock; ++i) any |= isNearEdge(hits.u[i], hits.v[i]);
+    if (!any) continue;
+    for (std::size_t i = begin; i < std::min(n, begin + kBlock); ++i) {
+      if (hits.triangle[i] == kMiss || !isNearEdge(hits.u[i], hits.v[i])) continue;
+      std::uint32_t instance = kMiss;
+      const Vec3f origin{rays.orgX[i], rays.orgY[i], rays.orgZ[i]};
+      const Vec3f direction{rays.dirX[i], rays.dirY[i], rays.dirZ[i]};
+      if (!findHit(origin, direction, hits.triangle[i], instance, hits.t[i], hits.u[i],
+                   hits.v[i])) {
+        continue;
+      }
+      if (hits.instance) hits.instance[i] = instance;
+    }
+  }
+}
 
 void Accel::retryMisses(const RayColumns& rays, std::size_t n,
                         const HitColumns& hits) const noexcept {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scene/classify_triangles.h"
+#include "scene/coincident_triangles.h"
 #include "scene/finalize_steps.h"
 #include "scene/triangle_record.h"
 
@@ -37,7 +38,11 @@ class Baker {
 
   void run() {
     plan();
-    for (std::size_t g = 0; g < sources_.size(); ++g) place(g);
+    for (std::size_t g = 0; g < sources_.size(); ++g) {
+      place(g);
+      dropCoincident(g);
+      countClasses(g);
+    }
     dropEmptyGeometries();
     reserveTables();
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
@@ -47,6 +52,8 @@ class Baker {
  private:
   void plan();
   void place(std::size_t g);
+  void dropCoincident(std::size_t g);
+  void countClasses(std::size_t g);
   void dropEmptyGeometries();
   void reserveTables();
   void emit(std::size_t g);
@@ -91,7 +98,7 @@ void Baker::plan() {
   }
 }
 
-// Transforms the vertices of a geometry and counts its triangles by class.
+// Transforms the vertices of a geometry and says which of its triangles stay.
 void Baker::place(std::size_t g) {
   Geometry& geometry = scene_.geometries[g];
   std::uint64_t vertices = 0, triangles = 0;
@@ -110,6 +117,43 @@ void Baker::place(std::size_t g) {
     source.classified =
         classifyTriangles(*source.mesh, geometry.position.data() + source.firstVertex,
                           positions.size(), uses_, warnings_);
+  }
+}
+
+// Of triangles in the same place the first stays. Not of glass: two faces there are two boundaries.
+void Baker::dropCoincident(std::size_t g) {
+  const std::vector<Vec3f>& position = scene_.geometries[g].position;
+  struct Place {
+    std::uint32_t source, triangle;
+  };
+  std::vector<Place> places;
+  for (std::uint32_t s = 0; s < sources_[g].size(); ++s) {
+    const Source& source = sources_[g][s];
+    for (std::uint32_t i = 0; i < source.mesh->triangles.size(); ++i) {
+      if (source.classified.has(i, kDroppedClass)) continue;
+      if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
+      places.push_back({s, i});
+    }
+  }
+  const auto triangle = [&](std::uint64_t k) {
+    const auto& [s, i] = places[k];
+    const Source& source = sources_[g][s];
+    const auto& [a, b, c] = source.mesh->triangles[i];
+    const Vec3f* own = position.data() + source.firstVertex;
+    return PlacedTriangle{{own[a], own[b], own[c]}, source.mesh->material(i)};
+  };
+  for (const std::uint64_t k : findCoincident(places.size(), triangle)) {
+    const auto& [s, i] = places[k];
+    Source& source = sources_[g][s];
+    source.classified.drop(i, source.mesh->triangles.size());
+    warnings_.add("triangle in the place of another of its material dropped",
+                  "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
+  }
+}
+
+void Baker::countClasses(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  for (const Source& source : sources_[g]) {
     for (std::size_t c = 0; c < kTriangleClasses; ++c) {
       geometry.classBegin[c + 1] += source.classified.count[c];
     }

@@ -23,6 +23,13 @@ struct TriangleClassification {
   bool has(std::size_t triangle, std::size_t wanted) const {
     return (classes.empty() ? only : classes[triangle]) == wanted;
   }
+  // Of a mesh of so many triangles.
+  void drop(std::size_t triangle, std::size_t triangles) {
+    if (classes.empty()) classes.assign(triangles, only);
+    --count[classes[triangle]];
+    classes[triangle] = kDroppedClass;
+    ++count[kDroppedClass];
+  }
 };
 
 // Something mended in one mesh: how often, and where first.

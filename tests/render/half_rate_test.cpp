@@ -87,9 +87,6 @@ TEST_P(HalfRate, H60_anyTilesThreadsQueuesAndPacketsGiveTheSameBits) {
 
 TEST_P(HalfRate, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   for (const bool adaptive : {false, true}) {
-    // With more samples, some rays through the long chains of mirrors already differ in their last
-    // bit with the packet that they travel in, at any rate.
-    if (adaptive && GetParam() == "mirrors") continue;
     RenderOptions o = half();
     o.adaptive = adaptive;
     o.spp = adaptive ? 5 : 1;

@@ -94,6 +94,27 @@ TEST_P(Invariance, H76_supersamplingIsTheSameForAnyTileAndQueue) {
 
 TEST_P(Invariance, noPixelIsNonFinite) { EXPECT_EQ(expected_.stats.nonFinitePixels, 0u); }
 
+// Large enough that some of the rays of its long chains meet edges.
+TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
+  const Scene scene = load("mirrors");
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{200, 120};
+  for (const int spp : {1, 3}) {
+    o.spp = spp;
+    const Picture expected = render(scene, o);
+    std::vector<RenderOptions> variants(5, o);
+    variants[0].packet = 1;
+    variants[1].packet = 4;
+    variants[2].tile = 8;
+    variants[3].queue = 64;
+    variants[4].batch = Batch::frame;
+    for (const RenderOptions& v : variants) {
+      EXPECT_EQ(firstDifference(render(scene, v).image, expected.image), "")
+          << "variant " << &v - variants.data() << ", " << spp << " samples";
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, Invariance, testing::ValuesIn(smallScenes()),
                          [](const auto& info) {
                            return info.param.substr(0, info.param.find('?'));

@@ -1,4 +1,5 @@
 whit_test(invariance whit_render whit_io)
+whit_test(edge_hits whit_accel)
 whit_test(effects_law whit_render whit_io whit_metrics)
 whit_test(effects_kernels whit_render)
 whit_test(effects_absent whit_render whit_io)

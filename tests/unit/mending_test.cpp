@@ -47,6 +47,25 @@ TEST(Mending, DegenerateTrianglesAreDroppedAndCounted) {
   EXPECT_EQ(scene.upper, (Vec3f{1, 1, 9}));
 }
 
+// H15
+TEST(Mending, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
+  for (const bool glass : {false, true}) {
+    Mesh mesh = square();
+    const std::vector<Vec3f> own = mesh.positions;
+    for (Vec3f p : own) mesh.positions.push_back({p.x == 0 ? -0.0f : p.x, p.y, p.z});
+    mesh.triangles.push_back({1, 2, 0});  // the first, turned
+    mesh.triangles.push_back({6, 5, 4});  // the first, reversed, with vertices of its own
+    mesh.triangles.push_back({0, 1, 3});  // shares two corners with each
+    SceneDescription description = sceneOf(mesh);
+    for (Material& m : description.materials) m.transmission = glass ? Rgb{1, 1, 1} : Rgb{0, 0, 0};
+    Warnings warnings;
+    const Scene scene = Scene::finalize(std::move(description), warnings);
+    EXPECT_EQ(scene.triangles.size(), 2u + (glass ? 3 : 1));
+    EXPECT_EQ(warned(warnings, "triangle in the place of another of its material dropped"),
+              glass ? 0u : 2u);
+  }
+}
+
 // H27
 TEST(Mending, BadVerticesTakeOnlyTheirTriangles) {
   const float inf = std::numeric_limits<float>::infinity();
@@ -70,7 +89,9 @@ TEST(Mending, IndicesOutOfRangeTakeTheirTriangle) {
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({0xffffffffu, 1, 2});
   SceneDescription d = sceneOf(mesh);
-  d.objects[0].meshes.push_back(square());  // whose vertices must not be reached
+  Mesh other = square();  // whose vertices must not be reached
+  for (Vec3f& p : other.positions) p.z = 1;
+  d.objects[0].meshes.push_back(other);
   Warnings warnings;
   EXPECT_EQ(Scene::finalize(std::move(d), warnings).triangles.size(), 4u);
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
@@ -155,6 +176,7 @@ TEST(Mending, FlatNormalsAreNotKept) {
 TEST(Mending, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
   Mesh smooth = square();
   smooth.normals.assign(4, {1, 0, 1});
+  for (Vec3f& p : smooth.positions) p.z = 1;
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(smooth);
   const Scene scene = finalized(std::move(d));

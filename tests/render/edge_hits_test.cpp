@@ -1,0 +1,125 @@
+// H59 where it is hardest: rays at the edges that triangles share, where which of them is met
+// depends on the order in which they are tested. A ray's hit must not depend on the rays beside it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <random>
+
+#include "accel/accel.h"
+#include "unit/scene_builder.h"
+
+namespace whit::test {
+namespace {
+
+constexpr std::size_t kRays = 20000;
+constexpr int kSide = 32;
+
+// A crumpled sheet: whole numbers for x and y, halves for z, so that the middles of edges are
+// floats and rays reach them without any rounding: both triangles are met, at one distance.
+Mesh sheet(std::mt19937& random) {
+  Mesh mesh;
+  mesh.materials = {0};
+  for (int y = 0; y <= kSide; ++y) {
+    for (int x = 0; x <= kSide; ++x) {
+      const float z = 0.5f * static_cast<float>(random() % 3);
+      mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), z});
+    }
+  }
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const std::uint32_t a = y * (kSide + 1) + x, b = a + 1, c = a + kSide + 1, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  }
+  return mesh;
+}
+
+struct Rays {
+  std::vector<Vec3f> origin, direction;  // not of unit length, which would round
+};
+
+// From above the sheet through middles of its edges; every fourth anywhere.
+Rays raysAtEdges(const Mesh& mesh, std::mt19937& random) {
+  std::uniform_real_distribution<float> uniform(0, kSide);
+  Rays rays;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const auto& corners = mesh.triangles[random() % mesh.triangles.size()];
+    const std::size_t side = random() % 3;
+    Vec3f target = (mesh.positions[corners[side]] + mesh.positions[corners[(side + 1) % 3]]) * 0.5f;
+    if (i % 4 == 0) target = {uniform(random), uniform(random), 0.5f};
+    const auto whole = [&] { return static_cast<float>(random() % kSide); };
+    rays.origin.push_back({whole(), whole(), 8});
+    rays.direction.push_back(target - rays.origin.back());
+  }
+  return rays;
+}
+
+using Hit = std::array<std::uint32_t, 4>;  // triangle, and the bits of t, u, v
+
+std::vector<Hit> trace(const Accel& accel, const Rays& rays, const std::vector<std::size_t>& order,
+                       bool coherent) {
+  ColumnStore<RayColumns> columns;
+  ColumnStore<HitColumns> hits;
+  columns.allocate(roundUpToBlock(kRays), Groups{});
+  hits.allocate(roundUpToBlock(kRays), Groups{});
+  for (std::size_t k = 0; k < kRays; ++k) {
+    const Vec3f& o = rays.origin[order[k]];
+    const Vec3f& d = rays.direction[order[k]];
+    columns->orgX[k] = o.x;
+    columns->orgY[k] = o.y;
+    columns->orgZ[k] = o.z;
+    columns->dirX[k] = d.x;
+    columns->dirY[k] = d.y;
+    columns->dirZ[k] = d.z;
+  }
+  RayTally tally;
+  TraceMeter meter{&tally, 0, nullptr};
+  accel.findHits(*columns, kRays, coherent, *hits, meter);
+  std::vector<Hit> result(kRays);
+  for (std::size_t k = 0; k < kRays; ++k) {
+    Hit& hit = result[order[k]];
+    hit = {hits->triangle[k], 0, 0, 0};
+    if (hit[0] == kMiss) continue;
+    hit[1] = std::bit_cast<std::uint32_t>(hits->t[k]);
+    hit[2] = std::bit_cast<std::uint32_t>(hits->u[k]);
+    hit[3] = std::bit_cast<std::uint32_t>(hits->v[k]);
+  }
+  return result;
+}
+
+TEST(EdgeHits, H59_doNotDependOnTheRaysBeside) {
+  constexpr unsigned kSeed = 7;
+  std::mt19937 random(kSeed);
+  const Mesh mesh = sheet(random);
+  const Rays rays = raysAtEdges(mesh, random);
+  const Scene scene = finalized(sceneOf(mesh));
+  std::vector<std::size_t> order(kRays);
+  std::iota(order.begin(), order.end(), 0);
+  AccelOptions single;
+  single.packet = 1;
+  const std::vector<Hit> expected = trace(Accel(scene, single), rays, order, true);
+  for (const int packet : {4, 8, 16}) {
+    AccelOptions options;
+    options.packet = packet;
+    const Accel accel(scene, options);
+    for (int turn = 0; turn < 4; ++turn) {
+      const std::vector<Hit> found = trace(accel, rays, order, turn % 2 == 0);
+      std::size_t differ = 0, first = 0;
+      for (std::size_t i = kRays; i-- > 0;) {
+        if (found[i] == expected[i]) continue;
+        ++differ;
+        first = i;
+      }
+      EXPECT_EQ(differ, 0u) << "packets of " << packet << ", turn " << turn << ", seed " << kSeed
+                            << ", first ray " << first;
+      std::shuffle(order.begin(), order.end(), random);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
