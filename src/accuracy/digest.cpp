@@ -169,6 +169,17 @@ std::string digestOf(const Camera& camera) {
   return d.hex();
 }
 
+std::string digestOf(const Image& image) {
+  Digester d;
+  for (const int n : {image.width, image.height, image.window.x0, image.window.y0, image.window.x1,
+                      image.window.y1}) {
+    d.bytes(&n, sizeof n);
+  }
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  d.bytes(image.pixels.data(), image.pixels.size() * sizeof(Rgb));
+  return d.hex();
+}
+
 std::string digestOfProgram() {
   std::ifstream program("/proc/self/exe", std::ios::binary);
   if (!program) return "unknown";

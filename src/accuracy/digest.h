@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/image.h"
 #include "core/options.h"
 #include "scene/scene.h"
 
@@ -37,6 +38,8 @@ std::string digestOf(const Scene& scene);
 // what it stands for is in the others.
 std::string digestOf(const RenderOptions& options);
 std::string digestOf(const Camera& camera);
+// Size, window and the bits of all pixels.
+std::string digestOf(const Image& image);
 // The program that is running, "unknown" where it cannot be read.
 std::string digestOfProgram();
 

@@ -1,5 +1,6 @@
 #include "cli/bench_run.h"
 
+#include "accuracy/digest.h"
 #include "cli/info_rows.h"
 
 namespace whit::cli {
@@ -17,6 +18,7 @@ void BenchRun::warmUp() { renderFrame(renderer_, options_.mode, camera_, film_);
 
 void BenchRun::measure(bool floor) {
   summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
+  summary_.imageHash = accuracy::digestOf(film_.image);
   if (floor) summary_.floorMs.push_back(renderer_.measureFloor(camera_, film_, 1).floorMs);
 }
 

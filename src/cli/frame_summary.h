@@ -22,6 +22,7 @@ struct RunSummary {
   double loadMs = 0, buildMs = 0;
   std::vector<FrameStats> frames;  // counted ones, at least one
   std::vector<double> floorMs;     // empty without --floor
+  std::string imageHash;           // of the last frame: accuracy::digestOf(image)
 };
 
 RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,

@@ -78,6 +78,7 @@ Json runJson(const RunSummary& run) {
     json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.tally[i]);
   }
   json["nonfinite"] = frame.nonFinitePixels;
+  json["image_hash"] = run.imageHash;
   json["peak_rss_mb"] = peakRssMb();
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "accuracy/digest.h"
 #include "cli/commands.h"
 #include "cli/image_output.h"
 #include "cli/json_report.h"
@@ -91,6 +92,7 @@ class ImageWriter {
     }
     run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
     refuseNonFinite(open_.scene, options, run_.frames.back());
+    run_.imageHash = accuracy::digestOf(film_.image);
     for (const std::string& file : files) {
       writeImage(file, film_, options, metadata);
       written_.push_back(file);

@@ -31,10 +31,10 @@ class JsonResults : public testing::Test {
 
 void checkRun(const Json& run) {
   expectKeys(run,
-             {"scene",       "size",         "threads",    "packet",    "simd",      "mode",
-              "batch",       "robust",       "effects",    "triangles", "frames",    "frame_ms",
-              "fps",         "build_ms",     "load_ms",    "stages_ms", "embree_ms", "rays",
-              "mrays_per_s", "lanes_filled", "peak_rss_mb"});
+             {"scene",       "size",         "threads",     "packet",    "simd",      "mode",
+              "batch",       "robust",       "effects",     "triangles", "frames",    "frame_ms",
+              "fps",         "build_ms",     "load_ms",     "stages_ms", "embree_ms", "rays",
+              "mrays_per_s", "lanes_filled", "peak_rss_mb", "image_hash"});
   expectKeys(run["frame_ms"], {"median", "min", "p95"});
   expectKeys(run["stages_ms"], {"generateRays", "findIntersections",
                                 "writeEmittedAndReflectiveAmbient", "findRadianceAndShadowRays",
@@ -57,6 +57,10 @@ TEST_F(JsonResults, Bench) {
   EXPECT_GE(json["machine"]["cores"].get<int>(), 1);
   ASSERT_EQ(json["runs"].size(), 2u);
   for (const Json& run : json["runs"]) checkRun(run);
+  EXPECT_EQ(json["runs"][0]["image_hash"], json["runs"][1]["image_hash"]);
+  EXPECT_NE(json["runs"][0]["image_hash"],
+            resultOf({"bench", tiny_, "--frames", "1", "--exposure", "0", "--depth", "0", "--size",
+                      "9x7"})["runs"][0]["image_hash"]);
   const Json& run = json["runs"][0];
   EXPECT_EQ(run["scene"], "tiny");
   EXPECT_EQ(run["size"], Json({48, 32}));
