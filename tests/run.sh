@@ -78,6 +78,14 @@ checkThreads() {
   done
 }
 
+# Builds that share sources share their objects.
+useCompilerCache() {
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
+    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
+  fi
+}
+
 groups=(build view)
 if ! $quick; then groups+=(check); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
@@ -87,6 +95,8 @@ if ! $quick; then
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
 fi
 if $tidy; then step "tidy" checkTidy; fi
+useCompilerCache
+if ! $quick; then step "Embree 4" tests/embree4.sh; fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 
