@@ -32,6 +32,9 @@ constexpr TargetName kTargetNames[] = {
 #ifdef HWY_SSE2
     {HWY_SSE2, "sse2"},
 #endif
+#ifdef HWY_NEON_WITHOUT_AES
+    {HWY_NEON_WITHOUT_AES, "neon"},
+#endif
 };
 
 // What the CPU has, whatever has been chosen since.

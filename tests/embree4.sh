@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds whit with Debian 13's Embree 4 and Highway 1.2 beside a system that has others, and runs
-# the tests that reach them. Nothing is installed: nine packages (14 MB) are unpacked into
+# the tests that reach them. Nothing is installed: their packages are unpacked into
 # build-embree4/debian13, and programs start with the C library that is among them.
 #   tests/embree4.sh            fetch if not there, build, test
 #   tests/embree4.sh --fetch    fetch only
@@ -13,8 +13,6 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build=$root/build-embree4
 sysroot=$build/debian13
 libraries=$sysroot/usr/lib/x86_64-linux-gnu
-packages=(libembree-dev libembree4-4 libtbb12 libtbb-dev libhwy-dev libhwy1t64 libc6 libgcc-s1
-          libstdc++6)
 # What meets rays, or differs with the width of vectors.
 tests=(alpha_map analytic effects_law encode_display hard invariance scaling terminator twins)
 
@@ -24,41 +22,7 @@ leaveOut() {
   exit 0
 }
 
-# The mirror that this machine installs from, if it is Debian's; else the usual one.
-mirror() {
-  apt-get indextargets --format '$(REPO_URI) $(ORIGIN) $(RELEASE)' 'Created-By: Packages' 2>/dev/null |
-    awk '$2 == "Debian" && $1 !~ /security/ { print $1; found = 1; exit }
-         END { if (!found) print "http://deb.debian.org/debian" }'
-}
-
-# apt with lists, sources and cache of its own: that of the system is neither read nor changed.
-privateApt() {
-  apt-get -qq -o Dir::Etc="$1/etc" -o Dir::Etc::sourcelist="$1/etc/sources.list" \
-    -o Dir::Etc::sourceparts=- -o Dir::State="$1/state" -o Dir::Cache="$1/cache" \
-    -o Dir::State::status="$1/status" -o Debug::NoLocking=1 -o APT::Architecture=amd64 \
-    -o APT::Architectures::=amd64 -o APT::Sandbox::User=root -o Acquire::Languages=none \
-    -o Acquire::Retries=2 -o Acquire::http::Timeout=20 "${@:2}"
-}
-
-fetch() {
-  if [ -e "$sysroot/complete" ]; then return; fi
-  [ "$(uname -m)" = x86_64 ] || leaveOut "this is not a 64-bit PC"
-  command -v apt-get >/dev/null || leaveOut "there is no apt-get here"
-  local keys=/usr/share/keyrings/debian-archive-keyring.gpg apt
-  [ -e "$keys" ] || leaveOut "Debian's keys are not here (apt-get install debian-archive-keyring)"
-  rm -rf "$sysroot"
-  apt=$sysroot/apt
-  mkdir -p "$apt"/{etc/preferences.d,state/lists/partial,cache/archives/partial}
-  : >"$apt/status"
-  echo "deb [signed-by=$keys] $(mirror) trixie main" >"$apt/etc/sources.list"
-  privateApt "$apt" update >&2 || leaveOut "no package lists of Debian 13 from $(mirror)"
-  (cd "$apt" && privateApt "$apt" download "${packages[@]}") >&2 ||
-    leaveOut "no packages of Debian 13 from $(mirror)"
-  local package
-  for package in "$apt"/*.deb; do dpkg -x "$package" "$sysroot"; done
-  rm -rf "$apt"
-  touch "$sysroot/complete"
-}
+. "$root/tests/debian13.sh"
 
 configure() {
   local embree flags
@@ -122,7 +86,8 @@ case ${1:-} in
   "" | --fetch | --differ) ;;
   *) echo "tests/embree4.sh: unknown option '$1' (--fetch, --differ)" >&2; exit 2 ;;
 esac
-fetch
+[ "$(uname -m)" = x86_64 ] || leaveOut "this is not a 64-bit PC"
+fetchDebian13 "$sysroot" amd64 libembree-dev libhwy-dev
 [ "${1:-}" = --fetch ] && exit
 configure
 if [ "${1:-}" = --differ ]; then

@@ -86,6 +86,18 @@ useCompilerCache() {
   fi
 }
 
+# One image on several ranks: the rest of the program is that of the other builds.
+checkRanks() {
+  if ! command -v mpirun >/dev/null; then
+    echo "!! Open MPI is not installed: WHIT_MPI is NOT checked" >&2
+    [ -z "${CI:-}" ]
+    return
+  fi
+  cmake --preset release -B build-mpi -DWHIT_MPI=ON -DWHIT_WERROR=ON >/dev/null &&
+    cmake --build build-mpi --parallel "$(nproc)" --target whit &&
+    tests/cli/mpi_test.sh build-mpi/whit
+}
+
 groups=(build view)
 if ! $quick; then groups+=(check); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
@@ -96,7 +108,10 @@ if ! $quick; then
 fi
 if $tidy; then step "tidy" checkTidy; fi
 useCompilerCache
-if ! $quick; then step "Embree 4" tests/embree4.sh; fi
+if ! $quick; then
+  step "Embree 4" tests/embree4.sh
+  step "MPI" checkRanks
+fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 
