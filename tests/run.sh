@@ -78,6 +78,26 @@ checkThreads() {
   done
 }
 
+# Builds that share sources share their objects.
+useCompilerCache() {
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
+    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
+  fi
+}
+
+# One image on several ranks: the rest of the program is that of the other builds.
+checkRanks() {
+  if ! command -v mpirun >/dev/null; then
+    echo "!! Open MPI is not installed: WHIT_MPI is NOT checked" >&2
+    [ -z "${CI:-}" ]
+    return
+  fi
+  cmake --preset release -B build-mpi -DWHIT_MPI=ON -DWHIT_WERROR=ON >/dev/null &&
+    cmake --build build-mpi --parallel "$(nproc)" --target whit &&
+    tests/cli/mpi_test.sh build-mpi/whit
+}
+
 groups=(build view)
 if ! $quick; then groups+=(check); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
@@ -87,6 +107,11 @@ if ! $quick; then
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
 fi
 if $tidy; then step "tidy" checkTidy; fi
+useCompilerCache
+if ! $quick; then
+  step "Embree 4" tests/embree4.sh
+  step "MPI" checkRanks
+fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 

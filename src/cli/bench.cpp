@@ -56,10 +56,11 @@ OptionList listOptions(BenchJob& job) {
   return list;
 }
 
-void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
+void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm& farm,
+             Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
   const auto add = [&](const RenderOptions& options) {
-    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
+    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress, &farm));
   };
   RenderOptions options = job.common.render;
   if (job.widths) {
@@ -77,8 +78,10 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
   }
 }
 
-void checkJob(const BenchJob& job) {
-  requireJsonWritable(job.json);
+void checkJob(const BenchJob& job, const Farm& farm) {
+  if (farm.leads()) requireJsonWritable(job.json);
+  checkShared(farm, job.common);
+  if (farm.ranks() > 1 && job.floor) throwUsage("--floor is for one process, not for mpirun");
   if (job.reference() && job.floor) throwUsage("--floor is for packets, not --mode reference");
   if (job.reference() && job.widths) throwUsage("--widths is for packets, not --mode reference");
   if (job.widths && job.common.given.contains("packet")) {
@@ -92,18 +95,17 @@ void checkJob(const BenchJob& job) {
   }
 }
 
-}  // namespace
-
-int benchCommand(const Words& words) {
+int bench(const Words& words, Farm& farm) {
   BenchJob job;
   if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
   settleOptions(job.common);
-  checkJob(job);
+  quietUnlessLeading(farm, job.common);
+  checkJob(job, farm);
   auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
   std::vector<RunSummary> summaries;
   BenchRuns runs;
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {
-    addRuns(runs, job.scenes[i], job, progress.get());
+    addRuns(runs, job.scenes[i], job, farm, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
     if (job.comparesRuns() && i + 1 < job.scenes.size()) continue;
     takeTurns(runs, job.turns(), progress.get());
@@ -111,6 +113,7 @@ int benchCommand(const Words& words) {
     runs.clear();
   }
   progress.reset();
+  if (!farm.leads()) return 0;
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
@@ -120,6 +123,12 @@ int benchCommand(const Words& words) {
   }
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.abEffects));
   return 0;
+}
+
+}  // namespace
+
+int benchCommand(const Words& words) {
+  return Farm::run([&](Farm& farm) { return bench(words, farm); });
 }
 
 }  // namespace whit::cli

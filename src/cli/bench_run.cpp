@@ -6,19 +6,26 @@
 namespace whit::cli {
 
 BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-                   const RenderOptions& options, Progress* progress)
+                   const RenderOptions& options, Progress* progress, Farm* farm)
     : open_(std::move(open)),
+      farm_(farm),
       options_(options),
       renderer_(open_->scene, options, progress),
       camera_(chooseCamera(open_->scene, options)),
       film_(openFilm(open_->scene, common)),
       summary_(summarise(open_->scene, options, renderer_, film_, open_->loadMs)) {}
 
-void BenchRun::warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }
+FrameStats BenchRun::frame() {
+  return farm_ ? renderShared(*farm_, renderer_, options_, camera_, film_)
+               : renderFrame(renderer_, options_.mode, camera_, film_);
+}
+
+void BenchRun::warmUp() { frame(); }
 
 void BenchRun::measure(bool floor) {
-  summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
+  summary_.frames.push_back(frame());
   summary_.imageHash = accuracy::digestOf(film_.image);
+  if (farm_ && farm_->ranks() > 1) summary_.shares.push_back(farm_->lastFrame());
   if (floor) summary_.floorMs.push_back(renderer_.measureFloor(camera_, film_, 1).floorMs);
 }
 

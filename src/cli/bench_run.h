@@ -14,8 +14,9 @@ namespace whit::cli {
 class BenchRun {
  public:
   // `common` gives the film's size and limits, `options` everything else.
+  // `farm`: null for frames of this process alone; must outlive the run.
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-           const RenderOptions& options, Progress* progress);
+           const RenderOptions& options, Progress* progress, Farm* farm = nullptr);
 
   void warmUp();
   void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
@@ -24,7 +25,10 @@ class BenchRun {
   double memoryMb() const;
 
  private:
+  FrameStats frame();
+
   std::shared_ptr<const OpenScene> open_;
+  Farm* farm_;
   RenderOptions options_;
   Renderer renderer_;
   Camera camera_;

@@ -25,11 +25,13 @@ std::vector<double> frameTimes(const RunSummary& run) {
   return times;
 }
 
-const FrameStats& medianFrame(const RunSummary& run) {
-  const double median = quantile(frameTimes(run), 0.5);
-  return *std::find_if(run.frames.begin(), run.frames.end(),
-                       [&](const FrameStats& frame) { return frame.frameMs == median; });
+std::size_t medianFrameIndex(const RunSummary& run) {
+  const std::vector<double> times = frameTimes(run);
+  return static_cast<std::size_t>(std::find(times.begin(), times.end(), quantile(times, 0.5)) -
+                                  times.begin());
 }
+
+const FrameStats& medianFrame(const RunSummary& run) { return run.frames[medianFrameIndex(run)]; }
 
 double outsideEmbreeMs(const RunSummary& run) {
   const FrameStats& frame = medianFrame(run);

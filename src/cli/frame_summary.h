@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "core/options.h"
 #include "core/quantile.h"
+#include "farm/farm.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -23,6 +24,7 @@ struct RunSummary {
   std::vector<FrameStats> frames;  // counted ones, at least one
   std::vector<double> floorMs;     // empty without --floor
   std::string imageHash;           // of the last frame: accuracy::digestOf(image)
+  std::vector<FarmFrame> shares;   // how the frames were shared; empty for one process
 };
 
 RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
@@ -32,6 +34,7 @@ using whit::quantile;
 
 // The frame of median duration (the lower of the two middle ones): its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);
+std::size_t medianFrameIndex(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
 
 // The median frame's time that is not spent inside Embree's calls.

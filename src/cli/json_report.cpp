@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cli/info_rows.h"
 #include "cli/interrupt.h"
@@ -40,6 +41,20 @@ Json stagesJson(const FrameStats& frame) {
 }
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json farmJson(const FarmFrame& share) {
+  const std::vector<double> ms(share.blockMs.begin(), share.blockMs.end());
+  return {{"ranks", share.ranks},
+          {"block_side", share.blockSide},
+          {"blocks", ms.size()},
+          {"block_ms",
+           {{"sum", std::accumulate(ms.begin(), ms.end(), 0.0)},
+            {"median", quantile(ms, 0.5)},
+            {"max", quantile(ms, 1)}}},
+          {"messages", share.messages},
+          {"message_bytes", share.messageBytes},
+          {"place_ms", share.placeMs}};
+}
 
 }  // namespace
 
@@ -85,6 +100,7 @@ Json runJson(const RunSummary& run) {
     json["floor_ms"] = floor;
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
+  if (!run.shares.empty()) json["farm"] = farmJson(run.shares[medianFrameIndex(run)]);
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "core/error.h"
 #include "io/load_scene.h"
 
 namespace whit::cli {
@@ -28,6 +29,23 @@ void tellWarnings(const Warnings& warnings) {
 
 Film openFilm(const Scene& scene, const CommonOptions& common) {
   return makeFilm(scene, common.render, common.load.maxMemoryBytes);
+}
+
+void checkShared(const Farm& farm, const CommonOptions& common) {
+  if (farm.ranks() > 1 && common.render.batch == Batch::frame) {
+    throwUsage("--batch frame needs the whole image in one process: leave it out, or mpirun");
+  }
+}
+
+void quietUnlessLeading(const Farm& farm, CommonOptions& common) {
+  if (!farm.leads()) common.quiet = true;
+}
+
+FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
+                        const Camera& camera, Film& film, Progress* progress) {
+  return farm.render(film, options.tile, renderer.machine().threads, [&](Film& part) {
+    return renderFrame(renderer, options.mode, camera, part, progress);
+  });
 }
 
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,

@@ -6,6 +6,7 @@
 
 #include "cli/parse_options.h"
 #include "core/warnings.h"
+#include "farm/farm.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -27,6 +28,15 @@ void tellWarnings(const Warnings& warnings);
 
 // A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.
 Film openFilm(const Scene& scene, const CommonOptions& common);
+
+// Throws Error(usage) for what several ranks cannot share.
+void checkShared(const Farm& farm, const CommonOptions& common);
+// The ranks beside the leader keep to themselves.
+void quietUnlessLeading(const Farm& farm, CommonOptions& common);
+
+// One frame, shared with the other ranks if there are any.
+FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
+                        const Camera& camera, Film& film, Progress* progress = nullptr);
 
 // One frame by the pipeline or by the reference.
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,

@@ -52,10 +52,13 @@ OptionList listOptions(RenderJob& job) {
   return list;
 }
 
-void checkJob(const RenderJob& job) {
+void checkJob(const RenderJob& job, const Farm& farm) {
   if (job.outputs.empty()) throwUsage("expected an image to write: -o OUT.exr or -o OUT.png");
-  for (const std::string& output : job.outputs) requireWritable(output, {".exr", ".png"});
-  requireJsonWritable(job.json);
+  checkShared(farm, job.common);
+  if (farm.leads()) {
+    for (const std::string& output : job.outputs) requireWritable(output, {".exr", ".png"});
+    requireJsonWritable(job.json);
+  }
   if (job.frames.empty()) return;
   parseFrameRange(job.frames);
   for (const std::string& output : job.outputs) frameName(output, 0);
@@ -66,8 +69,9 @@ void checkJob(const RenderJob& job) {
 
 class ImageWriter {
  public:
-  ImageWriter(const RenderJob& job, const OpenScene& open, Progress* progress)
+  ImageWriter(const RenderJob& job, const OpenScene& open, Farm& farm, Progress* progress)
       : job_(job),
+        farm_(farm),
         open_(open),
         progress_(progress),
         renderer_(open.scene, job.common.render, progress),
@@ -85,12 +89,16 @@ class ImageWriter {
     const RenderOptions& options = job_.common.render;
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
     metadata.insert(metadata.end(), more.begin(), more.end());
-    if (job_.resume && std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+    if (farm_.leads() && job_.resume &&
+        std::all_of(files.begin(), files.end(), [&](const std::string& file) {
           return isWhole(file, film_.image, metadata, options);
         })) {
+      farm_.leaveOut();
       return;
     }
-    run_.frames.push_back(renderFrame(renderer_, options.mode, camera, film_, progress_));
+    run_.frames.push_back(renderShared(farm_, renderer_, options, camera, film_, progress_));
+    if (!farm_.leads()) return;
+    if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
     refuseNonFinite(open_.scene, options, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film_.image);
     for (const std::string& file : files) {
@@ -104,6 +112,7 @@ class ImageWriter {
 
  private:
   const RenderJob& job_;
+  Farm& farm_;
   const OpenScene& open_;
   Progress* progress_;
   Renderer renderer_;
@@ -124,24 +133,23 @@ void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Pr
   }
 }
 
-}  // namespace
-
-int renderCommand(const Words& words) {
+int render(const Words& words, Farm& farm) {
   RenderJob job;
   if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
   settleOptions(job.common);
-  checkJob(job);
+  quietUnlessLeading(farm, job.common);
+  checkJob(job, farm);
 
   auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
   const auto open = openScene(job.scenes[0], job.common, progress.get());
-  ImageWriter writer(job, *open, progress.get());
+  ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {
     writer.write(chooseCamera(open->scene, job.common.render), job.outputs);
   } else {
     writePath(job, open->scene, writer, progress.get());
   }
   progress.reset();
-  if (writer.run().frames.empty()) return 0;  // all were there
+  if (!farm.leads() || writer.run().frames.empty()) return 0;  // all were there
   if (!job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
   if (!job.json.empty()) {
     Json json = runJson(writer.run());
@@ -150,6 +158,12 @@ int renderCommand(const Words& words) {
     writeJson(job.json, json);
   }
   return 0;
+}
+
+}  // namespace
+
+int renderCommand(const Words& words) {
+  return Farm::run([&](Farm& farm) { return render(words, farm); });
 }
 
 }  // namespace whit::cli

@@ -22,6 +22,7 @@ void appendSettings(std::string& text, const RunSummary& run) {
   append(text, "%s  %dx%d  %llu triangles  %d thread%s  ", run.scene.c_str(), run.width, run.height,
          static_cast<unsigned long long>(run.triangles), run.machine.threads,
          run.machine.threads == 1 ? "" : "s");
+  if (!run.shares.empty()) append(text, "on each of %d ranks  ", run.shares[0].ranks);
   if (packets) {
     append(text, "packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),
            run.options.batch == Batch::tile ? "a tile" : "the frame");

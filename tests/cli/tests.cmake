@@ -20,3 +20,8 @@ add_test(NAME install.works_where_it_is_put
 add_test(NAME farm.goes_on_after_a_kill
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/farm_test.sh $<TARGET_FILE:whit>)
 set_tests_properties(farm.goes_on_after_a_kill PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+if(WHIT_MPI)
+  add_test(NAME farm.ranks_make_the_same_image
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/mpi_test.sh $<TARGET_FILE:whit>)
+  set_tests_properties(farm.ranks_make_the_same_image PROPERTIES TIMEOUT 300)
+endif()

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Builds whit with Debian 13's Embree 4 and Highway 1.2 beside a system that has others, and runs
+# the tests that reach them. Nothing is installed: their packages are unpacked into
+# build-embree4/debian13, and programs start with the C library that is among them.
+#   tests/embree4.sh            fetch if not there, build, test
+#   tests/embree4.sh --fetch    fetch only
+#   tests/embree4.sh --differ   build, and compare its pictures with those of build/whit
+# Without a network, or on another machine than a 64-bit PC, it says so and succeeds; with CI=true
+# it fails.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$root/build-embree4
+sysroot=$build/debian13
+libraries=$sysroot/usr/lib/x86_64-linux-gnu
+# What meets rays, or differs with the width of vectors.
+tests=(alpha_map analytic effects_law encode_display hard invariance scaling terminator twins)
+
+leaveOut() {
+  echo "!! Embree 4 is NOT checked: $1" >&2
+  if [ -n "${CI:-}" ]; then exit 1; fi
+  exit 0
+}
+
+. "$root/tests/debian13.sh"
+
+configure() {
+  local embree flags
+  embree=$(echo "$libraries"/cmake/embree-4*)
+  flags="-Wl,--allow-shlib-undefined,--disable-new-dtags,-rpath,$libraries"
+  flags+=",--dynamic-linker,$libraries/ld-linux-x86-64.so.2"
+  cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_WERROR=ON \
+    -DWHIT_EMBREE=4 -Dembree_DIR="$embree" -Dhwy_DIR="$libraries/cmake/hwy" \
+    -DCMAKE_EXE_LINKER_FLAGS="$flags" >/dev/null
+}
+
+compile() {
+  cmake --build "$build" --parallel "$(nproc)" --target "$@"
+}
+
+# What a program was built with, "4.3.3 avx2".
+embreeOf() {
+  "$1" bench matte --size 8x8 --frames 1 --json - --quiet | sed -n 's/.*"embree": "\(.*\)".*/\1/p' | head -1
+}
+
+runTests() {
+  local name
+  echo "Embree $(embreeOf "$build/whit")"
+  [[ $(embreeOf "$build/whit") == 4.* ]]
+  for name in "${tests[@]}"; do
+    echo "-- $name"
+    (cd "$build" && WHIT_SOURCE_DIR=$root "tests/${name}_test" --gtest_brief=1 >"$name.log") ||
+      { cat "$build/$name.log"; return 1; }
+    tail -2 "$build/$name.log" | head -1
+  done
+}
+
+# The shipped scenes by both, as a table.
+differ() {
+  local scene work other=$root/build/whit
+  [ -x "$other" ] || { echo "tests/embree4.sh: there is no $other to compare with" >&2; return 2; }
+  work=$(mktemp -d)
+  # shellcheck disable=SC2064  # the folder of now
+  trap "rm -rf '$work'" EXIT
+  echo "Embree $(embreeOf "$build/whit") against Embree $(embreeOf "$other")"
+  echo "| scene | same codes | within one code | largest difference | RMSE |"
+  echo "|---|---:|---:|---:|---:|"
+  for scene in matte whitted glass mirrors atrium landscape ${WHIT_DATA:+sponza-mirror}; do
+    "$build/whit" render "$scene" --size 480x300 -o "$work/4.exr" --quiet
+    "$other" render "$scene" --size 480x300 -o "$work/3.exr" --quiet
+    "$other" compare "$work/4.exr" "$work/3.exr" --quiet | awk -v scene="$scene" '
+      /^RMSE/ { rmse = $NF }
+      /off by 1 or more/ { one = 100 - $(NF - 1) }
+      /off by 2 or more/ { two = 100 - $(NF - 1) }
+      /largest 8-bit/ { most = $NF }
+      END { printf "| %s | %.4f %% | %.4f %% | %d | %s |\n", scene, one, two, most, rmse }'
+  done
+}
+
+# Nothing to unpack where the system has it.
+if [ -n "$(dpkg-query -W -f='${db:Status-Status}' libembree4-4 2>/dev/null | grep -x installed)" ]; then
+  echo "The system's own Embree is 4: every other step of tests/run.sh tests it"
+  exit 0
+fi
+case ${1:-} in
+  "" | --fetch | --differ) ;;
+  *) echo "tests/embree4.sh: unknown option '$1' (--fetch, --differ)" >&2; exit 2 ;;
+esac
+[ "$(uname -m)" = x86_64 ] || leaveOut "this is not a 64-bit PC"
+fetchDebian13 "$sysroot" amd64 libembree-dev libhwy-dev
+[ "${1:-}" = --fetch ] && exit
+configure
+if [ "${1:-}" = --differ ]; then
+  compile whit
+  differ
+else
+  compile whit "${tests[@]/%/_test}"
+  runTests
+fi
