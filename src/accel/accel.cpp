@@ -82,7 +82,8 @@ void emptyLanes(Ray& ray, int* valid, std::size_t live) {
 }
 
 template <int kWidth>
-void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, std::size_t end) {
+void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, std::size_t end,
+               float reach) {
   group.count = 0;
   for (std::size_t i = begin; i < end; i += kWidth, ++group.count) {
     auto& packet = group.packets[group.count];
@@ -94,7 +95,7 @@ void fillGroup(Group<kWidth>& group, const RayColumns& rays, std::size_t begin, 
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
     emptyLanes<kWidth>(packet.ray, group.valid[group.count], end - i);
-    leaveOutBadRays<kWidth>(packet.ray);
+    leaveOutBadRays<kWidth>(packet.ray, reach);
   }
 }
 
@@ -130,7 +131,7 @@ void traceHits(const EmbreeScene& scene, const RayColumns& rays, std::size_t n, 
   for (auto& packet : group.packets) setConstants<kWidth>(packet.ray, kSeenMask);
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t end = std::min(n, begin + kGroup);
-    fillGroup<kWidth>(group, rays, begin, end);
+    fillGroup<kWidth>(group, rays, begin, end, scene.reach());
     const Clock::time_point start = Clock::now();
     for (std::size_t p = 0; p < group.count; ++p) {
       intersect(group.valid[p], scene.top(), context, group.packets[p]);
@@ -158,7 +159,7 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
       loadRay<kWidth>(packet, shadows, i);
       std::memcpy(packet.tfar, shadows.tFar + i, sizeof(packet.tfar));
       emptyLanes<kWidth>(packet, group.valid[group.count], end - i);
-      leaveOutBadRays<kWidth>(packet);
+      leaveOutBadRays<kWidth>(packet, scene.reach());
     }
     const Clock::time_point start = Clock::now();
     for (std::size_t p = 0; p < group.count; ++p) {
@@ -176,7 +177,8 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
   }
 }
 
-RTCRay singleRay(const Vec3f& origin, const Vec3f& direction, float tFar, unsigned mask) {
+RTCRay singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, float tFar,
+                 unsigned mask) {
   RTCRay ray{};
   ray.org_x = origin.x;
   ray.org_y = origin.y;
@@ -186,8 +188,9 @@ RTCRay singleRay(const Vec3f& origin, const Vec3f& direction, float tFar, unsign
   ray.dir_z = direction.z;
   ray.tfar = tFar;
   ray.mask = mask;
-  if (!isTraceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z)) {
-    ray.org_x = ray.org_y = ray.org_z = kNowhere;
+  if (!isTraceable(scene.reach(), origin.x, origin.y, origin.z, direction.x, direction.y,
+                   direction.z)) {
+    ray.org_x = ray.org_y = ray.org_z = 0.25f * scene.reach();
     ray.dir_x = ray.dir_y = 0;
     ray.dir_z = 1;
     ray.tfar = -1;
@@ -195,9 +198,10 @@ RTCRay singleRay(const Vec3f& origin, const Vec3f& direction, float tFar, unsign
   return ray;
 }
 
-RTCRayHit singleRayHit(const Vec3f& origin, const Vec3f& direction) {
+RTCRayHit singleRayHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction) {
   RTCRayHit rayHit{};
-  rayHit.ray = singleRay(origin, direction, std::numeric_limits<float>::infinity(), kSeenMask);
+  rayHit.ray =
+      singleRay(scene, origin, direction, std::numeric_limits<float>::infinity(), kSeenMask);
   rayHit.hit.geomID = rayHit.hit.primID = RTC_INVALID_GEOMETRY_ID;
   rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return rayHit;
@@ -260,7 +264,7 @@ void Accel::findHits(const RayColumns& rays, std::size_t n, bool coherent, const
     default: {
       const Clock::time_point start = Clock::now();
       for (std::size_t i = 0; i < n; ++i) {
-        RTCRayHit r = singleRayHit(originAt(rays, i), directionAt(rays, i));
+        RTCRayHit r = singleRayHit(parts_->embree, originAt(rays, i), directionAt(rays, i));
         QueryContext context(coherent);
         intersect(nullptr, parts_->embree.top(), context, r);
         const bool placed = r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -303,8 +307,8 @@ void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coher
   }
   const Clock::time_point start = Clock::now();
   for (std::size_t i = 0; i < n; ++i) {
-    RTCRay ray =
-        singleRay(originAt(shadows, i), directionAt(shadows, i), shadows.tFar[i], kShadowMask);
+    RTCRay ray = singleRay(parts_->embree, originAt(shadows, i), directionAt(shadows, i),
+                           shadows.tFar[i], kShadowMask);
     QueryContext context(coherent);
     whit::occluded(nullptr, parts_->embree.top(), context, ray);
     visible[shadows.slot[i]] = ray.tfar >= 0 ? 1.0f : 0.0f;
@@ -315,7 +319,7 @@ void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coher
 
 bool Accel::findHit(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
                     std::uint32_t& instance, float& t, float& u, float& v) const noexcept {
-  RTCRayHit r = singleRayHit(origin, direction);
+  RTCRayHit r = singleRayHit(parts_->embree, origin, direction);
   QueryContext context(false);
   intersect(nullptr, parts_->embree.top(), context, r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
@@ -329,7 +333,7 @@ bool Accel::findHit(const Vec3f& origin, const Vec3f& direction, std::uint32_t& 
 }
 
 bool Accel::occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept {
-  RTCRay ray = singleRay(origin, direction, tFar, kShadowMask);
+  RTCRay ray = singleRay(parts_->embree, origin, direction, tFar, kShadowMask);
   QueryContext context(false);
   whit::occluded(nullptr, parts_->embree.top(), context, ray);
   return ray.tfar < 0;

@@ -1,6 +1,9 @@
 #include "accel/embree_scene.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "scene/instance_reach.h"
 
 namespace whit {
 
@@ -114,6 +117,7 @@ void EmbreeScene::addInstances(const Scene& scene) {
   for (std::size_t k = 0; k < scene.instances.size(); ++k) {
     const InstanceRecord& instance = scene.instances[k];
     const Affine& m = instance.toWorld;
+    reach_ = std::min(reach_, instanceReach(m));
     const Vec3f columns[4] = {Vec3f(m.x), Vec3f(m.y), Vec3f(m.z), Vec3f(m.p)};
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, scenes_[instance.geometry]);

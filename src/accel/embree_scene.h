@@ -34,6 +34,8 @@ class EmbreeScene {
   const std::uint32_t* triangleBase(std::size_t placed) const {
     return &triangleBase_[placed * kTriangleClasses];
   }
+  // Rays with an origin or a direction beyond this are left out (see instanceReach).
+  float reach() const { return reach_; }
   // Whether primitive numbers in the world are triangle numbers as they are.
   bool plain() const { return plain_; }
 
@@ -49,6 +51,7 @@ class EmbreeScene {
   std::vector<std::unique_ptr<MaskedGeometry>> masked_;
   std::vector<std::uint32_t> triangleBase_;
   std::atomic<std::uint64_t> bytes_{0};
+  float reach_ = kLargestCoordinate;
   bool plain_ = false;
 };
 

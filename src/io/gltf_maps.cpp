@@ -237,7 +237,7 @@ std::string keyOf(const GltfMaterial& m) {
 
 }  // namespace
 
-GltfMapMaker::GltfMapMaker(const GltfDocument& document) : document_(document) {
+GltfMapMaker::GltfMapMaker(const GltfDocument& document) {
   for (const GltfImageSource& source : document.images()) {
     images_.push_back(std::make_shared<GltfImage>(source, document.warnings()));
   }

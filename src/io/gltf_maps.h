@@ -34,7 +34,6 @@ class GltfMapMaker {
  private:
   std::shared_ptr<GltfImage> image(const GltfTexture& map) const;
 
-  const GltfDocument& document_;
   std::vector<std::shared_ptr<GltfImage>> images_;
   std::map<std::string, GltfMaps> known_;
 };

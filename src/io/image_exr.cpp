@@ -6,15 +6,14 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
-#include <ImfStdIO.h>
 #include <ImfTileDescription.h>
-#include <ImfVersion.h>
 
 #include <algorithm>
 #include <new>
 
 #include "core/error.h"
 #include "io/image_decoders.h"
+#include "io/image_exr.h"
 
 namespace whit {
 
@@ -38,21 +37,10 @@ auto translating(const std::string& path, Use&& use) {
   }
 }
 
-// The first part's header, read by itself: the library's own opening allocates tables of the
-// claimed size.
-Imf::Header readHeader(const std::string& path) {
-  Imf::StdIFStream stream(path.c_str());
-  char beginning[8];
-  stream.read(beginning, 8);
-  int version = 0;
-  for (int i = 0; i < 4; ++i)
-    version |= static_cast<int>(static_cast<unsigned char>(beginning[4 + i]) << (8 * i));
-  Imf::Header header;
-  header.readFrom(stream, version);
-  const bool deep = header.hasType() && Imf::isDeepData(header.type());
-  if (deep || (version & Imf::NON_IMAGE_FLAG) != 0)
+// Throws unless the first part is a flat image.
+void requireFlat(const std::string& path, const Imf::Header& header) {
+  if (header.hasType() && !Imf::isImage(header.type()))
     throwBadScene(path, "expected a flat image, found deep data");
-  return header;
 }
 
 struct Layout {
@@ -160,7 +148,8 @@ bool isExr(const std::vector<std::uint8_t>& beginning) {
 
 ExrPixels decodeExr(const std::string& path, const ImageLimits& limits) {
   return translating(path, [&] {
-    const Imf::Header header = readHeader(path);
+    const Imf::Header header = readExrHeaders(path).front();
+    requireFlat(path, header);
     const Layout layout = layoutOf(path, header);
     const std::size_t channels = layout.channels.size();
     checkSizes(path, header, channels, limits);

@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/image_exr.h"
 #include "io/image_file.h"
 
 namespace whit {
@@ -78,6 +79,7 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
 
 ImageMetadata readExrMetadata(const std::string& path) {
   try {
+    readExrHeaders(path);
     Imf::MultiPartInputFile file(path.c_str());
     const Imf::Header& header = file.header(0);
     ImageMetadata metadata;
@@ -89,6 +91,8 @@ ImageMetadata readExrMetadata(const std::string& path) {
                             text->value());
     }
     return metadata;
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& e) {
     throwBadScene(path, std::string("not a valid OpenEXR image (") + e.what() + ")");
   }

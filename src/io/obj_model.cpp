@@ -37,7 +37,9 @@ std::vector<std::string> libraryNames(const std::string& line, const std::filesy
 ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
                    Warnings& warnings)
     : path_(path), rules_(rules), budget_(budget), warnings_(warnings) {
-  text_.emplace(readTextFile(path, budget.left()), path.string());
+  std::string text = readTextFile(path, budget.left());
+  budget.charge(text.size(), 1, path.string());
+  text_.emplace(std::move(text), path.string());
   readMaterials();
   for (const MtlMaterial& source : sources_) materials_.push_back(source.material);
 }

@@ -173,12 +173,16 @@ void ObjText::readFace(std::size_t begin, std::size_t end) {
   ++summary_.faces;
 }
 
-std::string ObjText::placeOf(std::uint64_t offset) const {
+std::string ObjText::placeOf(std::uint64_t offset) {
   const std::size_t end = std::min<std::size_t>(offset > 0 ? offset - 1 : 0, text_.size());
-  const auto breaks =
-      std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  // Places are asked for in order, and there may be one for every line.
+  if (end < countedTo_) countedTo_ = breaks_ = 0;
+  breaks_ += static_cast<std::uint64_t>(
+      std::count(text_.begin() + static_cast<std::ptrdiff_t>(countedTo_),
+                 text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  countedTo_ = end;
   const auto joined = std::lower_bound(joined_.begin(), joined_.end(), end) - joined_.begin();
-  return file_ + ":" + std::to_string(breaks + joined + 1);
+  return file_ + ":" + std::to_string(breaks_ + static_cast<std::uint64_t>(joined) + 1);
 }
 
 }  // namespace whit

@@ -32,7 +32,7 @@ class ObjText {
   std::string& text() { return text_; }
   const std::string& file() const { return file_; }
   // "file:line" of the line that ends before `offset`.
-  std::string placeOf(std::uint64_t offset) const;
+  std::string placeOf(std::uint64_t offset);
 
  private:
   void mendLineEnds();
@@ -44,6 +44,8 @@ class ObjText {
   std::string text_, file_;
   std::vector<std::uint64_t> joined_;  // offsets of line ends that became spaces
   std::uint64_t line_ = 1;
+  std::size_t countedTo_ = 0;  // where placeOf() has counted to
+  std::uint64_t breaks_ = 0;   // the lines that end before that
   std::set<std::string> seenMaterials_, seenLibraries_;
   ObjSummary summary_;
 };

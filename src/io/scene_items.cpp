@@ -8,6 +8,7 @@
 #include "core/nearest_name.h"
 #include "io/scene_transform.h"
 #include "io/shape_parameters.h"
+#include "scene/generation_limit.h"
 
 namespace whit {
 namespace {
@@ -82,6 +83,9 @@ void ItemReader::readItems(const JsonValue& list, Body& to) {
 }
 
 void ItemReader::readItem(const JsonValue& value, Body& to) {
+  if (++depth_ > kNestingLimit) {
+    throwBadScene(value.where(), "nested deeper than " + std::to_string(kNestingLimit) + " items");
+  }
   JsonObject item(value);
   Body content;
   if (const auto shape = item.find("shape")) {
@@ -99,10 +103,12 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   const std::vector<Affine> placements = readPlacements(item);
   item.finish();
   layout_.append(content, placements, to);
+  --depth_;
 }
 
 Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
   JsonShapeParameters parameters(item);
+  const GenerationLimit limit(context_.budget.left());
   Shape shape = findGenerator(name, shapeGenerators())(parameters);
   const auto everywhere = item.find("material");
   const auto bySlot = item.find("materials");

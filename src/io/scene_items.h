@@ -46,6 +46,7 @@ class ItemReader {
   MaterialReader& materials_;
   SceneLayout layout_;
   std::map<std::string, NamedObject> objects_;
+  int depth_ = 0;  // of the item that is being read
 };
 
 }  // namespace whit

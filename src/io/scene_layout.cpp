@@ -1,6 +1,10 @@
 #include "io/scene_layout.h"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "core/error.h"
 
 namespace whit {
 namespace {
@@ -13,15 +17,35 @@ std::uint64_t saturatingSum(std::uint64_t a, std::uint64_t b) {
 }
 
 // Bodies reachable from `body`, each behind all that it holds.
-void orderBodies(const std::deque<Body>& bodies, std::uint32_t body, std::vector<bool>& seen,
-                 std::vector<std::uint32_t>& order) {
-  if (seen[body]) return;
-  seen[body] = true;
-  for (const Placement& child : bodies[body].children) {
-    orderBodies(bodies, child.body, seen, order);
+class BodyOrder {
+ public:
+  explicit BodyOrder(const std::deque<Body>& bodies) : bodies_(bodies), heights_(bodies.size()) {}
+
+  std::vector<std::uint32_t> below(std::uint32_t body) {
+    visit(body, 0);
+    return std::move(order_);
   }
-  order.push_back(body);
-}
+
+ private:
+  // How many bodies are within one another, from `body` down. A body that is met again may be met
+  // deeper than before.
+  int visit(std::uint32_t body, int depth) {
+    if (depth + std::max(heights_[body], 1) > kNestingLimit) {
+      throwLimit("objects are nested deeper than " + std::to_string(kNestingLimit));
+    }
+    if (heights_[body] > 0) return heights_[body];
+    int height = 1;
+    for (const Placement& child : bodies_[body].children) {
+      height = std::max(height, 1 + visit(child.body, depth + 1));
+    }
+    order_.push_back(body);
+    return heights_[body] = height;
+  }
+
+  const std::deque<Body>& bodies_;
+  std::vector<int> heights_;  // 0: not met yet
+  std::vector<std::uint32_t> order_;
+};
 
 }  // namespace
 
@@ -48,9 +72,7 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
 }
 
 void SceneLayout::moveTo(SceneDescription& scene) {
-  std::vector<std::uint32_t> order;
-  std::vector<bool> seen(bodies_.size());
-  orderBodies(bodies_, 0, seen, order);
+  const std::vector<std::uint32_t> order = BodyOrder(bodies_).below(0);
   counts_.assign(bodies_.size(), 0);
   objects_.assign(bodies_.size(), kNoObject);
   counts_[0] = 1;

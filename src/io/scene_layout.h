@@ -13,6 +13,9 @@
 
 namespace whit {
 
+// Items within items, by "group" or "use".
+inline constexpr int kNestingLimit = 256;
+
 // What a mesh takes in memory.
 std::uint64_t bytesOf(const Mesh& mesh);
 
@@ -46,6 +49,7 @@ class SceneLayout {
   // Fills in objects and instances. A body that is placed once adds its meshes to the world one by
   // one, each with its own map, so that vertices are rounded once; one that is placed more often
   // becomes an object with an instance for each place. Leaves the layout without its meshes.
+  // Throws Error(limit) where bodies are nested deeper than kNestingLimit.
   void moveTo(SceneDescription& scene);
 
  private:

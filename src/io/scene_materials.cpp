@@ -1,10 +1,12 @@
 #include "io/scene_materials.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/shape_parameters.h"
+#include "scene/generation_limit.h"
 
 namespace whit {
 namespace {
@@ -39,7 +41,8 @@ void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
   }
 }
 
-Texture makePattern(const JsonValue& definition) {
+Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
+  const GenerationLimit limit(mostBytes);
   JsonObject object(definition);
   const JsonValue pattern = object.need("pattern");
   JsonShapeParameters parameters(object);
@@ -109,8 +112,8 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
                                   TextureUse use) {
   JsonObject object(definition);
   if (object.has("pattern")) {
-    return context_.textures.add([definition, name, use] {
-      Texture made = makePattern(definition);
+    return context_.textures.add([definition, name, use, &budget = context_.budget] {
+      Texture made = makePattern(definition, budget.left());
       if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
       made.name = name.text();
       return made;
@@ -145,7 +148,9 @@ void MaterialReader::checkUnused() {
     JsonObject object(texture.definition);
     const auto as = object.find("as");
     if (object.has("pattern")) {
-      context_.textures.add([definition = texture.definition] { return makePattern(definition); });
+      context_.textures.add([definition = texture.definition, &budget = context_.budget] {
+        return makePattern(definition, budget.left());
+      });
     } else {
       const bool data = as && as->word(useNames()) == "data";
       load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::colour);

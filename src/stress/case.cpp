@@ -29,6 +29,7 @@ std::vector<Family> families() {
           {"watertightness", watertightnessCases()},
           {"odd directions", oddDirectionCases()},
           {"degenerate geometry", degenerateGeometryCases()},
+          {"random scenes", randomSceneCases()},
           {"shading normals", shadingNormalCases()},
           {"refraction", refractionCases()},
           {"nested dielectrics", nestedDielectricCases()},

@@ -84,6 +84,7 @@ std::span<const Case> thinPlaceCases();
 std::span<const Case> watertightnessCases();
 std::span<const Case> oddDirectionCases();
 std::span<const Case> degenerateGeometryCases();
+std::span<const Case> randomSceneCases();
 std::span<const Case> shadingNormalCases();
 std::span<const Case> refractionCases();
 std::span<const Case> nestedDielectricCases();

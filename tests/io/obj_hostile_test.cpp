@@ -101,5 +101,14 @@ TEST_F(ObjHostile, MemoryIsCheckedBeforeItIsTaken) {
   EXPECT_EQ(errorOfObj(text).substr(0, 8), "5 m.obj ");
 }
 
+// Counting lines from the top for each of them would take minutes.
+TEST_F(ObjHostile, EveryFaceMayBeBad) {
+  constexpr std::uint64_t kFaces = 300'000;
+  std::string text = kTriangle;
+  for (std::uint64_t i = 0; i < kFaces; ++i) text += "f 1 2 9\n";
+  EXPECT_EQ(triangleCount(loadObj(text)), 1u);
+  EXPECT_EQ(warned("face with a vertex index out of range dropped"), kFaces);
+}
+
 }  // namespace
 }  // namespace whit

@@ -199,5 +199,43 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
             "3 s.json#/scene/0/materials/x/difuse: unknown key; is \"diffuse\" meant?");
 }
 
+// Far deeper than any scene, in the order that is read by recursion and in the one that is not.
+TEST_F(SceneItems, NestingHasALimit) {
+  const auto chain = [](int length, bool innerFirst) {
+    std::string objects;
+    for (int i = 0; i <= length; ++i) {
+      const int o = innerFirst ? length - i : i;
+      const std::string inner =
+          o == length ? "{\"shape\": \"quad\"}" : "{\"use\": \"o" + std::to_string(o + 1) + "\"}";
+      objects += (i > 0 ? ", \"o" : "\"o") + std::to_string(o) + "\": [" + inner + "]";
+    }
+    return "\"objects\": {" + objects + "}, \"scene\": [{\"use\": \"o0\"}]";
+  };
+  EXPECT_EQ(triangleCount(loadMembers(chain(200, false))), 2u);
+  EXPECT_EQ(triangleCount(loadMembers(chain(200, true))), 2u);
+  EXPECT_EQ(errorOfMembers(chain(4000, false)),
+            "3 s.json#/objects/o256/0: nested deeper than 256 items");
+  EXPECT_EQ(errorOfMembers(chain(4000, true)), "5 objects are nested deeper than 256");
+}
+
+// What a few words ask for is refused before the memory is taken.
+TEST_F(SceneItems, ShapesAndPatternsKeepToTheMemoryLimit) {
+  options_.maxMemoryBytes = 64 << 20;
+  for (const char* item :
+       {"\"vault\", \"baysX\": 1000, \"baysZ\": 1000, \"segments\": 2048", "\"grid\", \"nx\": 4096",
+        "\"sphere\", \"segments\": 4096, \"rings\": 4096",
+        "\"colonnade\", \"columns\": 10000, \"segments\": 4096, \"rings\": 4096",
+        "\"icosphere\", \"level\": 9", "\"rock\", \"level\": 8",
+        "\"curtain\", \"nx\": 4096, \"ny\": 4096", "\"forest\", \"trees\": 1e7, \"leaves\": 10"}) {
+    const std::string error = errorOfMembers("\"scene\": [{\"shape\": " + std::string(item) + "}]");
+    EXPECT_EQ(error.substr(0, 21), "5 a shape or a patter") << item << ": " << error;
+  }
+  for (const char* pattern : {"checker", "bricksNormals", "noise"}) {
+    const std::string error = errorOfMembers("\"textures\": {\"t\": {\"pattern\": \"" +
+                                             std::string(pattern) + "\", \"size\": 8192}}");
+    EXPECT_EQ(error.substr(0, 21), "5 a shape or a patter") << pattern << ": " << error;
+  }
+}
+
 }  // namespace
 }  // namespace whit

@@ -1,14 +1,21 @@
 #include "scene/patterns/paint.h"
 
+#include "scene/generation_limit.h"
+
 namespace whit::procedural {
 namespace {
 
+std::size_t texelsOf(int side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+}
+
 Texture blank(const std::string& name, int side, TexelFormat format) {
+  GenerationLimit::charge(texelsOf(side), sizeof(std::uint32_t));
   Texture texture;
   texture.name = name;
   texture.format = format;
   texture.width = texture.height = side;
-  texture.texels.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  texture.texels.reserve(texelsOf(side));
   return texture;
 }
 
@@ -34,7 +41,8 @@ Texture paintColour(const std::string& name, int side, const ColourFormula& colo
 Texture paintNormals(const std::string& name, int side, const ScalarFormula& height) {
   Texture texture = blank(name, side, TexelFormat::data);
   std::vector<double> heights;
-  heights.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  GenerationLimit::charge(texelsOf(side), sizeof(double));
+  heights.reserve(texelsOf(side));
   forEachTexel(side, [&](double u, double v) { heights.push_back(height(u, v)); });
   const auto at = [&](int row, int column) {
     const int r = (row + side) % side, c = (column + side) % side;

@@ -1,3 +1,4 @@
+#include "scene/generation_limit.h"
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/mesh_builder.h"
@@ -64,6 +65,7 @@ Shape makeForest(ShapeParameters& parameters) {
     }
     // A little below the ground, which is coarser as a mesh than as a function.
     const double sink = 0.02 * scale;
+    GenerationLimit::charge(1, sizeof(Affine));
     shape.placements.push_back(Affine::translation({x, y - sink, z}) *
                                Affine::rotation({0, 1, 0}, turnBy) *
                                Affine::scaling({scale, scale, scale}));

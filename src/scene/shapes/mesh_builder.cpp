@@ -1,12 +1,29 @@
 #include "scene/shapes/mesh_builder.h"
 
+#include <limits>
 #include <utility>
 
+#include "scene/generation_limit.h"
+
 namespace whit::procedural {
+namespace {
+
+constexpr std::uint64_t kVertexBytes = 2 * sizeof(Vec3f) + sizeof(Vec2f);
+constexpr std::uint64_t kTriangleBytes = 3 * sizeof(std::uint32_t);
+
+std::uint64_t nodesOf(int nu, int nv) {
+  return (static_cast<std::uint64_t>(nu) + 1) * (static_cast<std::uint64_t>(nv) + 1);
+}
+
+}  // namespace
 
 std::uint32_t MeshBuilder::vertex(const SurfacePoint& point) {
   // Adding zero turns -0 into +0, so that equal positions have equal bits.
   const Vec3d p = point.position + Vec3d(0.0);
+  GenerationLimit::charge(1, kVertexBytes);
+  if (mesh_.positions.size() == std::numeric_limits<std::uint32_t>::max()) {
+    throwLimit("a shape has more than 2^32 - 1 vertices");
+  }
   mesh_.positions.emplace_back(p);
   if (shading_ == Shading::smooth) {
     mesh_.normals.emplace_back(normalized(point.normal, Vec3d{0, 1, 0}));
@@ -18,6 +35,7 @@ std::uint32_t MeshBuilder::vertex(const SurfacePoint& point) {
 void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto& p = mesh_.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
+  GenerationLimit::charge(1, kTriangleBytes);
   mesh_.triangles.push_back({a, b, c});
 }
 
@@ -52,6 +70,7 @@ void MeshBuilder::plate(const std::array<Vec3d, 4>& corners, double repeat) {
 }
 
 void MeshBuilder::sheet(int nu, int nv, const std::function<SurfacePoint(int, int)>& at) {
+  GenerationLimit::require(nodesOf(nu, nv), kVertexBytes);
   const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   const auto row = static_cast<std::uint32_t>(nu) + 1;
   for (int j = 0; j <= nv; ++j) {
@@ -68,6 +87,7 @@ void MeshBuilder::sheet(int nu, int nv, const std::function<SurfacePoint(int, in
 void MeshBuilder::smoothSheet(int nu, int nv, bool wrapU,
                               const std::function<Vec3d(int, int)>& position,
                               const std::function<Uv(int, int)>& uv) {
+  GenerationLimit::charge(nodesOf(nu, nv), sizeof(Vec3d));
   const auto row = static_cast<std::size_t>(nu) + 1;
   std::vector<Vec3d> points(row * (static_cast<std::size_t>(nv) + 1));
   const auto point = [&](int i, int j) -> Vec3d& {

@@ -1,6 +1,7 @@
 #include <map>
 #include <utility>
 
+#include "scene/generation_limit.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/icosphere.h"
 #include "scene/shapes/mesh_builder.h"
@@ -41,6 +42,8 @@ Shape makeSphere(ShapeParameters& parameters) {
 }
 
 std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level) {
+  // A triangle has half a vertex.
+  GenerationLimit::charge(20ull << (2 * level), 3 * sizeof(std::uint32_t) + sizeof(Vec3d) / 2);
   const double g = 1.6180339887498948482;
   std::vector<Vec3d> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
                             {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},

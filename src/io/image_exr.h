@@ -1,0 +1,16 @@
+// The beginning of OpenEXR files; for the files of this folder that link OpenEXR.
+#pragma once
+
+#include <ImfHeader.h>
+
+#include <string>
+#include <vector>
+
+namespace whit {
+
+// The headers of all parts, before the library opens the file: it would allocate whatever the
+// attributes and the tables of chunks claim to take. Throws Error(badScene) where they claim more
+// than the file holds, and what OpenEXR throws.
+std::vector<Imf::Header> readExrHeaders(const std::string& path);
+
+}  // namespace whit

@@ -1,0 +1,39 @@
+// The corpus, and damaged versions of it, given to the readers.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fuzz/damage.h"
+#include "fuzz/readers.h"
+
+namespace whit::fuzz {
+namespace {
+
+class Replay : public testing::TestWithParam<Reader> {};
+
+TEST_P(Replay, EveryFileIsReadOrRefused) {
+  int read = 0;
+  for (const std::filesystem::path& file : corpusOf(GetParam())) {
+    SCOPED_TRACE(file.filename());
+    EXPECT_NO_THROW(read += give(GetParam(), bytesOfFile(file)) == Answer::read);
+  }
+  EXPECT_GT(read, 0) << "nothing of the corpus can be read at all";
+}
+
+// Some of each file; tests/fuzz/run.sh tries as many as there is time for.
+TEST_P(Replay, DamagedFilesAreReadOrRefused) {
+  constexpr std::uint32_t kVersions = 24;
+  for (const std::filesystem::path& file : corpusOf(GetParam())) {
+    const std::vector<std::uint8_t> whole = bytesOfFile(file);
+    for (std::uint32_t seed = 0; seed < kVersions; ++seed) {
+      SCOPED_TRACE(file.filename().string() + ", seed " + std::to_string(seed));
+      EXPECT_NO_THROW(give(GetParam(), damaged(whole, seed)));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Readers, Replay, testing::ValuesIn(readers()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace whit::fuzz

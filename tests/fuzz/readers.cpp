@@ -1,0 +1,219 @@
+#include "fuzz/readers.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "core/error.h"
+#include "io/image_file.h"
+#include "io/load_scene.h"
+#include "io/mtl_reader.h"
+#include "io/raw_channels.h"
+#include "scene/scene.h"
+
+namespace whit::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Small enough for thousands of files a second, large enough for all of a corpus.
+constexpr std::uint64_t kMemoryLimit = 64u << 20, kImageLimit = 8u << 20;
+
+// A folder with a file to read and, beside it, files that it may name. Gone with the program.
+class WorkFolder {
+ public:
+  WorkFolder() : path_(fs::temp_directory_path() / ("whit-fuzz-" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+    ::setenv("WHIT_DATA", path_.c_str(), 1);  // whatever a file names is looked for here
+    const std::pair<const char*, const char*> beside[] = {{"png/rgb.png", "t.png"},
+                                                          {"hdr/flat.hdr", "t.hdr"},
+                                                          {"obj/triangle.obj", "t.obj"},
+                                                          {"mtl/plain.mtl", "t.mtl"},
+                                                          {"ply/ascii.ply", "t.ply"}};
+    for (const auto& [from, to] : beside) {
+      fs::copy_file(corpusFolder() / from, path_ / to, fs::copy_options::overwrite_existing);
+    }
+  }
+  ~WorkFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  fs::path save(std::span<const std::uint8_t> bytes, const std::string& extension) const {
+    const fs::path file = path_ / ("input" + extension);
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size()));
+    if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+    return file;
+  }
+
+ private:
+  fs::path path_;
+};
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("the reader let through ") + what);
+}
+
+void checkScene(const Scene& scene) {
+  for (const TriangleRecord& triangle : scene.triangles) {
+    for (const float x : triangle.position) {
+      require(std::abs(x) <= kLargestCoordinate, "a corner that is not finite");
+    }
+    for (const float x : triangle.uv) require(std::isfinite(x), "a coordinate that is no number");
+    require(triangle.material < scene.materials.size(), "a material that is not there");
+  }
+  for (const NormalRecord& record : scene.normals) {
+    for (const float x : record.normal) require(std::isfinite(x), "a normal that is no number");
+  }
+  for (const Geometry& geometry : scene.geometries) {
+    for (const auto& triangle : geometry.index) {
+      for (const std::uint32_t i : triangle) {
+        require(i < geometry.position.size(), "an index out of range");
+      }
+    }
+  }
+  for (const InstanceRecord& instance : scene.instances) {
+    require(instance.geometry < scene.geometries.size(), "an instance of nothing");
+  }
+  const std::int32_t textures = static_cast<std::int32_t>(scene.textures.size());
+  for (const Material& m : scene.materials) {
+    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.normalMap, m.alphaMap}) {
+      require(map == kNoTexture || (map >= 0 && map < textures), "a texture that is not there");
+    }
+  }
+  require(!scene.cameras.empty(), "a scene without a camera");
+}
+
+void checkTexture(const Texture& texture) {
+  require(texture.width > 0 && texture.height > 0 &&
+              texture.texels.size() == static_cast<std::size_t>(texture.width) *
+                                           static_cast<std::size_t>(texture.height),
+          "a texture without its texels");
+}
+
+void readScene(const fs::path& file) {
+  LoadOptions options;
+  options.maxMemoryBytes = kMemoryLimit;
+  options.threads = 1;
+  Warnings warnings;
+  checkScene(Scene::finalize(loadScene(file.string(), options, warnings), warnings));
+}
+
+// Materials are read whole, textures included, whatever their names are.
+void readMaterials(const fs::path& file) {
+  Warnings warnings;
+  std::map<std::string, MtlMaterial> materials;
+  readMtl(file, materials, warnings);
+  MemoryBudget budget(kMemoryLimit);
+  TextureLoader textures(1, budget, warnings, nullptr);
+  const PathRules rules(file.parent_path(), false);
+  SceneDescription scene;
+  for (const auto& [name, source] : materials) {
+    scene.materials.push_back(loadTextures(source, file.parent_path(), rules, textures));
+  }
+  textures.finish(scene);
+  for (const Texture& texture : scene.textures) checkTexture(texture);
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+    mesh.triangles.push_back({0, 1, 2});
+    mesh.materials.push_back(i);
+  }
+  if (mesh.triangles.empty()) return;
+  scene.objects.push_back({"", {mesh}});
+  scene.instances.push_back({0, Affine()});
+  checkScene(Scene::finalize(std::move(scene), warnings));
+}
+
+// As a texture of every kind, a sky, and a picture to compare.
+void readImageFile(const fs::path& file) {
+  ImageLimits limits;
+  limits.bytes = kImageLimit;
+  Warnings warnings;
+  const RawImage raw = readRawImage(file.string(), limits, warnings);
+  for (const float value : raw.values) {
+    require(value >= 0 && std::isfinite(value), "a texel that is no radiance");
+  }
+  checkTexture(makeTexture("t", raw, TexelFormat::colour));
+  checkTexture(makeTexture("t", raw, TexelFormat::data));
+  checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
+  if (hasTranslucentAlpha(raw)) checkTexture(makeTexture("t", alphaOf(raw), TexelFormat::data));
+  require(!makeEnvironment(raw).r.empty(), "a sky without pixels");
+  readImage(file.string(), limits, warnings);
+}
+
+void readPng(const fs::path& file) {
+  readImageFile(file);
+  readPngMetadata(file.string());
+}
+
+void readExr(const fs::path& file) {
+  readImageFile(file);
+  readExrMetadata(file.string());
+}
+
+bool mayCause(ExitStatus status) {
+  return status == ExitStatus::badScene || status == ExitStatus::limit || status == ExitStatus::io;
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all = {
+      {"scene", ".json", readScene},   {"obj", ".obj", readScene},
+      {"mtl", ".mtl", readMaterials},  {"gltf", ".gltf", readScene},  // .glb by its signature
+      {"ply", ".ply", readScene},      {"png", ".png", readPng},
+      {"jpeg", ".jpg", readImageFile}, {"tga", ".tga", readImageFile},
+      {"bmp", ".bmp", readImageFile},  {"hdr", ".hdr", readImageFile},
+      {"exr", ".exr", readExr}};
+  return all;
+}
+
+const Reader& readerNamed(const std::string& name) {
+  for (const Reader& reader : readers()) {
+    if (reader.name == name) return reader;
+  }
+  throw std::logic_error("there is no reader " + name);
+}
+
+Answer give(const Reader& reader, std::span<const std::uint8_t> bytes) {
+  static const WorkFolder folder;
+  try {
+    reader.read(folder.save(bytes, reader.extension));
+  } catch (const Error& error) {
+    if (mayCause(error.status())) return Answer::refused;
+    throw std::logic_error(std::string("an error of the wrong kind: ") + error.what());
+  } catch (const std::exception& error) {
+    throw std::logic_error(reader.name + ": " + error.what());
+  }
+  return Answer::read;
+}
+
+fs::path corpusFolder() { return WHIT_FUZZ_CORPUS; }
+
+std::vector<fs::path> corpusOf(const Reader& reader) {
+  const fs::directory_iterator folder(corpusFolder() / reader.name);
+  std::vector<fs::path> files(fs::begin(folder), fs::end(folder));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::uint8_t> bytesOfFile(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace whit::fuzz
