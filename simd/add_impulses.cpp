@@ -5,7 +5,9 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
 #include "simd/fresnel-inl.h"
+#include "simd/glossy-inl.h"
 #include "simd/media-inl.h"
+#include "simd/path_numbers-inl.h"
 #include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -79,17 +81,17 @@ HWY_INLINE Interface InterfaceOf(const ShadingTables& tables, const ImpulseLanes
 // Appends the children of the lanes that are worth tracing; returns how many.
 struct Child {
   V3 origin, direction, weight;
-  VU media;
+  VU media, path;
+  VF largest;  // of the weight, for the cutoff
 };
 
 HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayColumns& rays,
                          size_t i, const RayColumns& children, size_t at) {
   const FloatTag d;
   const UintTag du;
-  const VF largest = MaxComponent(child.weight);
-  const VF throughput = hn::Mul(hn::Load(d, rays.throughput + i), largest);
-  const MF traced =
-      hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))));
+  const VF throughput = hn::Mul(hn::Load(d, rays.throughput + i), child.largest);
+  const MF worth = hn::Ge(throughput, hn::Set(d, cutoff));
+  const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
@@ -97,8 +99,27 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
   compactor.Store(child.weight, children.weightR, children.weightG, children.weightB, at);
   compactor.Store(throughput, children.throughput + at);
   if (children.media) compactor.Store(child.media, children.media + at);
+  if (children.path) compactor.Store(child.path, children.path + at);
   compactor.Store(hn::Iota(du, static_cast<uint32_t>(i)), children.parent + at);
   return compactor.Count();
+}
+
+// The numbers of the paths, where there are any, and of their children.
+HWY_INLINE VU PathsAt(const RayColumns& rays, size_t i) {
+  const UintTag du;
+  return rays.path ? hn::Load(du, rays.path + i) : hn::Zero(du);
+}
+HWY_INLINE VU ChildPathsAt(const RayColumns& rays, size_t i, uint32_t branch) {
+  return rays.path ? ChildPath(PathsAt(rays, i), branch) : hn::Zero(UintTag());
+}
+
+// A reflected direction, lifted where a bent normal would send it below the surface (numerics H32).
+HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
+  const FloatTag d;
+  const VF height = Dot(r, ng);
+  const MF low = hn::Lt(height, lift);
+  if (HWY_LIKELY(hn::AllFalse(d, hn::And(low, live)))) return r;
+  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(lift, height), r), ng), r);
 }
 
 HWY_INLINE V3 ChildOrigin(const ShadingTables& tables, const SurfelColumns& surfels,
@@ -130,19 +151,56 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
                                       InterfaceOf(tables, lanes, rays, surfels, i).reflectance);
       weight = Add3(weight, {f, f, f});
     }
-    // d - 2 (d.n) n, lifted where a bent normal would send it below the surface (numerics H32).
+    // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
-    V3 r = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
-    const VF height = Dot(r, lanes.ng);
-    const VF lift = LeastElevation(tables, lanes.facing);
-    const MF low = hn::Lt(height, lift);
-    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(low, lanes.live)))) {
-      const V3 lifted = NormalizeOr(MulAdd3(lanes.ng, hn::Sub(lift, height), r), lanes.ng);
-      r = Select3(low, lifted, r);
-    }
+    const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
+    const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(tables, lanes.facing), lanes.live);
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
-    const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f), r, weight, media};
+    const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f),
+                      r,
+                      weight,
+                      media,
+                      ChildPathsAt(rays, i, kMirroredBranch),
+                      MaxComponent(weight)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
+  }
+  return count - first;
+}
+
+size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
+                            const LobeSampling& sampling, const RayColumns& rays,
+                            const SurfelColumns& surfels, size_t n, const RayColumns& children,
+                            size_t first) {
+  const FloatTag d;
+  const UintTag du;
+  const bool transmission = effects.has(Effect::transmission);
+  const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
+  size_t count = first;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes =
+        LoadImpulseLanes(tables, transmission, kMaterialScatters, rays, surfels, i);
+    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const GlossyLobes lobes = LoadGlossyLobes(surfels, lanes.direction, lanes.ns, i);
+    const VF counts = hn::IfThenElse(lobes.rough, share, one);
+    const V3 origin = ChildOrigin(tables, surfels, lanes, i, 1.0f);
+    const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
+    const VU path = PathsAt(rays, i);
+    // A smooth lobe is one impulse.
+    for (uint32_t k = 0; k < sampling.count; ++k) {
+      const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, lobes.rough);
+      if (hn::AllFalse(d, sampled)) break;
+      const LobeSample sample = SampleLobe(lobes, LobePoints(path, sampling, k));
+      const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
+      const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(tables, sample.cosine), live);
+      const Child child{origin,
+                        r,
+                        Scale3(sample.weight, counts),
+                        media,
+                        ChildPath(path, kFirstGlossyBranch + k),
+                        MaxComponent(sample.weight)};
+      count += Append(child, live, cutoff, rays, i, children, count);
+    }
   }
   return count - first;
 }
@@ -177,8 +235,12 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
-    const Child child{ChildOrigin(tables, surfels, lanes, i, -1.0f), r, weight,
-                      hn::Load(du, surfels.mediaBehind + i)};
+    const Child child{ChildOrigin(tables, surfels, lanes, i, -1.0f),
+                      r,
+                      weight,
+                      hn::Load(du, surfels.mediaBehind + i),
+                      ChildPathsAt(rays, i, kRefractedBranch),
+                      MaxComponent(weight)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }
   return count - first;
@@ -209,6 +271,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whit::simd {
 HWY_EXPORT(AddReflections);
+HWY_EXPORT(AddGlossyReflections);
 HWY_EXPORT(AddRefractions);
 HWY_EXPORT(ReturnImpulses);
 
@@ -217,6 +280,13 @@ std::size_t addReflections(const ShadingTables& tables, EffectSet effects, float
                            const RayColumns& children, std::size_t first) noexcept {
   return HWY_DYNAMIC_DISPATCH(AddReflections)(tables, effects, cutoff, rays, surfels, n, children,
                                               first);
+}
+std::size_t addGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
+                                 const LobeSampling& sampling, const RayColumns& rays,
+                                 const SurfelColumns& surfels, std::size_t n,
+                                 const RayColumns& children, std::size_t first) noexcept {
+  return HWY_DYNAMIC_DISPATCH(AddGlossyReflections)(tables, effects, cutoff, sampling, rays,
+                                                    surfels, n, children, first);
 }
 std::size_t addRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
                            const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,

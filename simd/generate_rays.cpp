@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/vec3-inl.h"
+#include "simd/path_numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -32,6 +32,7 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, static_cast<uint32_t>(i)), du, rays.parent + i);
     if (rays.media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
+    if (rays.path) hn::Store(PathOfPixel(packed, camera.sampleNumber), du, rays.path + i);
   }
 }
 

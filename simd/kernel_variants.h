@@ -65,6 +65,7 @@ inline constexpr std::array kKernels{
     kFindRadianceAndShadowRays,
     Kernel{"addShading", Stage::addShading, {}},
     Kernel{"addReflections", Stage::addImpulses, {}},
+    Kernel{"addGlossyReflections", Stage::addImpulses, {}},
     Kernel{"addRefractions", Stage::addImpulses, {}},
     Kernel{"returnImpulses", Stage::addImpulses, {}},
     Kernel{"encodeDisplay", Stage::updateImage, {}},

@@ -13,6 +13,7 @@
 
 #include "core/effects.h"
 #include "core/options.h"
+#include "core/path_numbers.h"
 #include "scene/camera.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
@@ -24,11 +25,12 @@ struct CameraRays {
   Vec3f eye, forward, right, up;
   float halfWidth = 0, halfHeight = 0;
   float sampleX = 0.5f, sampleY = 0.5f;
-  std::uint32_t media = 0;  // CameraFrame's
+  std::uint32_t media = 0;         // CameraFrame's
+  std::uint32_t sampleNumber = 0;  // the sample's place in the pattern
 };
 
 // Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =
-// slot, and the media around the eye.
+// slot, the media around the eye, and the number of the path.
 void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
                   const RayColumns& rays) noexcept;
 
@@ -69,6 +71,14 @@ std::size_t addReflections(const ShadingTables& tables, EffectSet effects, float
 std::size_t addRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
                            const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
                            const RayColumns& children, std::size_t first) noexcept;
+
+// Samples of the surfels' glossy lobes, each written with its share of the weight; whether it is
+// worth tracing is decided as if it were the whole lobe. `children` must have room for n times
+// sampling.count; paths and glossy columns must be there.
+std::size_t addGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
+                                 const LobeSampling& sampling, const RayColumns& rays,
+                                 const SurfelColumns& surfels, std::size_t n,
+                                 const RayColumns& children, std::size_t first) noexcept;
 
 // The way back: parent radiance += weight * radiance, child by child in slot order.
 void returnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, std::size_t n,

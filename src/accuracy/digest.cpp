@@ -98,10 +98,11 @@ void add(Digester& d, const InstanceRecord& instance) {
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
-  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, emission, normalMap,
-               alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior, absorption,
-               priority, castsShadow] = material;
+  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, glossyReflection,
+               emission, normalMap, alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior,
+               absorption, priority, castsShadow] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
+  add(d, glossyReflection);
   add(d, emission), add(d, normalMap), add(d, alphaMap), add(d, alphaCutoff), add(d, mirror);
   add(d, mirrorGrazing), add(d, transmission), add(d, ior), add(d, absorption), add(d, priority);
   add(d, castsShadow);

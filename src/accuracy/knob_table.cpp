@@ -51,6 +51,9 @@ std::string withoutImpulses(EffectSet effects) {
   if (effects.has(Effect::mirror) || effects.has(Effect::transmission)) return {};
   return "nothing in the scene reflects or refracts";
 }
+std::string withoutGlossyReflection(EffectSet effects) {
+  return effects.has(Effect::glossyReflection) ? "" : "no glossy lobe in the scene reflects it";
+}
 std::string withoutTransmission(EffectSet effects) {
   return effects.has(Effect::transmission) ? "" : "nothing in the scene is transparent";
 }
@@ -91,6 +94,9 @@ Knob cutoffKnob() {
   knob.makeExact = [](O& o, const Exactness& exactness) { o.cutoff = exactness.cutoff; };
   return knob;
 }
+
+// Of lobes, a sample of a pixel of the reference. That has many of those.
+constexpr int kExactGlossy = 4;
 
 // Adaptive supersampling is a saving on so many samples.
 constexpr int kAdaptiveSpp = 16;
@@ -150,6 +156,13 @@ std::vector<Knob> makeKnobs() {
                    {2, 4, 8}},
                   withoutImpulses),
       cutoffKnob(),
+      knobOf<int>({"glossy",
+                   [](O& o) -> int& { return o.glossy; },
+                   kSampling,
+                   kExactGlossy,
+                   {0, 1, 4, 16},
+                   {}},
+                  withoutGlossyReflection),
       knobOf<float>({"light-cutoff",
                      [](O& o) -> float& { return o.shading.lightCutoff; },
                      kAlgorithm,

@@ -58,7 +58,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
-    if (has.has(effect)) add(kEffectNames[static_cast<std::size_t>(effect)].name, kept);
+    const bool left = effect == Effect::glossyReflection && job.common.render.glossy == 0;
+    if (has.has(effect) && !left) add(kEffectNames[static_cast<std::size_t>(effect)].name, kept);
   }
   takeTurns(runs, Turns{3, job.frames, false}, progress);
   for (std::size_t i = 0; i < steps.size(); ++i) {

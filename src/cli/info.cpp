@@ -18,7 +18,13 @@ std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& optio
   for (int i = 0; i < kEffectCount; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const EffectReason& reason = scene.reasons[index];
-    const bool disabled = options.disable.has(static_cast<Effect>(i));
+    const auto effect = static_cast<Effect>(i);
+    const bool disabled = options.disable.has(effect);
+    if (effect == Effect::glossyReflection && reason.on && !disabled && options.glossy == 0) {
+      rows.push_back(
+          {std::string(kEffectNames[index].name), false, reason.because + ", but --glossy is 0"});
+      continue;
+    }
     rows.push_back({std::string(kEffectNames[index].name), reason.on && !disabled,
                     reason.on && disabled ? "disabled by --disable" : reason.because});
   }

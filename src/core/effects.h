@@ -11,21 +11,22 @@
 namespace whit {
 
 // name, what it stands for
-#define WHIT_EFFECTS(X)                           \
-  X(textures, "colour textures")                  \
-  X(normalMaps, "tangent-space normal maps")      \
-  X(alphaMasks, "holes cut by alpha masks")       \
-  X(smoothNormals, "interpolated vertex normals") \
-  X(glossy, "glossy lobe")                        \
-  X(emission, "emitting surfaces")                \
-  X(sky, "sky that is not black")                 \
-  X(skyImage, "sky from an image")                \
-  X(ambient, "ambient light")                     \
-  X(lights, "point lights")                       \
-  X(shadows, "shadows of point lights")           \
-  X(mirror, "reflected impulses")                 \
-  X(transmission, "refracted impulses")           \
-  X(absorption, "absorption inside dielectrics")  \
+#define WHIT_EFFECTS(X)                                        \
+  X(textures, "colour textures")                               \
+  X(normalMaps, "tangent-space normal maps")                   \
+  X(alphaMasks, "holes cut by alpha masks")                    \
+  X(smoothNormals, "interpolated vertex normals")              \
+  X(glossy, "glossy lobe")                                     \
+  X(glossyReflection, "sampled reflections of rough surfaces") \
+  X(emission, "emitting surfaces")                             \
+  X(sky, "sky that is not black")                              \
+  X(skyImage, "sky from an image")                             \
+  X(ambient, "ambient light")                                  \
+  X(lights, "point lights")                                    \
+  X(shadows, "shadows of point lights")                        \
+  X(mirror, "reflected impulses")                              \
+  X(transmission, "refracted impulses")                        \
+  X(absorption, "absorption inside dielectrics")               \
   X(instances, "instanced geometry")
 
 enum class Effect : std::uint32_t {

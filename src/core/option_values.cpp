@@ -79,6 +79,7 @@ OptionSpec renderOptionSpec(const std::string& name, const std::string& placehol
   limit("spp", 1, kSppLimit);
   limit("contrast", 0, 255);
   limit("depth", 0, kDepthLimit);
+  limit("glossy", 0, kGlossyLimit);
   limit("cutoff", 0, 1);
   limit("light-cutoff", 0, 1e6);
   limit("threads", 0, kThreadLimit);

@@ -50,6 +50,7 @@ struct RenderOptions {
   int contrast = kDefaultContrast;
   Rate impulseRate = Rate::full, shadowRate = Rate::full;
   int depth = 8;
+  int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
   float cutoff = 3.0e-4f;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
@@ -75,6 +76,7 @@ struct RenderOptions {
 
 inline constexpr int kDepthLimit = 64;
 inline constexpr int kSppLimit = 4096;
+inline constexpr int kGlossyLimit = 64;
 inline constexpr int kImageSideLimit = 65536;
 inline constexpr int kThreadLimit = 1024;
 
@@ -100,6 +102,10 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("shadow-rate", "full|half", "the same for shadow rays, where the neighbours' agree",
         o.shadowRate);
   visit("depth", "N", "deepest impulse", o.depth);
+  visit("glossy", "N",
+        "rays that sample the reflection of a rough surface, one where it is seen by such a ray or "
+        "by an impulse; 0: rough surfaces reflect lights only",
+        o.glossy);
   visit("cutoff", "X", "smallest contribution of an impulse that is still traced", o.cutoff);
   visit("light-cutoff", "X",
         "smallest contribution of a light to the pixel that is still added, and its shadow traced",

@@ -255,6 +255,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   } else if (coverage < 1) {
     m.ior = 1;
   }
+  m.glossyReflection = m.roughness > kGltfSmoothRoughness && !m.hasTransmission();
   if (m.roughness <= kGltfSmoothRoughness) {
     // The dielectric adds its own reflectance.
     const float share = through > 0 ? metal : 1.0f;

@@ -75,7 +75,7 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
 //   colour of metal, texel by texel. The roughness is the mean of its map.
 // - Smooth surfaces also mirror the scene, from the mean of that to f90 at grazing incidence. Rough
-//   ones do not: a rough metal shows lights only.
+//   ones reflect it in samples of the lobe, unless they transmit.
 // - transmission bounds a dielectric of this ior (exact Fresnel reflectance), tinted by the base
 //   colour at each crossing, with the absorption of its volume; surfaces must be closed. It is
 //   clear whatever the roughness, and a map of it counts by its mean.

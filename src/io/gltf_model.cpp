@@ -19,6 +19,7 @@ void renew(Material& to, const Material& from, const Material& fresh) {
   field(&Material::diffuse);
   field(&Material::specular);
   field(&Material::roughness);
+  field(&Material::glossyReflection);
   field(&Material::mirror);
   field(&Material::mirrorGrazing);
   field(&Material::transmission);

@@ -112,6 +112,7 @@ class Converter {
       m_.ior = 1;
     }
     m_.diffuse *= dissolve;
+    m_.glossyReflection = !m_.hasMirror() && !m_.hasTransmission();
     m_.castsShadow = !m_.hasTransmission();
   }
 

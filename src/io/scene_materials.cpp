@@ -184,6 +184,11 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   if (const auto priority = object.find("priority")) {
     m.priority = priority->integer(-kLargestPriority, kLargestPriority);
   }
+  if (const auto reflects = object.find("glossyReflection")) {
+    m.glossyReflection = reflects->flag();
+  } else if (mirrorGiven || object.has("mirrorGrazing") || transmissionGiven) {
+    m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
+  }
   if (const auto castsShadow = object.find("castsShadow")) {
     m.castsShadow = castsShadow->flag();
   } else if (transmissionGiven) {

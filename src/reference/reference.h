@@ -7,6 +7,7 @@
 
 #include "core/image.h"
 #include "core/options.h"
+#include "core/path_numbers.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
 #include "scene/light_shares.h"
@@ -28,6 +29,7 @@ struct Settings {
   SrgbEncoding srgb = SrgbEncoding::exact;
   FilmPrecision film = FilmPrecision::single;
   int depth = 8;
+  int glossy = 0;
   double cutoff = 3.0e-4;
   ShadingChoices shading;
   EffectSet effects = EffectSet::all();  // effects the scene has and that are not disabled
@@ -46,15 +48,21 @@ struct RayCounts {
 
 struct Impulse;
 struct Surfel;
+struct Crossing;
 class PrimaryShare;
 
+// Which path a ray ends: its number, and the place of the pixel's sample in the pattern.
+struct Path {
+  std::uint32_t number = 0, sample = 0;
+};
+
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
-// multiplied with on its way to the eye, for the cutoff.
+// multiplied with on its way to the eye, for the cutoff; `path` draws the samples of glossy lobes.
 class Tracer {
  public:
   Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
   RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                    RayCounts& counts, PrimaryShare* share = nullptr) const;
+                    RayCounts& counts, PrimaryShare* share = nullptr, Path path = {}) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // The same, but only the pilot samples where those differ by no more than settings.contrast as
@@ -68,11 +76,14 @@ class Tracer {
   PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;
 
  private:
-  RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, RayCounts& counts) const;
+  RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
+               RayCounts& counts) const;
   RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
                           PrimaryShare* share) const;
+  RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
+                       std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
-              RayCounts& counts) const;
+              RayCounts& counts, Path path) const;
 
   const Scene& scene_;
   const Intersector& intersector_;

@@ -6,6 +6,7 @@
 
 #include "core/display.h"
 #include "reference/generate_ray.h"
+#include "reference/glossy.h"
 #include "reference/impulses.h"
 #include "reference/media.h"
 #include "reference/reference.h"
@@ -16,6 +17,15 @@
 namespace whit::reference {
 
 namespace {
+
+Path pathOf(int x, int y, std::size_t sample) {
+  const auto pixel = static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16;
+  const auto number = static_cast<std::uint32_t>(sample);
+  return {pathOfPixel(pixel, number), number};
+}
+Path childOf(const Path& path, std::uint32_t branch) {
+  return {childPath(path.number, branch), path.sample};
+}
 
 PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
   return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
@@ -66,7 +76,7 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
       samples_(samplePattern(settings.spp)) {}
 
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                          RayCounts& counts, PrimaryShare* share) const {
+                          RayCounts& counts, PrimaryShare* share, Path path) const {
   const bool absorbs = settings_.effects.has(Effect::absorption) && media != 0;
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) {
@@ -96,8 +106,11 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   } else if (depth < settings_.depth) {
     const Impulses children =
         findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
-    const RgbD reflected = follow(children.reflected, depth + 1, left, counts.reflection, counts);
-    const RgbD refracted = follow(children.refracted, depth + 1, left, counts.refraction, counts);
+    RgbD reflected = follow(children.reflected, depth + 1, left, counts.reflection, counts,
+                            childOf(path, kMirroredBranch));
+    reflected += reflectGlossily(surfel, crossing, depth, left, media, counts, path);
+    const RgbD refracted = follow(children.refracted, depth + 1, left, counts.refraction, counts,
+                                  childOf(path, kRefractedBranch));
     radiance += reflected;
     radiance += refracted;
     if (share) share->lendImpulses(Rgb(reflected + refracted));
@@ -105,14 +118,34 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   return radiance * arrives;
 }
 
+// The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their
+// number does not decide which light is worth its rays.
+RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth,
+                             double throughput, std::uint32_t media, RayCounts& counts,
+                             Path path) const {
+  if (settings_.glossy == 0 || !settings_.effects.has(Effect::glossyReflection)) return {};
+  if (crossing.hidden || !scene_.materials[surfel.material].hasGlossyReflection()) return {};
+  const LobeSampling sampling = lobeSampling(depth, settings_.glossy, path.sample);
+  const int rays = lobeRays(surfel, sampling);
+  RgbD sum;
+  for (int i = 0; i < rays; ++i) {
+    const auto k = static_cast<std::uint32_t>(i);
+    const UnitPoint at = lobePoint(path.number, sampling, k);
+    sum += follow(glossyImpulse(surfel, media, at, settings_.shading), depth + 1, throughput,
+                  counts.reflection, counts, childOf(path, kFirstGlossyBranch + k));
+  }
+  return sum / rays;
+}
+
 // What an impulse brings back, if it is worth following.
 RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
-                    RayCounts& counts) const {
+                    RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
   if (!(largest > 0 && contribution >= settings_.cutoff)) return {};
   ++counter;
-  return impulse.weight * traceImpulse(impulse.ray, depth, contribution, impulse.media, counts);
+  return impulse.weight *
+         traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, nullptr, path);
 }
 
 RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
@@ -142,8 +175,8 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   // A running mean: samples that are all equal give just that, without any rounding.
   RgbD mean;
   double taken = 0;
-  for (const Vec2f& sample : samples_) {
-    mean += (sampled(camera, x, y, sample, counts) - mean) / ++taken;
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    mean += (sampled(camera, x, y, samples_[s], s, counts) - mean) / ++taken;
   }
   return mean;
 }
@@ -153,8 +186,8 @@ RgbD Tracer::pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts&
   std::array<std::uint8_t, 3> lowest{255, 255, 255}, highest{};
   RgbD mean;
   int taken = 0;
-  for (const Vec2f& sample : samples_) {
-    const RgbD value = sampled(camera, x, y, sample, counts);
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const RgbD value = sampled(camera, x, y, samples_[s], s, counts);
     mean += (value - mean) / ++taken;
     if (taken > kPilotSamples) continue;
     const auto codes = displayCodes(Rgb(value), scale, settings_.toneCurve, settings_.srgb);
@@ -170,21 +203,22 @@ RgbD Tracer::pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts&
 }
 
 RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  return sampled(camera, x, y, {0.5f, 0.5f}, counts);
+  return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
 }
 
 RgbD Tracer::centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
                               RayCounts& counts) const {
   ++counts.primary;
   PrimaryShare share(shares, settings_, x, y);
-  return traceImpulse(generateRay(camera, x + 0.5, y + 0.5), 0, 1.0, camera.media, counts, &share);
+  return traceImpulse(generateRay(camera, x + 0.5, y + 0.5), 0, 1.0, camera.media, counts, &share,
+                      pathOf(x, y, 0));
 }
 
-RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at,
+RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                      RayCounts& counts) const {
   ++counts.primary;
   const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
-  return traceImpulse(ray, 0, 1.0, camera.media, counts);
+  return traceImpulse(ray, 0, 1.0, camera.media, counts, nullptr, pathOf(x, y, sample));
 }
 
 PixelSurface Tracer::surfaceAtCentre(const CameraFrame& camera, int x, int y) const {

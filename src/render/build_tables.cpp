@@ -21,6 +21,7 @@ std::uint32_t flagsOf(const Material& m, EffectSet effects) {
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
+  if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
   return flags;
 }
 

@@ -13,6 +13,7 @@ void FrameStats::add(const FrameStats& worker) {
   }
   embreeWorkerMs += worker.embreeWorkerMs;
   reflectionCalls += worker.reflectionCalls;
+  glossyCalls += worker.glossyCalls;
   refractionCalls += worker.refractionCalls;
   nonFinitePixels += worker.nonFinitePixels;
 }

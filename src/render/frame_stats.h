@@ -18,7 +18,8 @@ struct FrameStats {
   double embreeWorkerMs = 0;
   std::array<RayTally, kRayKindCount> tally{};
   std::array<std::uint64_t, kStageCount> kernelCalls{};
-  std::uint64_t reflectionCalls = 0, refractionCalls = 0;  // the two kernels of addImpulses
+  // The kernels of addImpulses.
+  std::uint64_t reflectionCalls = 0, glossyCalls = 0, refractionCalls = 0;
   std::uint64_t nonFinitePixels = 0;
 
   double stageMs(Stage s) const { return stageWorkerMs[static_cast<std::size_t>(s)] / workers; }

@@ -10,8 +10,10 @@ namespace whit {
 namespace {
 
 // Effects that mean nothing without another one go with it.
-EffectSet consistent(EffectSet e) {
-  if (!e.has(Effect::lights)) e = e.without(Effect::shadows).without(Effect::glossy);
+EffectSet consistent(EffectSet e, int glossySamples) {
+  if (!e.has(Effect::glossy) || glossySamples == 0) e = e.without(Effect::glossyReflection);
+  if (!e.has(Effect::lights)) e = e.without(Effect::shadows);
+  if (!e.has(Effect::lights) && !e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;
@@ -23,6 +25,7 @@ bool runs(const Plan& plan, const simd::Kernel& kernel) {
   }
   if (kernel.name == "liftShadowOrigins") return plan.groups.lift;
   if (kernel.name == "addReflections") return plan.traceReflections;
+  if (kernel.name == "addGlossyReflections") return plan.glossySamples > 0;
   if (kernel.name == "addRefractions") return plan.traceRefractions;
   return true;
 }
@@ -32,16 +35,20 @@ bool runs(const Plan& plan, const simd::Kernel& kernel) {
 Plan makePlan(const Scene& scene, const RenderOptions& options) {
   Plan plan;
   const bool all = options.effects == EffectChoice::all;
-  plan.effects = consistent((all ? EffectSet::all() : scene.effects).without(options.disable));
+  plan.effects =
+      consistent((all ? EffectSet::all() : scene.effects).without(options.disable), options.glossy);
   plan.traceShadows = plan.effects.has(Effect::shadows);
   plan.traceReflections = plan.effects.has(Effect::mirror);
   plan.traceRefractions = plan.effects.has(Effect::transmission);
-  plan.depth = plan.traceReflections || plan.traceRefractions ? options.depth : 0;
+  plan.glossySamples = plan.effects.has(Effect::glossyReflection) ? options.glossy : 0;
+  const bool impulses = plan.traceReflections || plan.traceRefractions || plan.glossySamples > 0;
+  plan.depth = impulses ? options.depth : 0;
   plan.groups.glossy = plan.effects.has(Effect::glossy);
   plan.groups.transmission = plan.traceRefractions;
   // Where no vertex normal differs from its triangle's there is nothing to lift.
   plan.groups.lift =
       options.shading.terminator && plan.traceShadows && plan.effects.has(Effect::smoothNormals);
+  plan.groups.paths = plan.glossySamples > 0;
   plan.groups.instances = plan.effects.has(Effect::instances);
   plan.stages = {Stage::generateRays, Stage::findIntersections,
                  Stage::writeEmittedAndReflectiveAmbient};

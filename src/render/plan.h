@@ -18,7 +18,8 @@ struct Plan {
   std::vector<Stage> stages;
   Groups groups;  // columns that are allocated
   bool traceShadows = false, traceReflections = false, traceRefractions = false;
-  int depth = 0;  // deepest impulse that can occur
+  int glossySamples = 0;  // of a lobe that the eye sees
+  int depth = 0;          // deepest impulse that can occur
 };
 
 Plan makePlan(const Scene& scene, const RenderOptions& options);

@@ -34,6 +34,7 @@ reference::Settings Renderer::Parts::referenceSettings() const {
   settings.srgb = options.srgb;
   settings.film = options.film;
   settings.depth = options.depth;
+  settings.glossy = options.glossy;
   settings.cutoff = static_cast<double>(options.cutoff);
   settings.shading = options.shading;
   settings.effects = plan.effects;

@@ -40,6 +40,7 @@ void takeOver(const RenderOptions& from, RenderOptions& to) {
   to.impulseRate = from.impulseRate;
   to.shadowRate = from.shadowRate;
   to.depth = from.depth;
+  to.glossy = from.glossy;
   to.cutoff = from.cutoff;
   to.shading = from.shading;
   to.exposure = from.exposure;

@@ -4,6 +4,7 @@
 
 #include "core/display.h"
 #include "reference/generate_ray.h"
+#include "reference/glossy.h"
 #include "reference/impulses.h"
 #include "reference/media.h"
 #include "reference/shading.h"
@@ -270,7 +271,11 @@ class StageComparer : public StageObserver {
           reference::crossMedia(scene_, plan_.effects, surfel.material, surfel.entering, stack);
       const reference::Impulses twins =
           reference::findImpulses(scene_, plan_.effects, surfel, crossing, stack, shading_);
-      const reference::Impulse& twin = k < c.reflections ? twins.reflected : twins.refracted;
+      reference::Impulse twin = k < c.reflections ? twins.reflected : twins.refracted;
+      if (k < c.reflections && c.children.path) {
+        const std::uint32_t mirrored = childPath(c.rays.path[i], kMirroredBranch);
+        if (c.children.path[k] != mirrored) twin = sampledTwin(c, k, surfel, stack);
+      }
       constexpr Stage stage = Stage::addImpulses;
       const Vec3d weight{c.children.weightR[k], c.children.weightG[k], c.children.weightB[k]};
       compare(stage, "weight", weight, twin.weight, 1, kWeightLimit, c, i);
@@ -285,6 +290,22 @@ class StageComparer : public StageObserver {
              tracker_.pixel(c, i), c.depth);
       }
     }
+  }
+
+  // Of the sample of the lobe that the child's path says it is. None: no weight.
+  reference::Impulse sampledTwin(const ChunkView& c, std::size_t child,
+                                 const reference::Surfel& surfel, std::uint32_t stack) const {
+    const std::uint32_t path = c.rays.path[c.children.parent[child]];
+    const LobeSampling sampling = lobeSampling(c.depth, plan_.glossySamples, c.sampleNumber);
+    const int rays = reference::lobeRays(surfel, sampling);
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
+      if (c.children.path[child] != childPath(path, kFirstGlossyBranch + k)) continue;
+      const UnitPoint at = lobePoint(path, sampling, k);
+      reference::Impulse twin = reference::glossyImpulse(surfel, stack, at, shading_);
+      twin.weight = twin.weight / rays;
+      return twin;
+    }
+    return {};
   }
 
   reference::Surfel surfelOf(const ChunkView& c, std::size_t i) const {

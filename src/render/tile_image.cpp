@@ -68,6 +68,7 @@ void TileTracer::addSamples(Pass& pass, std::size_t first, std::size_t end) {
   const bool pilot = pass.job.contrast && first == 0;
   for (std::size_t s = first; s < end; ++s) {
     pass.sample = pass.job.samples[s];
+    pass.sampleNumber = static_cast<std::uint32_t>(s);
     traceSample(pass);
     for (std::size_t i = 0; i < n; ++i) {
       sums_[3 * i] += static_cast<double>(radiance.r[i]);

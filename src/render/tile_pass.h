@@ -13,7 +13,8 @@ struct TileTracer::Pass {
   FrameStats& stats;
   StageClock& clock;
   RayLog* log;
-  std::size_t children = 0;  // of the chunk that was shaded last
+  std::uint32_t sampleNumber = 0;  // of `sample`, in the pattern
+  std::size_t children = 0;        // of the chunk that was shaded last
 };
 
 }  // namespace whit

@@ -23,7 +23,7 @@ EffectSet neededBy(std::uint32_t materialFlags, EffectSet effects) {
   return effects;
 }
 
-simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample) {
+simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample, std::uint32_t sampleNumber) {
   return {Vec3f(camera.eye),
           Vec3f(camera.forward),
           Vec3f(camera.right),
@@ -32,7 +32,8 @@ simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample) {
           static_cast<float>(camera.height) / 2,
           sample.x,
           sample.y,
-          camera.media};
+          camera.media,
+          sampleNumber};
 }
 
 }  // namespace
@@ -77,8 +78,8 @@ void TileTracer::traceSample(Pass& pass) {
   Level& first = levels_[0];
   first.count = first.reflections = pass.pixels.size();
   first.cursor = 0;
-  simd::generateRays(cameraRays(pass.job.camera, pass.sample), pass.pixels.data(), first.count,
-                     *first.rays);
+  simd::generateRays(cameraRays(pass.job.camera, pass.sample, pass.sampleNumber),
+                     pass.pixels.data(), first.count, *first.rays);
   first.chunk = first.count;
   endStage(pass, Stage::generateRays, 0);
   std::size_t depth = 0;
@@ -170,9 +171,13 @@ void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& ra
 
 void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays) {
   const Level& level = levels_[depth];
-  const std::size_t kinds = static_cast<std::size_t>(plan_.traceReflections) +
-                            static_cast<std::size_t>(plan_.traceRefractions);
-  reserveLevel(depth + 1, kinds * roundUpToBlock(level.chunk));
+  const bool scatters = plan_.glossySamples > 0 && (materialFlags_ & kMaterialScatters) != 0;
+  const LobeSampling sampling =
+      lobeSampling(static_cast<int>(depth), plan_.glossySamples, pass.sampleNumber);
+  const std::size_t children = static_cast<std::size_t>(plan_.traceReflections) +
+                               static_cast<std::size_t>(plan_.traceRefractions) +
+                               (scatters ? sampling.count : 0);
+  reserveLevel(depth + 1, children * roundUpToBlock(level.chunk));
   Level& next = levels_[depth + 1];
   next.count = 0;
   float cutoff = pass.job.cutoff;
@@ -184,6 +189,11 @@ void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& ra
     next.count = simd::addReflections(*pass.job.tables, plan_.effects, cutoff, rays, *surfels_,
                                       level.chunk, *next.rays, 0);
     ++pass.stats.reflectionCalls;
+  }
+  if (scatters) {
+    next.count += simd::addGlossyReflections(*pass.job.tables, plan_.effects, cutoff, sampling,
+                                             rays, *surfels_, level.chunk, *next.rays, next.count);
+    ++pass.stats.glossyCalls;
   }
   next.reflections = next.count;
   if (plan_.traceRefractions && (materialFlags_ & kMaterialTransmits) != 0) {
@@ -227,6 +237,7 @@ void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Poin
   view.light = light;
   view.pixels = pass.pixels;
   view.sample = pass.sample;
+  view.sampleNumber = pass.sampleNumber;
   if (stage == Stage::addImpulses) {
     const Level& next = levels_[depth + 1];
     view.children = *next.rays;

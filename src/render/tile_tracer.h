@@ -39,9 +39,11 @@ struct ChunkView {
   std::size_t shadowCount = 0;
   const PointLight* light = nullptr;  // from findRadianceAndShadowRays to addShading
   RayColumns children;
-  std::size_t reflections = 0, refractions = 0;  // children, in this order
-  std::span<const std::uint32_t> pixels;         // of the queue of depth 0, x | y << 16
+  // Children, in this order: mirrored and sampled reflections, refractions.
+  std::size_t reflections = 0, refractions = 0;
+  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, x | y << 16
   Vec2f sample;
+  std::uint32_t sampleNumber = 0;
 };
 
 class StageObserver {

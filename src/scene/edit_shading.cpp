@@ -16,8 +16,9 @@ bool sameKind(const Material& a, const Material& b) {
   const bool sameMedium = !a.hasTransmission() || (a.ior == b.ior && a.absorption == b.absorption &&
                                                    a.priority == b.priority);
   return sameMedium && a.hasTransmission() == b.hasTransmission() &&
-         a.hasGlossy() == b.hasGlossy() && a.hasMirror() == b.hasMirror() &&
-         isBlack(a.emission) == isBlack(b.emission) && isBlack(a.diffuse) == isBlack(b.diffuse);
+         a.hasGlossy() == b.hasGlossy() && a.hasGlossyReflection() == b.hasGlossyReflection() &&
+         a.hasMirror() == b.hasMirror() && isBlack(a.emission) == isBlack(b.emission) &&
+         isBlack(a.diffuse) == isBlack(b.diffuse);
 }
 
 bool sameKindOfLight(const PointLight& a, const PointLight& b) {

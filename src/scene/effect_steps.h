@@ -12,10 +12,10 @@ inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with
 
 // Each needs only those before it.
 inline constexpr std::array kAddedEffects{
-    Effect::ambient,       Effect::emission,  Effect::sky,        Effect::skyImage,
-    Effect::smoothNormals, Effect::textures,  Effect::normalMaps, Effect::alphaMasks,
-    Effect::glossy,        Effect::instances, Effect::mirror,     Effect::transmission,
-    Effect::absorption,
+    Effect::ambient,       Effect::emission,         Effect::sky,        Effect::skyImage,
+    Effect::smoothNormals, Effect::textures,         Effect::normalMaps, Effect::alphaMasks,
+    Effect::glossy,        Effect::glossyReflection, Effect::instances,  Effect::mirror,
+    Effect::transmission,  Effect::absorption,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

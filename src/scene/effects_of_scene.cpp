@@ -90,6 +90,8 @@ void Gatherer::materials() {
   byMaterial(Effect::alphaMasks, "with an alpha mask",
              [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; });
   byMaterial(Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); });
+  byMaterial(Effect::glossyReflection, "whose glossy lobe reflects the scene",
+             [](const Material& m) { return m.hasGlossyReflection(); });
   byMaterial(Effect::emission, "with emission",
              [](const Material& m) { return !isBlack(m.emission); });
 }

@@ -11,6 +11,7 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;
   if (effects.has(Effect::alphaMasks)) m.alphaMap = kNoTexture;
   if (effects.has(Effect::glossy)) m.specular = kBlack;
+  if (effects.has(Effect::glossyReflection)) m.glossyReflection = false;
   if (effects.has(Effect::emission)) m.emission = kBlack;
   if (effects.has(Effect::shadows)) m.castsShadow = false;
   if (effects.has(Effect::mirror)) {

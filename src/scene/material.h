@@ -8,6 +8,7 @@
 //   + diffuse * ambient(n)
 //   + sum over lights of (diffuse / pi + glossy lobe) * biradiance * max(0, n.l)
 //   + reflectance * radiance along the mirrored ray
+//   + mean of radiance along rays that sample the glossy lobe (where glossyReflection)
 //   + (1 - F) * transmission * radiance along the refracted ray
 #pragma once
 
@@ -28,9 +29,12 @@ struct Material {
   Rgb specular{0, 0, 0};                  // glossy lobe's reflectance at normal incidence (F0)
   std::int32_t specularMap = kNoTexture;  // colour, multiplies `specular`
   float roughness = 0.5f;                 // GGX; alpha = roughness^2, at least kMinRoughness
-  Rgb emission{0, 0, 0};                  // radiance, both sides
-  std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
-  std::int32_t alphaMap = kNoTexture;     // data, channel r; cut where below alphaCutoff
+  // Whether the lobe reflects the scene, not only lights: for surfaces whose reflection is not
+  // already a mirrored impulse. Frames take --glossy samples of it.
+  bool glossyReflection = true;
+  Rgb emission{0, 0, 0};                // radiance, both sides
+  std::int32_t normalMap = kNoTexture;  // data, tangent space, +y up
+  std::int32_t alphaMap = kNoTexture;   // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
 
   // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at
@@ -48,11 +52,14 @@ struct Material {
   bool castsShadow = true;  // false: light passes, as if the surface were not there
 
   bool hasGlossy() const { return maxComponent(specular) > 0; }
+  bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool hasAbsorption() const { return hasTransmission() && maxComponent(absorption) > 0; }
 };
 
 inline constexpr float kMinRoughness = 0.03f;
+// A lobe of no more than this alpha reflects the scene by a single impulse.
+inline constexpr float kSmoothAlpha = 1e-3f;
 
 }  // namespace whit

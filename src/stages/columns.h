@@ -18,16 +18,16 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 }
 
 // Why a column exists: needed by every frame, or only by frames with some effect or choice.
-enum class Group : std::uint8_t { always, glossy, transmission, instances, lift };
+enum class Group : std::uint8_t { always, glossy, transmission, instances, lift, paths };
 
 struct Groups {
   bool glossy = true, transmission = true, instances = true;
-  bool lift = false;  // by choice, whatever the effects
+  bool lift = false, paths = false;  // by choice, whatever the effects
   bool operator==(const Groups&) const = default;
   constexpr bool has(Group g) const {
     return g == Group::always || (g == Group::glossy && glossy) ||
            (g == Group::transmission && transmission) || (g == Group::instances && instances) ||
-           (g == Group::lift && lift);
+           (g == Group::lift && lift) || (g == Group::paths && paths);
   }
 };
 
@@ -45,20 +45,22 @@ struct Groups {
 // X(type, name, group). Directions are unit vectors; `parent` is the slot at the depth above (a
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
-// each, the one entered last in the low byte.
-#define WHIT_RAY_COLUMNS(X)        \
-  X(float, orgX, always)           \
-  X(float, orgY, always)           \
-  X(float, orgZ, always)           \
-  X(float, dirX, always)           \
-  X(float, dirY, always)           \
-  X(float, dirZ, always)           \
-  X(float, weightR, always)        \
-  X(float, weightG, always)        \
-  X(float, weightB, always)        \
-  X(float, throughput, always)     \
-  X(std::uint32_t, parent, always) \
-  X(std::uint32_t, media, transmission)
+// each, the one entered last in the low byte; `path` is its number (core/path_numbers.h), where
+// lobes are sampled.
+#define WHIT_RAY_COLUMNS(X)             \
+  X(float, orgX, always)                \
+  X(float, orgY, always)                \
+  X(float, orgZ, always)                \
+  X(float, dirX, always)                \
+  X(float, dirY, always)                \
+  X(float, dirZ, always)                \
+  X(float, weightR, always)             \
+  X(float, weightG, always)             \
+  X(float, weightB, always)             \
+  X(float, throughput, always)          \
+  X(std::uint32_t, parent, always)      \
+  X(std::uint32_t, media, transmission) \
+  X(std::uint32_t, path, paths)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
 // `instance` indexes Scene::instances, kMiss in the world.

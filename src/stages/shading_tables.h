@@ -34,7 +34,7 @@ struct alignas(64) MaterialRecord {
 static_assert(sizeof(MaterialRecord) == 128);
 inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
-                               kMaterialGlossy = 8;
+                               kMaterialGlossy = 8, kMaterialScatters = 16;
 
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels

@@ -84,6 +84,8 @@ TEST(Knobs, OnlyWhatASceneHasIsSwept) {
   EXPECT_FALSE(idle("cutoff", matte.with(Effect::transmission)));
   EXPECT_TRUE(idle("fresnel", matte.with(Effect::mirror)));
   EXPECT_FALSE(idle("fresnel", matte.with(Effect::transmission)));
+  EXPECT_TRUE(idle("glossy", matte.with(Effect::glossy)));
+  EXPECT_FALSE(idle("glossy", matte.with(Effect::glossy).with(Effect::glossyReflection)));
   EXPECT_TRUE(idle("light-cutoff", EffectSet()));
   EXPECT_FALSE(idle("light-cutoff", matte));
   EXPECT_FALSE(idle("spp", EffectSet()));

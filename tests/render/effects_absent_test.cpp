@@ -26,9 +26,18 @@ EffectSet withDependents(Effect effect) {
       return set.with(Effect::skyImage);
     case Effect::transmission:
       return set.with(Effect::absorption);
+    case Effect::glossy:
+      return set.with(Effect::glossyReflection);
     default:
       return set;
   }
+}
+
+// With every effect that a scene may have.
+RenderOptions glossyOptions() {
+  RenderOptions o = smallOptions();
+  o.glossy = 2;
+  return o;
 }
 
 std::string nameOf(Effect effect) {
@@ -48,7 +57,7 @@ TEST_P(AbsentEffect, IsWhatTheSceneNoLongerCallsFor) {
 
 TEST_P(AbsentEffect, CompiledInAllTheSameGivesTheSameBits) {
   const Scene scene = loadWithout(withDependents(effect()));
-  RenderOptions o = smallOptions();
+  RenderOptions o = glossyOptions();
   const Image plain = render(scene, o).image;
   o.effects = EffectChoice::all;
   EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
@@ -60,7 +69,7 @@ TEST_P(AbsentEffect, OnTopOfTheMatteSceneGivesTheSameBits) {
   const EffectSet matte = kMatteEffects.without(withDependents(effect()));
   const Scene scene = loadWithout(EffectSet::all().without(matte));
   ASSERT_EQ(scene.effects, matte);
-  RenderOptions o = smallOptions();
+  RenderOptions o = glossyOptions();
   const Image plain = render(scene, o).image;
   o.effects = EffectChoice::all;
   o.disable = EffectSet::all().without(matte.with(effect()));
@@ -77,7 +86,7 @@ struct Cost {
 
 Cost costWithout(EffectSet effects) {
   const Scene scene = loadWithout(effects);
-  RenderOptions o = smallOptions();
+  RenderOptions o = glossyOptions();
   o.threads = 1;
   o.depth = 1;
   Renderer renderer(scene, o);
@@ -112,6 +121,7 @@ TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
   for (const RayTally& tally : cost.stats.tally) EXPECT_GT(tally.rays, 0u);
   for (const std::uint64_t calls : cost.stats.kernelCalls) EXPECT_GT(calls, 0u);
   EXPECT_GT(cost.stats.reflectionCalls, 0u);
+  EXPECT_GT(cost.stats.glossyCalls, 0u);
   EXPECT_GT(cost.stats.refractionCalls, 0u);
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
@@ -142,10 +152,19 @@ TEST(AbsentEffects, WithoutShadowsNoShadowRaysAndNoBufferForThem) {
 }
 
 TEST(AbsentEffects, WithoutMirrorsNoReflections) {
-  const Cost cost = costWithout(EffectSet().with(Effect::mirror));
+  const Cost cost = costWithout(EffectSet().with(Effect::mirror).with(Effect::glossyReflection));
   EXPECT_EQ(cost.stats.of(RayKind::reflection).rays, 0u);
   EXPECT_EQ(cost.stats.reflectionCalls, 0u);
   EXPECT_GT(cost.stats.of(RayKind::refraction).rays, 0u);
+}
+
+TEST(AbsentEffects, WithoutGlossyReflectionNoSamplesAndNoPaths) {
+  const Cost all = costWithout(EffectSet());
+  const Cost cost = costWithout(EffectSet().with(Effect::glossyReflection));
+  EXPECT_EQ(cost.stats.glossyCalls, 0u);
+  EXPECT_GT(cost.stats.reflectionCalls, 0u);
+  EXPECT_LT(cost.stats.of(RayKind::reflection).rays, all.stats.of(RayKind::reflection).rays);
+  EXPECT_LT(cost.buffers.rays, all.buffers.rays);
 }
 
 TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
@@ -157,7 +176,8 @@ TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
 }
 
 TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
-  const Cost cost = costWithout(EffectSet().with(Effect::transmission).with(Effect::mirror));
+  const Cost cost = costWithout(
+      EffectSet().with(Effect::transmission).with(Effect::mirror).with(Effect::glossyReflection));
   EXPECT_EQ(callsOf(cost, Stage::addImpulses), 0u);
   EXPECT_EQ(cost.buffers.rays, columnBytes<RayColumns>(cost, true, false, true));
   EXPECT_EQ(cost.buffers.radiance, columnBytes<RadianceColumns>(cost, true, true, true));

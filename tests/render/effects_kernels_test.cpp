@@ -17,7 +17,9 @@ using simd::kKernels;
 Plan planOf(EffectSet effects) {
   Scene scene;
   scene.effects = effects;
-  return makePlan(scene, RenderOptions{});
+  RenderOptions options;
+  options.glossy = 2;
+  return makePlan(scene, options);
 }
 
 TEST(KernelVariants, AreFewEnoughToCompile) {

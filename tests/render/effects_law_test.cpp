@@ -20,6 +20,7 @@ const char* sceneWith(Effect effect) {
     case Effect::instances:
       return "landscape?triangles=20000";
     case Effect::skyImage:
+    case Effect::glossyReflection:
       return "effects";
     default:
       return "whitted";
@@ -46,6 +47,7 @@ TEST_P(EffectLaw, disablingAnEffectChangesASceneThatHasIt) {
   const Scene scene = load(name);
   ASSERT_TRUE(scene.effects.has(effect)) << name;
   RenderOptions o = smallOptions();
+  if (effect == Effect::glossyReflection) o.glossy = 2;
   const Image with = render(scene, o).image;
   o.disable = EffectSet().with(effect);
   EXPECT_NE(firstDifference(render(scene, o).image, with), "") << name;

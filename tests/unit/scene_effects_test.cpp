@@ -62,9 +62,15 @@ const std::vector<Rule>& rules() {
        "some vertex normals differ from their triangle's",
        {}},
       {Effect::glossy,
-       [](auto& d) { first(d).specular = Rgb(0.04f); },
+       [](auto& d) {
+         first(d).specular = Rgb(0.04f);
+         first(d).glossyReflection = false;
+       },
        "1 material with a glossy lobe, 2 triangles use it",
        {}},
+      {Effect::glossyReflection, [](auto& d) { first(d).specular = Rgb(0.04f); },
+       "1 material whose glossy lobe reflects the scene, 2 triangles use it",
+       EffectSet().with(Effect::glossy)},
       {Effect::emission,
        [](auto& d) {
          first(d).emission = {0, 0, 1};

@@ -1,0 +1,101 @@
+// Samples of the GGX lobe (the scalar twin, with sources: src/reference/glossy.cpp).
+#if defined(WHIT_SIMD_GLOSSY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_GLOSSY_INL_H_
+#undef WHIT_SIMD_GLOSSY_INL_H_
+#else
+#define WHIT_SIMD_GLOSSY_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+#include "scene/material.h"
+#include "simd/fresnel-inl.h"
+#include "simd/path_numbers-inl.h"
+#include "stages/columns.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// What all samples of a vector of surfels have in common.
+struct GlossyLobes {
+  V3 view;
+  V3 x, y, z;  // the frame of incidence: z is the shading normal, the view lies over x
+  V3 f0;
+  VF f90;
+  VF alpha;         // 0 where the lobe is smooth
+  VF nv;            // cosine between view and normal, above 0
+  VF seenX, seenZ;  // the view where the facets are a unit sphere
+  MF rough;
+};
+
+HWY_INLINE GlossyLobes LoadGlossyLobes(const SurfelColumns& surfels, const V3& direction,
+                                       const V3& ns, size_t i) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  GlossyLobes lobes;
+  lobes.view = {hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)};
+  lobes.z = ns;
+  const VF towards = Dot(ns, lobes.view);
+  const V3 along = MulAdd3(ns, hn::Neg(towards), lobes.view);
+  const VF sine = hn::Sqrt(Dot(along, along));
+  // Near the normal, the plane of incidence is lost in rounding: any other.
+  const MF oblique = hn::Gt(sine, hn::Set(d, 0.01f));
+  const MF useX = hn::Lt(hn::Abs(ns.x), hn::Set(d, 0.5f));
+  const V3 axis{hn::IfThenElseZero(useX, one), hn::IfThenElse(useX, zero, one), zero};
+  const V3 across = NormalizeOr(Cross(ns, axis), axis);
+  const VF scale = hn::Div(one, hn::IfThenElse(oblique, sine, one));
+  lobes.x = Select3(oblique, Scale3(along, scale), across);
+  lobes.y = Cross(ns, lobes.x);
+  lobes.f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
+  lobes.f90 = hn::Min(one, hn::Mul(hn::Set(d, 25.0f), MaxComponent(lobes.f0)));
+  const VF alpha = hn::Load(d, surfels.alpha + i);
+  lobes.rough = hn::Gt(alpha, hn::Set(d, kSmoothAlpha));
+  lobes.alpha = hn::IfThenElseZero(lobes.rough, alpha);
+  lobes.nv = hn::Max(towards, hn::Set(d, 1e-4f));
+  const V3 seen = Normalize3({hn::Mul(sine, lobes.alpha), zero, lobes.nv});
+  lobes.seenX = seen.x;
+  lobes.seenZ = seen.z;
+  return lobes;
+}
+
+// A normal that can be seen, in the world.
+HWY_INLINE V3 VisibleNormal(const GlossyLobes& lobes, const UnitPoints& at) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const VF height = hn::Add(one, lobes.seenZ);
+  const VF fall = hn::Mul(at.v, height);
+  const VF squared = hn::Mul(fall, hn::Sub(hn::Set(d, 2.0f), fall));
+  const VF radius = hn::Mul(hn::Sqrt(hn::Max(squared, hn::Zero(d))), lobes.alpha);
+  const VF turn = hn::Mul(at.u, hn::Set(d, 6.28318531f));
+  const VF x = hn::MulAdd(lobes.seenX, lobes.alpha, hn::Mul(radius, hn::Cos(d, turn)));
+  const VF y = hn::Mul(radius, hn::Sin(d, turn));
+  const VF z = hn::Mul(hn::Sub(one, at.v), height);
+  return NormalizeOr(MulAdd3(lobes.x, x, MulAdd3(lobes.y, y, Scale3(lobes.z, z))), lobes.z);
+}
+
+struct LobeSample {
+  V3 direction, weight;
+  VF cosine;  // of the direction to the shading normal; the ray ends in the surface unless above 0
+};
+
+HWY_INLINE LobeSample SampleLobe(const GlossyLobes& lobes, const UnitPoints& at) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V3 h = VisibleNormal(lobes, at);
+  const VF vh = Dot(lobes.view, h);
+  const V3 l = Normalize3(Sub3(Scale3(h, hn::Add(vh, vh)), lobes.view));
+  const VF nl = Dot(lobes.z, l), nv = lobes.nv;
+  // G2 / G1.
+  const VF a2 = hn::Mul(lobes.alpha, lobes.alpha), rest = hn::Sub(one, a2);
+  const VF maskV = hn::Sqrt(hn::MulAdd(hn::Mul(nv, nv), rest, a2));
+  const VF maskL = hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), rest, a2));
+  const VF passes =
+      hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), hn::MulAdd(nl, maskV, hn::Mul(nv, maskL)));
+  const VF schlick = SchlickTerm(hn::Min(hn::Max(vh, zero), one));
+  const V3 grazing{hn::Sub(lobes.f90, lobes.f0.x), hn::Sub(lobes.f90, lobes.f0.y),
+                   hn::Sub(lobes.f90, lobes.f0.z)};
+  return {l, Scale3(MulAdd3(grazing, schlick, lobes.f0), passes), nl};
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

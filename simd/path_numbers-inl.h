@@ -1,0 +1,53 @@
+// Random numbers of paths (the scalar twin: src/core/path_numbers.h; the bits are the same).
+#if defined(WHIT_SIMD_PATH_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_PATH_NUMBERS_INL_H_
+#undef WHIT_SIMD_PATH_NUMBERS_INL_H_
+#else
+#define WHIT_SIMD_PATH_NUMBERS_INL_H_
+#endif
+
+#include "core/path_numbers.h"
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+HWY_INLINE VU Mixed(VU x) {
+  const UintTag du;
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<16>(x)), hn::Set(du, kMixFirst));
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<13>(x)), hn::Set(du, kMixSecond));
+  return hn::Xor(x, hn::ShiftRight<16>(x));
+}
+
+HWY_INLINE VU PathOfPixel(VU pixel, uint32_t sample) {
+  const UintTag du;
+  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, kPixelSalt))), hn::Set(du, sample * kSampleStep));
+}
+
+HWY_INLINE VU ChildPath(VU path, uint32_t branch) {
+  return Mixed(hn::Xor(path, hn::Set(UintTag(), branch * kBranchStep)));
+}
+
+// In [0, 1)^2.
+struct UnitPoints {
+  VF u, v;
+};
+
+HWY_INLINE VF UnitFraction(VU bits) {
+  const FloatTag d;
+  const IntTag di;
+  return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(bits))), hn::Set(d, 0x1p-24f));
+}
+
+HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t k) {
+  const UintTag du;
+  const VU shift = hn::Sub(path, hn::Set(du, sampling.unshift));
+  const uint32_t index = sampling.first + k;
+  return {UnitFraction(hn::Add(shift, hn::Set(du, index * kLatticeU))),
+          UnitFraction(hn::Add(Mixed(hn::Xor(shift, hn::Set(du, kSecondShift))),
+                               hn::Set(du, index * kLatticeV)))};
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

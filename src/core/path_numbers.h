@@ -1,0 +1,66 @@
+// Random numbers of paths. Each path of rays has a number that follows from its pixel, its sample
+// and the branches that it took, and from nothing else: so the picture's noise does not depend on
+// who traces which ray when, and kernels and reference see the same.
+#pragma once
+
+#include <cstdint>
+
+namespace whit {
+
+// The finaliser of MurmurHash3 (Appleby 2011): a bijection in which every bit of the argument flips
+// each bit of the result about half of the time.
+inline constexpr std::uint32_t kMixFirst = 0x85ebca6bu, kMixSecond = 0xc2b2ae35u;
+constexpr std::uint32_t mixed(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * kMixFirst;
+  x = (x ^ (x >> 13)) * kMixSecond;
+  return x ^ (x >> 16);
+}
+
+// The first ray's: its pixel is x | y << 16, `sample` its place in the sample pattern. The samples
+// of a pixel are equal steps apart.
+inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
+constexpr std::uint32_t pathOfPixel(std::uint32_t pixel, std::uint32_t sample) {
+  return mixed(pixel + kPixelSalt) + sample * kSampleStep;
+}
+
+// A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe.
+inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2, kFirstGlossyBranch = 3;
+inline constexpr std::uint32_t kBranchStep = 0x3c6ef35fu;
+constexpr std::uint32_t childPath(std::uint32_t path, std::uint32_t branch) {
+  return mixed(path ^ (branch * kBranchStep));
+}
+
+// In [0, 1)^2, each a multiple of 2^-24: the same in float and in double.
+struct UnitPoint {
+  float u = 0, v = 0;
+};
+
+// How the lobe of a surfel is sampled: `count` points of a lattice, from the point `first` on, that
+// is shifted at random from path to path. The samples of a pixel share the shift where they meet
+// the first surface, so that all their points together are one longer lattice.
+struct LobeSampling {
+  std::uint32_t count = 1;
+  std::uint32_t first = 0;
+  std::uint32_t unshift = 0;  // what the paths of a pixel's samples differ by
+};
+
+// `wanted` samples at surfels that the eye sees. One at those further on, or the number of rays
+// would be a power of it.
+constexpr LobeSampling lobeSampling(int depth, int wanted, std::uint32_t sample) {
+  if (depth > 0) return {};
+  const auto count = static_cast<std::uint32_t>(wanted);
+  return {count, sample * count, sample * kSampleStep};
+}
+
+// Point k of the surfel that `path` has led to. The lattice is the one of the plastic number
+// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), in units of 2^-32.
+inline constexpr std::uint32_t kLatticeU = 3242174889u, kLatticeV = 2447445414u;
+inline constexpr std::uint32_t kSecondShift = 0x68bc21ebu;
+constexpr UnitPoint lobePoint(std::uint32_t path, const LobeSampling& sampling, std::uint32_t k) {
+  const std::uint32_t shift = path - sampling.unshift, index = sampling.first + k;
+  const std::uint32_t u = shift + index * kLatticeU;
+  const std::uint32_t v = mixed(shift ^ kSecondShift) + index * kLatticeV;
+  return {static_cast<float>(u >> 8) * 0x1p-24f, static_cast<float>(v >> 8) * 0x1p-24f};
+}
+
+}  // namespace whit

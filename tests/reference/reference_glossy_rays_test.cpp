@@ -1,0 +1,339 @@
+// Samples of the glossy lobe: their distribution, the energy that they carry, and what a scene with
+// rough surfaces looks like.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "reference/fresnel.h"
+#include "reference/glossy.h"
+#include "reference/shading.h"
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Vec3d at(double cosine, double turn) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(turn), sine * std::sin(turn), cosine};
+}
+
+// Level, seen from an angle with this cosine.
+Surfel surfel(double alpha, double f0, double viewCosine) {
+  Surfel s;
+  s.geometricNormal = s.shadingNormal = {0, 0, 1};
+  s.view = at(viewCosine, 0);
+  s.alpha = alpha;
+  s.specular = RgbD(f0);
+  return s;
+}
+
+// The density of visible normals by solid angle: G1(v) max(0, v.m) D(m) / (v.n) (Heitz 2018, eq.
+// 3).
+double visibleDensity(const Vec3d& view, double alpha, const Vec3d& m) {
+  const double a2 = alpha * alpha, c = m.z, spread = c * c * (a2 - 1) + 1;
+  const double d = a2 / (kPi * spread * spread);
+  const double g1 = 2 / (1 + std::sqrt(1 - a2 + a2 / (view.z * view.z)));
+  return g1 * std::max(0.0, dot(view, m)) * d / view.z;
+}
+
+UnitPoint pointOf(test::Numbers& numbers) {
+  return {static_cast<float>(numbers.in(0, 1)), static_cast<float>(numbers.in(0, 1))};
+}
+
+class VisibleNormals : public testing::TestWithParam<std::tuple<double, double>> {};
+
+// Pearson's test over 10 x 12 cells of equal width in the cosine and the angle of the normal.
+TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
+  constexpr int kRows = 10, kColumns = 12, kFine = 40, kDraws = 100000;
+  const auto [alpha, viewCosine] = GetParam();
+  const Vec3d view = at(viewCosine, 0);
+  std::array<double, kRows * kColumns> seen{}, expected{};
+  test::Numbers numbers(7);
+  for (int i = 0; i < kDraws; ++i) {
+    const Vec3d m = visibleNormal(view, alpha, pointOf(numbers));
+    const double turn = std::atan2(m.y, m.x) / (2 * kPi) + 0.5;
+    const int row = std::min(static_cast<int>(m.z * kRows), kRows - 1);
+    const int column = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
+    ++seen[static_cast<std::size_t>(row * kColumns + column)];
+  }
+  for (int i = 0; i < kRows * kFine; ++i) {
+    for (int j = 0; j < kColumns * kFine; ++j) {
+      const double c = (i + 0.5) / (kRows * kFine), turn = (j + 0.5) / (kColumns * kFine) - 0.5;
+      const double share = visibleDensity(view, alpha, at(c, 2 * kPi * turn)) * 2 * kPi /
+                           (kRows * kFine * kColumns * kFine);
+      expected[static_cast<std::size_t>(i / kFine * kColumns + j / kFine)] += share * kDraws;
+    }
+  }
+  double chiSquared = 0, pooledSeen = 0, pooledExpected = 0;
+  int cells = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (expected[i] < 20) {  // too few for the normal approximation: taken together
+      pooledSeen += seen[i], pooledExpected += expected[i];
+      continue;
+    }
+    chiSquared += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
+    ++cells;
+  }
+  EXPECT_GT(cells, 8);
+  // Five standard deviations of the statistic above its mean.
+  EXPECT_LT(chiSquared, cells + 5 * std::sqrt(2.0 * cells));
+  EXPECT_NEAR(pooledSeen, pooledExpected, 5 * std::sqrt(pooledExpected) + 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lobes, VisibleNormals,
+                         testing::Combine(testing::Values(0.3, 0.6, 1.0),
+                                          testing::Values(0.1, 0.5, 0.999)));
+
+// weight = lobe * cosine / density of the direction, sample by sample: so what the samples bring is
+// the integral of the lobe, which is reciprocal.
+TEST(GlossyRays, WeighWhatTheLobeSaysOverTheirDensity) {
+  test::Numbers numbers(8);
+  for (int i = 0; i < 2000; ++i) {
+    const Surfel s = surfel(numbers.in(0.05, 1), numbers.in(0.02, 1), numbers.in(0.02, 1));
+    const Impulse ray = glossyImpulse(s, 0, pointOf(numbers));
+    const double weight = ray.weight.x;
+    if (weight == 0) continue;
+    const Vec3d& l = ray.ray.direction;
+    if (l.z < 0.01) continue;  // next to the horizon, rounding decides about the half vector
+    const Vec3d h = normalized(s.view + l);
+    const double density = visibleDensity(s.view, s.alpha, h) / (4 * dot(s.view, h));
+    const double wanted = glossyLobe(s, l).x * l.z / density;
+    EXPECT_NEAR(weight, wanted, 1e-9 * wanted) << s.alpha << ' ' << s.view.z << ' ' << l.z;
+  }
+}
+
+// The lobe's albedo by the midpoint rule over half vectors' cosines and angles.
+double quadrature(const Surfel& s) {
+  constexpr int kRows = 600, kColumns = 400;
+  double sum = 0;
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kColumns; ++j) {
+      const double c = (i + 0.5) / kRows;
+      sum += glossyLobe(s, at(c, 2 * kPi * (j + 0.5) / kColumns)).x * c;
+    }
+  }
+  return sum * 2 * kPi / (kRows * kColumns);
+}
+
+double sampledAlbedo(const Surfel& s, std::uint32_t points) {
+  const LobeSampling sampling{points, 0, 0};
+  double sum = 0;
+  for (std::uint32_t k = 0; k < points; ++k) {
+    sum += glossyImpulse(s, 0, lobePoint(1, sampling, k)).weight.x;
+  }
+  return sum / points;
+}
+
+// In a white furnace: what the lobe reflects of light that comes from everywhere.
+TEST(GlossyRays, BringTheAlbedoOfTheLobe) {
+  for (const double alpha : {0.15, 0.4, 1.0}) {
+    for (const double viewCosine : {0.1, 0.5, 0.95}) {
+      const Surfel s = surfel(alpha, 0.3, viewCosine);
+      // 1e-3: what 4096 points of a lattice leave of a smooth integrand, and the midpoint rule.
+      EXPECT_NEAR(sampledAlbedo(s, 4096), quadrature(s), 1e-3) << alpha << ' ' << viewCosine;
+    }
+  }
+}
+
+TEST(GlossyRays, LoseWhatSeveralBouncesWouldBringAndGainNothing) {
+  double alongNormal = 1;
+  for (const double alpha : {0.002, 0.1, 0.4, 0.7, 1.0}) {
+    for (const double viewCosine : {0.02, 0.3, 0.7, 1.0}) {
+      const Surfel s = surfel(alpha, 1, viewCosine);
+      for (std::uint32_t k = 0; k < 256; ++k) {
+        const Impulse ray = glossyImpulse(s, 0, lobePoint(2, {256, 0, 0}, k));
+        EXPECT_LE(ray.weight.x, 1 + 1e-12);
+        EXPECT_GE(ray.weight.x, 0);
+      }
+    }
+    // A white surface keeps the less light the rougher it is.
+    const double kept = sampledAlbedo(surfel(alpha, 1, 1), 4096);
+    EXPECT_LT(kept, alongNormal) << alpha;
+    if (alpha < 0.01) {
+      EXPECT_GT(kept, 0.9999);
+    }
+    alongNormal = kept;
+  }
+  // The integral of c / (1 + c) over [0, 1]; 1e-3 as above.
+  EXPECT_NEAR(alongNormal, 1 - std::log(2.0), 1e-3);
+}
+
+TEST(GlossyRays, OfAVanishingLobeAreTheMirroredRay) {
+  for (const double viewCosine : {0.05, 0.4, 1.0}) {
+    for (const double alpha : {0.0009, 0.0011, 0.004}) {
+      const Surfel s = surfel(alpha, 0.04, viewCosine);
+      const Vec3d mirrored = reflect(-s.view, s.shadingNormal);
+      const double schlick = 0.04 + 0.96 * schlickTerm(viewCosine);
+      for (std::uint32_t k = 0; k < 64; ++k) {
+        const Impulse ray = glossyImpulse(s, 0, lobePoint(3, {64, 0, 0}, k));
+        const double off = length(ray.ray.direction - mirrored);
+        if (alpha <= double{kSmoothAlpha}) {
+          EXPECT_LT(off, 1e-12);
+          EXPECT_NEAR(ray.weight.x, schlick, 1e-12);
+        } else if (k < 60) {
+          // All but the tail: the slope of a visible facet has the scale alpha.
+          EXPECT_LT(off, 200 * alpha);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(lobeRays(surfel(kSmoothAlpha, 1, 1), {8, 0, 0}), 1);
+  EXPECT_EQ(lobeRays(surfel(0.01, 1, 1), {8, 0, 0}), 8);
+}
+
+TEST(GlossyRays, StayAboveTheSurfaceThatNormalsAreBentOf) {
+  test::Numbers numbers(9);
+  for (int i = 0; i < 2000; ++i) {
+    Surfel s = surfel(numbers.in(0.1, 1), 0.5, numbers.in(0.05, 1));
+    s.shadingNormal = normalized(Vec3d(numbers.in(-1, 1), numbers.in(-1, 1), 1));
+    const Impulse ray = glossyImpulse(s, 0, pointOf(numbers));
+    if (maxComponent(ray.weight) == 0) continue;
+    EXPECT_GT(ray.ray.direction.z, 0);
+    EXPECT_NEAR(length(ray.ray.direction), 1, 1e-12);
+  }
+}
+
+Material rough(float f0, float roughness) {
+  Material m = test::blackMaterial();
+  m.specular = Rgb(f0);
+  m.roughness = roughness;
+  return m;
+}
+
+Settings sampled(int glossy) {
+  Settings settings = test::uncut();
+  settings.glossy = glossy;
+  return settings;
+}
+
+// A rough floor under a sky of one colour is as bright as its albedo.
+TEST(GlossyScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
+  for (const float roughness : {0.3f, 0.7f, 1.0f}) {
+    test::SceneBuilder builder;
+    builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, roughness))));
+    builder.sky(2);
+    const Scene scene = builder.build();
+    for (const double degrees : {10.0, 60.0}) {
+      RayCounts counts;
+      const RgbD seen =
+          test::radianceAlong(scene, {0, 1, 0}, test::steep(degrees), sampled(64), &counts);
+      const double alpha = double{roughness} * double{roughness};
+      const double albedo = quadrature(surfel(alpha, 0.5, std::cos(degrees * kPi / 180)));
+      // 0.03: what 64 points leave of weights that vary by 0.3, twice.
+      EXPECT_NEAR(seen.x, 2 * albedo, 0.03) << roughness << ' ' << degrees;
+      EXPECT_LE(counts.reflection, 64u);
+      EXPECT_GT(counts.reflection, 30u);  // the others end in the floor
+    }
+  }
+}
+
+TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNothingIsReflected) {
+  test::SceneBuilder builder;
+  builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, 0.5f))));
+  builder.sky(2);
+  const Scene scene = builder.build();
+  RayCounts counts;
+  EXPECT_EQ(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), sampled(0), &counts), RgbD());
+  Settings disabled = sampled(8);
+  disabled.effects = disabled.effects.without(Effect::glossyReflection);
+  EXPECT_EQ(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), disabled, &counts), RgbD());
+  EXPECT_EQ(counts.reflection, 0u);
+}
+
+// Between two rough plates: N rays leave the first surface, one ray each of those that follow.
+TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
+  test::SceneBuilder builder;
+  const std::uint32_t metal = builder.add(rough(1, 0.3f));
+  builder.add(test::floorAt(0, 1000, metal));
+  builder.add(test::ceilingAt(2, 1000, metal));
+  const Scene scene = builder.build();
+  for (const int depth : {1, 3}) {
+    Settings settings = sampled(16);
+    settings.depth = depth;
+    RayCounts counts;
+    test::radianceAlong(scene, {0, 1, 0}, test::steep(20), settings, &counts);
+    EXPECT_LE(counts.reflection, 16u * static_cast<unsigned>(depth));
+    EXPECT_GT(counts.reflection, 16u * static_cast<unsigned>(depth) * 3 / 4);
+  }
+}
+
+// A material with a mirror keeps its single impulse, and a lobe next to it if it says so.
+TEST(GlossyScenes, AMaterialMayKeepItsLobeForLights) {
+  test::SceneBuilder builder;
+  Material m = rough(0.5f, 0.5f);
+  m.mirror = m.mirrorGrazing = Rgb(0.25f);
+  m.glossyReflection = false;
+  builder.add(test::floorAt(0, 1000, builder.add(m)));
+  builder.sky(2);
+  RayCounts counts;
+  const RgbD seen =
+      test::radianceAlong(builder.build(), {0, 1, 0}, test::steep(30), sampled(8), &counts);
+  EXPECT_NEAR(seen.x, 0.5, 1e-12);
+  EXPECT_EQ(counts.reflection, 1u);
+}
+
+// How many samples there are does not decide which rays are worth tracing.
+TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
+  test::SceneBuilder builder;
+  builder.add(test::floorAt(0, 1000, builder.add(rough(0.04f, 0.3f))));
+  builder.sky(1);
+  const Scene scene = builder.build();
+  Settings settings = sampled(64);
+  settings.cutoff = 0.01;  // between the weight of the lobe and that of one of its samples
+  RayCounts counts;
+  test::radianceAlong(scene, {0, 1, 0}, test::steep(5), settings, &counts);
+  EXPECT_GT(counts.reflection, 32u);
+}
+
+TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
+  std::set<std::uint32_t> numbers;
+  for (std::uint32_t y = 0; y < 40; ++y) {
+    for (std::uint32_t x = 0; x < 40; ++x) {
+      for (std::uint32_t sample = 0; sample < 4; ++sample) {
+        const std::uint32_t path = pathOfPixel(x | y << 16, sample);
+        numbers.insert(path);
+        for (std::uint32_t branch = 1; branch < 5; ++branch) {
+          numbers.insert(childPath(path, branch));
+        }
+      }
+    }
+  }
+  // Of 32000 random numbers of 32 bits two are the same in one case of eight; never ten.
+  EXPECT_GT(numbers.size(), 32000u - 10);
+}
+
+// The samples of a pixel continue one lattice where they meet the first surface.
+TEST(PathNumbers, SamplesOfAPixelAreOneLattice) {
+  const std::uint32_t pixel = 5 | 9 << 16;
+  const LobeSampling whole = lobeSampling(0, 12, 0);
+  for (std::uint32_t sample = 0; sample < 3; ++sample) {
+    const LobeSampling part = lobeSampling(0, 4, sample);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const UnitPoint a = lobePoint(pathOfPixel(pixel, sample), part, k);
+      const UnitPoint b = lobePoint(pathOfPixel(pixel, 0), whole, 4 * sample + k);
+      EXPECT_EQ(a.u, b.u);
+      EXPECT_EQ(a.v, b.v);
+    }
+  }
+  EXPECT_EQ(lobeSampling(1, 12, 2).count, 1u);
+}
+
+// 64 points: one in each of 8 x 8 cells, but for a few.
+TEST(PathNumbers, PointsOfALobeAreEvenlySpread) {
+  for (std::uint32_t path = 0; path < 50; ++path) {
+    std::set<int> cells;
+    for (std::uint32_t k = 0; k < 64; ++k) {
+      const UnitPoint p = lobePoint(mixed(path), {64, 0, 0}, k);
+      ASSERT_TRUE(p.u >= 0 && p.u < 1 && p.v >= 0 && p.v < 1);
+      cells.insert(static_cast<int>(p.u * 8) * 8 + static_cast<int>(p.v * 8));
+    }
+    EXPECT_GE(cells.size(), 48u);  // of random points it would be 41
+  }
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,117 @@
+// Sampled reflections of rough surfaces: kernels against the reference, and what the picture's bits
+// must not depend on.
+#include <gtest/gtest.h>
+
+#include "metrics/metrics.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+// A row of rough spheres; textures, masks, glass and instances.
+class Glossy : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { scene_ = load(GetParam()); }
+  void TearDown() override { simd::chooseTarget("auto"); }
+  static RenderOptions options() {
+    RenderOptions o = smallOptions();
+    o.glossy = 3;
+    return o;
+  }
+  Scene scene_;
+};
+
+TEST_P(Glossy, everyStageAgreesWithItsTwinOnEveryTarget) {
+  for (const std::string& target : simd::availableTargets()) {
+    RenderOptions o = options();
+    o.spp = 2;
+    o.depth = 3;
+    o.simd = target;
+    Renderer renderer(scene_, o);
+    const Film film = makeFilm(scene_, o);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene_, o), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
+          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
+    }
+  }
+}
+
+TEST_P(Glossy, pictureAgreesWithTheReference) {
+  RenderOptions o = options();
+  o.spp = 2;
+  Renderer renderer(scene_, o);
+  Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
+  renderer.render(chooseCamera(scene_, o), packets);
+  renderer.renderReference(chooseCamera(scene_, o), reference);
+  const ImageDifference d = compareImages(packets.image, reference.image);
+  std::printf("%s: %.4f %% off by two codes or more, FLIP %.6f\n", GetParam().c_str(),
+              d.pixelsGe2CodesPct, d.flipMean);
+  // Half a per cent: each pixel is the mean of dozens of paths, any of which may meet an edge.
+  EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
+  EXPECT_LE(d.flipMean, 0.01);
+  EXPECT_EQ(d.nonFinite, 0u);
+}
+
+TEST_P(Glossy, bitsDependOnTheSceneAlone) {
+  const Image expected = render(scene_, options()).image;
+  const auto same = [&](const char* what, auto change) {
+    RenderOptions o = options();
+    change(o);
+    EXPECT_EQ(firstDifference(render(scene_, o).image, expected), "") << what;
+  };
+  same("1 thread", [](auto& o) { o.threads = 1; });
+  same("tiles of 8", [](auto& o) { o.tile = 8; });
+  same("queues of 48", [](auto& o) { o.queue = 48; });
+  same("whole frames", [](auto& o) { o.batch = Batch::frame; });
+  same("packets of 4", [](auto& o) { o.packet = 4; });
+  same("every effect", [](auto& o) { o.effects = EffectChoice::all; });
+}
+
+TEST_P(Glossy, aCropShowsTheSameNoise) {
+  RenderOptions o = options();
+  const Image whole = render(scene_, o).image;
+  o.crop = Crop{40, 30, 60, 41};
+  const Image part = render(scene_, o).image;
+  for (int y = 30; y < 41; ++y) {
+    for (int x = 40; x < 60; ++x) EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << "," << y;
+  }
+}
+
+TEST_P(Glossy, withoutSamplesThereIsNoCallNoRayAndNoColumn) {
+  RenderOptions o = smallOptions();
+  const Picture plain = render(scene_, o);
+  EXPECT_EQ(plain.stats.glossyCalls, 0u);
+  EXPECT_FALSE(Renderer(scene_, o).plan().groups.paths);
+  o.glossy = 3;
+  const Picture sampled = render(scene_, o);
+  EXPECT_GT(sampled.stats.glossyCalls, 0u);
+  EXPECT_GT(sampled.stats.of(RayKind::reflection).rays, plain.stats.of(RayKind::reflection).rays);
+  o.disable = EffectSet().with(Effect::glossyReflection);
+  EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Glossy, testing::Values("glossy", "effects"),
+                         [](const auto& info) { return info.param; });
+
+// More samples come nearer to what very many would show.
+TEST(GlossyNoise, fallsWithTheNumberOfSamples) {
+  const Scene scene = load("glossy");
+  RenderOptions o = smallOptions();
+  o.disable = EffectSet().with(Effect::lights);  // whose highlights are rare and bright
+  o.glossy = 64;
+  o.spp = 4;
+  const Image settled = render(scene, o).image;
+  double previous = 1e9;
+  for (const int glossy : {1, 4, 16}) {
+    o.glossy = glossy;
+    const double error = compareImages(render(scene, o).image, settled).rmse;
+    // Random points would halve it; those of a lattice do no worse.
+    EXPECT_LT(error, 0.6 * previous) << glossy;
+    previous = error;
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
