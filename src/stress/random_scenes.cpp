@@ -10,7 +10,8 @@ namespace whit::stress {
 
 namespace {
 
-// Every number is one that a scene file may hold (io/json_reader.h): finite, up to 1e18.
+// Every number is one that a scene file may hold (io/json_reader.h): finite, up to 1e18. Lists in
+// braces, not in parentheses, take their numbers in the same order with every compiler.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : numbers_(seed) {}
@@ -36,7 +37,8 @@ class RandomScene {
     return std::pow(10.0, one(4) ? numbers_.in(-18, 17) : numbers_.in(-5, 5));
   }
   Vec3d place() {
-    const Vec3d near = numbers_.direction() * numbers_.in(0, 4);
+    Vec3d near = numbers_.direction();
+    near *= numbers_.in(0, 4);
     return one(8) ? near * size() : near;
   }
   // Of light: none, some, or any.
@@ -48,7 +50,7 @@ class RandomScene {
   float unit() {
     return one(3) ? static_cast<float>(below(2)) : static_cast<float>(numbers_.in(0, 1));
   }
-  Rgb colour(float largest = 1) { return Rgb(unit(), unit(), unit()) * largest; }
+  Rgb colour(float largest = 1) { return Rgb{unit(), unit(), unit()} * largest; }
   std::uint32_t bits() { return static_cast<std::uint32_t>(numbers_.in(0, 4294967296.0)); }
 
   void addTextures() {
@@ -74,11 +76,20 @@ class RandomScene {
     m.diffuse = colour();
     m.diffuseMap = map(TexelFormat::colour);
     m.normalMap = map(TexelFormat::data);
-    if (one(2)) m.specular = colour(), m.specularMap = map(TexelFormat::colour);
+    if (one(2)) {
+      m.specular = colour();
+      m.specularMap = map(TexelFormat::colour);
+    }
     m.roughness = unit();
     if (one(4)) m.emission = colour(amount());
-    if (one(4)) m.alphaMap = map(TexelFormat::data), m.alphaCutoff = unit();
-    if (one(3)) m.mirror = colour(), m.mirrorGrazing = colour();
+    if (one(4)) {
+      m.alphaMap = map(TexelFormat::data);
+      m.alphaCutoff = unit();
+    }
+    if (one(3)) {
+      m.mirror = colour();
+      m.mirrorGrazing = colour();
+    }
     if (one(2)) {
       m.transmission = colour();
       m.ior = one(4) ? 1.0f : static_cast<float>(std::pow(10.0, numbers_.in(-1, 1)));
@@ -92,15 +103,17 @@ class RandomScene {
   Mesh mesh() {
     const auto m =
         static_cast<std::uint32_t>(below(static_cast<int>(builder_.description.materials.size())));
-    switch (below(5)) {
+    const int kind = below(5), level = below(3);
+    const Vec3d where = place(), sizes{size(), size(), size()};
+    switch (kind) {
       case 0:
-        return floorAt(static_cast<float>(numbers_.in(-1, 1)), static_cast<float>(size()), m);
+        return floorAt(static_cast<float>(where.y), static_cast<float>(sizes.x), m);
       case 1:
-        return box(Vec3f(-1), Vec3f(Vec3d{size(), size(), size()}), m);
+        return box(Vec3f(-1), Vec3f(sizes), m);
       case 2:
-        return sphereMesh(below(3), place(), size(), m, one(2));
+        return sphereMesh(level, where, sizes.x, m, one(2));
       case 3:
-        return unshared(sphereMesh(1, {}, 1, m));
+        return unshared(sphereMesh(level, {}, 1, m));
       default:
         return soup(m);
     }
@@ -124,9 +137,10 @@ class RandomScene {
   }
 
   Affine transform() {
-    const Vec3d scale = one(2) ? Vec3d(size()) : Vec3d{size(), -size(), size()};
-    return Affine::translation(place()) *
-           Affine::rotation(numbers_.direction(), numbers_.in(0, 360)) * Affine::scaling(scale);
+    const Vec3d sizes{size(), -size(), size()}, axis = numbers_.direction();
+    const Affine turned = Affine::rotation(axis, numbers_.in(0, 360));
+    const Affine scaled = Affine::scaling(one(2) ? Vec3d(sizes.x) : sizes);
+    return Affine::translation(place()) * turned * scaled;
   }
   void addObject() {
     std::vector<Affine> placements;
@@ -146,7 +160,7 @@ class RandomScene {
   Sky sky() {
     Sky sky;
     sky.kind = static_cast<Sky::Kind>(below(3));
-    sky.zenith = colour(amount()), sky.horizon = colour(amount()), sky.ground = colour(amount());
+    for (Rgb* part : {&sky.zenith, &sky.horizon, &sky.ground}) *part = colour(amount());
     sky.scale = unit();
     return sky;
   }

@@ -185,5 +185,27 @@ TEST(Bake, TrianglesAreSortedByClassAndKeepTheirOrder) {
   }
 }
 
+// Rays are carried into an instance by the inverse of its map: here from 1 to 1e18 and more.
+TEST(Bake, InstancesBeyondTheRangeOfRaysAreLeftOut) {
+  const auto twoOf = [](const Vec3d& scale) {
+    SceneDescription d = sceneOf(square());
+    d.instances = {{0, Affine::translation({3, 0, 0})}, {0, Affine::scaling(scale)}};
+    return d;
+  };
+  for (const Vec3d& scale : {Vec3d{1e-18, 1, 1}, Vec3d(1e-13), Vec3d{1, 1, 1e-18}, Vec3d(1e13)}) {
+    Warnings warnings;
+    const Scene scene = Scene::finalize(twoOf(scale), warnings);
+    EXPECT_EQ(scene.instances.size(), 1u) << scale.x;
+    EXPECT_EQ(scene.instancedTriangles, 2u) << scale.x;
+    EXPECT_EQ(warnings.entries().count("instance too small or too flat to be traced left out"), 1u);
+    Warnings strict(true);
+    expectError(ExitStatus::badScene, {"too small or too flat"},
+                [&] { Scene::finalize(twoOf(scale), strict); });
+  }
+  for (const Vec3d& scale : {Vec3d{1e-15, 1, 1}, Vec3d(1e-11), Vec3d(1e11), Vec3d{-1, 1, 1}}) {
+    EXPECT_EQ(finalized(twoOf(scale)).instances.size(), 2u) << scale.x;
+  }
+}
+
 }  // namespace
 }  // namespace whit
