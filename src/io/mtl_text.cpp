@@ -84,6 +84,9 @@ class Normaliser {
     const std::size_t begin = line.find_first_not_of(" \t", word);
     if (begin == std::string::npos) throwBadScene(here(), "expected a name after \"newmtl\"");
     const std::string name = line.substr(begin, line.find_last_not_of(" \t") + 1 - begin);
+    if (result_.materials.size() >= kMaterialLimit) {
+      throwLimit(here() + ": more than " + std::to_string(kMaterialLimit) + " materials");
+    }
     result_.materials.push_back({name, here(), {}});
     result_.text += "newmtl " + name + "\n";
   }

@@ -10,6 +10,9 @@
 
 namespace whit {
 
+// Each takes kilobytes and may be a line of a few letters.
+inline constexpr std::size_t kMaterialLimit = 65536;
+
 // What a material's text says of itself that tinyobjloader does not keep.
 struct MtlSummary {
   std::string name;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/mtl_text.h"
 #include "io/obj_geometry.h"
 
 namespace whit {
@@ -58,6 +59,9 @@ void ObjModel::readMaterials() {
         warnings_.add("material library missing", where + ": " + name);
       }
     }
+  }
+  if (text_->summary().materials.size() > kMaterialLimit) {
+    throwLimit(path_.string() + " uses more than " + std::to_string(kMaterialLimit) + " materials");
   }
   for (const ObjSummary::Name& name : text_->summary().materials) {
     const auto known = library.find(name.text);

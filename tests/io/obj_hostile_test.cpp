@@ -110,5 +110,16 @@ TEST_F(ObjHostile, EveryFaceMayBeBad) {
   EXPECT_EQ(warned("face with a vertex index out of range dropped"), kFaces);
 }
 
+TEST_F(ObjHostile, MaterialsHaveALimit) {
+  std::string uses = kTriangle, library;
+  for (int i = 0; i <= 65536; ++i) {
+    uses += "usemtl " + std::to_string(i) + "\n";
+    library += "newmtl " + std::to_string(i) + "\n";
+  }
+  EXPECT_EQ(errorOfObj(uses), "5 m.obj uses more than 65536 materials");
+  save("m.mtl", library);
+  EXPECT_EQ(errorOfObj("mtllib m.mtl\n"), "5 m.mtl:65537: more than 65536 materials");
+}
+
 }  // namespace
 }  // namespace whit
