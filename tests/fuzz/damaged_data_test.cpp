@@ -1,0 +1,116 @@
+// Real files cut short and with bits flipped, given to the program: a picture's worth of scene or
+// an error, never a crash, a hang or more memory than is allowed.
+//   WHIT_DAMAGED_VERSIONS=200 WHIT_DAMAGED_BYTES=30000000 build/tests/damaged_data_test
+// tries more versions of each file, and larger files.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cli/run_program.h"
+#include "fuzz/damage.h"
+#include "sanitized.h"
+
+namespace whit::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using cli::Outcome;
+using cli::TemporaryFolder;
+
+std::uint64_t setting(const char* name, std::uint64_t fallback) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : fallback;
+}
+
+fs::path dataFolder() {
+  if (const char* given = std::getenv("WHIT_DATA"); given && *given) return given;
+  const char* source = std::getenv("WHIT_SOURCE_DIR");
+  return fs::path(source ? source : ".") / "../shared/data";
+}
+
+// Of every kind the smallest, or all up to WHIT_DAMAGED_BYTES.
+std::vector<fs::path> filesToDamage() {
+  const std::uint64_t most = setting("WHIT_DAMAGED_BYTES", 0);
+  std::map<std::string, std::vector<fs::path>> kinds;
+  for (const auto& entry : fs::recursive_directory_iterator(dataFolder())) {
+    if (entry.is_regular_file()) kinds[entry.path().extension()].push_back(entry.path());
+  }
+  std::vector<fs::path> chosen;
+  for (const char* kind : {".obj", ".mtl", ".gltf", ".glb", ".bin", ".ply", ".png", ".jpg", ".jpeg",
+                           ".tga", ".hdr", ".exr"}) {
+    std::vector<fs::path>& files = kinds[kind];
+    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+      return std::pair(fs::file_size(a), a) < std::pair(fs::file_size(b), b);
+    });
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (i == 0 || fs::file_size(files[i]) <= most) chosen.push_back(files[i]);
+    }
+  }
+  return chosen;
+}
+
+// A scene that uses the file in `folder`, beside which lies all that lies beside the original.
+std::string sceneWith(const fs::path& original, const TemporaryFolder& folder) {
+  const std::string kind = original.extension(), name = original.filename();
+  for (const auto& entry : fs::directory_iterator(original.parent_path())) {
+    if (entry.path() != original) {
+      fs::create_symlink(entry.path(), folder.path() / entry.path().filename());
+    }
+  }
+  if (kind == ".obj" || kind == ".gltf" || kind == ".glb" || kind == ".ply") return folder / name;
+  if (kind == ".mtl" || kind == ".bin") {
+    const std::string user = kind == ".mtl" ? ".obj" : ".gltf";
+    for (const auto& entry : fs::directory_iterator(original.parent_path())) {
+      if (entry.path().extension() == user) return folder / entry.path().filename().string();
+    }
+  }
+  const bool sky = kind == ".hdr" || kind == ".exr";
+  std::ofstream(folder / "s.json")
+      << "{\"whit\": 1, "
+      << (sky ? "\"sky\": {\"image\": \"" : "\"textures\": {\"t\": {\"image\": \"") << name
+      << (sky ? "\"}}" : "\"}}}");
+  return folder / "s.json";
+}
+
+void limitChild() {
+  constexpr rlim_t kMemory = rlim_t{6} << 30;  // of addresses: the limit below and the program
+  const rlimit memory{kMemory, kMemory};
+  if (!kSanitized) setrlimit(RLIMIT_AS, &memory);
+  const rlimit seconds{60, 60};  // far longer than any of them takes
+  setrlimit(RLIMIT_CPU, &seconds);
+}
+
+void tryVersionsOf(const fs::path& original, std::uint32_t versions) {
+  const TemporaryFolder folder;
+  const std::string scene = sceneWith(original, folder);
+  const std::string text = cli::readFile(original);
+  const std::vector<std::uint8_t> whole(text.begin(), text.end());
+  for (std::uint32_t seed = 0; seed < versions; ++seed) {
+    const std::vector<std::uint8_t> bytes = damaged(whole, seed);
+    std::ofstream(folder / original.filename(), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    const Outcome outcome =
+        cli::runWhit({"info", scene, "--quiet", "--max-memory", "2"}, limitChild);
+    // 3: a bad file. 4: it names a file that is not there. 5: it asks for more than the limit.
+    EXPECT_TRUE(outcome.status == 0 || (outcome.status >= 3 && outcome.status <= 5))
+        << "status " << outcome.status << ", seed " << seed << " of " << original << "\n"
+        << outcome.err.substr(0, 2000);
+  }
+}
+
+TEST(DamagedData, GivesASceneOrAnError) {
+  if (!fs::exists(dataFolder())) {
+    GTEST_SKIP() << "no damaged versions of real files: there is no " << dataFolder();
+  }
+  const std::vector<fs::path> files = filesToDamage();
+  EXPECT_FALSE(files.empty());
+  const auto versions = static_cast<std::uint32_t>(setting("WHIT_DAMAGED_VERSIONS", 6));
+  for (const fs::path& file : files) tryVersionsOf(file, versions);
+  std::printf("%u versions of each of %zu files\n", versions, files.size());
+}
+
+}  // namespace
+}  // namespace whit::fuzz
