@@ -86,7 +86,7 @@ void add(Digester& d, const Camera& camera) {
   add(d, eye), add(d, at), add(d, up), add(d, fov);
 }
 void add(Digester& d, const PointLight& light) {
-  const auto& [name, position, intensity, radius] = light;
+  const auto& [name, position, intensity, radius, pointer] = light;
   add(d, position), add(d, intensity), add(d, radius);
 }
 void add(Digester& d, const Medium& medium) {
@@ -100,7 +100,7 @@ void add(Digester& d, const InstanceRecord& instance) {
 void add(Digester& d, const Material& material) {
   const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, glossyReflection,
                emission, normalMap, alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior,
-               absorption, priority, castsShadow] = material;
+               absorption, priority, castsShadow, pointer] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
   add(d, glossyReflection);
   add(d, emission), add(d, normalMap), add(d, alphaMap), add(d, alphaCutoff), add(d, mirror);

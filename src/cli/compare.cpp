@@ -51,6 +51,7 @@ OptionList listOptions(CompareJob& job) {
 
 Compared compareFiles(const CompareJob& job) {
   if (job.stages) throwUsage("--stages needs a scene, not two images");
+  if (!job.common.load.settings.empty()) throwUsage("--set needs a scene, not two images");
   Warnings warnings(job.common.render.strict);
   Compared result;
   result.a = readImage(job.subjects[0], ImageLimits(), warnings);

@@ -57,6 +57,12 @@ void requireJsonWritable(const std::string& path) {
   if (!path.empty() && path != "-") requireWritable(path, {});
 }
 
+void addSettings(const std::vector<std::string>& settings, ImageMetadata& metadata) {
+  std::string text;
+  for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
+  if (!text.empty()) metadata.emplace_back("set", text);
+}
+
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata) {
   const WriteScope scope;

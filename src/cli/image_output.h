@@ -18,6 +18,9 @@ void requireWritable(const std::string& path, const std::vector<std::string>& ex
 // The same for the value of --json: empty and "-" are fine.
 void requireJsonWritable(const std::string& path);
 
+// Says with which settings of LoadOptions the scene was read; nothing without any.
+void addSettings(const std::vector<std::string>& settings, ImageMetadata& metadata);
+
 // Writes .exr (linear) or .png (display) by the name's extension.
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata);

@@ -14,6 +14,7 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
   auto open = std::make_unique<OpenScene>(common.render.strict);
   open->scene = Scene::finalize(loadScene(name, common.load, open->warnings, progress),
                                 open->warnings, progress);
+  open->settings = common.load.settings;
   open->loadMs =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!common.quiet) tellWarnings(open->warnings);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/parse_options.h"
 #include "core/warnings.h"
@@ -16,7 +17,8 @@ struct OpenScene {
   explicit OpenScene(bool strict) : warnings(strict) {}
   Scene scene;
   Warnings warnings;
-  double loadMs = 0;  // reading and baking
+  std::vector<std::string> settings;  // that it was read with, as LoadOptions has them
+  double loadMs = 0;                  // reading and baking
 };
 
 // Loads and bakes; tells people on standard error what was mended, unless --quiet.

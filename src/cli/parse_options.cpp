@@ -107,6 +107,11 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.group("Loading");
   list.flag("allow-outside", "the scene may name files outside its own folder",
             common.load.allowOutside);
+  list.many(
+      {"set", "POINTER=VALUE"},
+      "a member of the scene's description, by JSON pointer, and what it is to be instead, in "
+      "JSON: /lights/0/intensity=40; may be repeated",
+      common.load.settings);
   list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
              common.maxMemoryGb);
   listReportOptions(list, common);

@@ -88,6 +88,7 @@ class ImageWriter {
              const ImageMetadata& more = {}) {
     const RenderOptions& options = job_.common.render;
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
+    addSettings(open_.settings, metadata);
     metadata.insert(metadata.end(), more.begin(), more.end());
     if (farm_.leads() && job_.resume &&
         std::all_of(files.begin(), files.end(), [&](const std::string& file) {

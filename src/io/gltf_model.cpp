@@ -11,21 +11,21 @@
 namespace whit {
 namespace {
 
-// What `to` still has of `from` becomes what `fresh` has: what a scene file has changed stays.
-void renew(Material& to, const Material& from, const Material& fresh) {
-  const auto field = [&](auto Material::*f) {
-    if (to.*f == from.*f) to.*f = fresh.*f;
+// What is not `given` becomes what `fresh` has: what a scene file has changed stays.
+void renew(Material& to, const Material& fresh, const GivenMembers& given) {
+  const auto member = [&](const char* name, auto Material::*m) {
+    if (!given.contains(name)) to.*m = fresh.*m;
   };
-  field(&Material::diffuse);
-  field(&Material::specular);
-  field(&Material::roughness);
-  field(&Material::glossyReflection);
-  field(&Material::mirror);
-  field(&Material::mirrorGrazing);
-  field(&Material::transmission);
-  field(&Material::ior);
-  field(&Material::absorption);
-  field(&Material::castsShadow);
+  member("diffuse", &Material::diffuse);
+  member("specular", &Material::specular);
+  member("roughness", &Material::roughness);
+  member("glossyReflection", &Material::glossyReflection);
+  member("mirror", &Material::mirror);
+  member("mirrorGrazing", &Material::mirrorGrazing);
+  member("transmission", &Material::transmission);
+  member("ior", &Material::ior);
+  member("absorption", &Material::absorption);
+  member("castsShadow", &Material::castsShadow);
 }
 
 }  // namespace
@@ -39,15 +39,16 @@ GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
   for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
 }
 
-TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const GivenMaps& given,
+TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
                                      TextureLoader& textures) {
   const GltfMaps maps = maps_.ask(sources_[i], textures);
-  if (!given.diffuse) material.diffuseMap = maps.diffuse;
-  if (!given.specular) material.specularMap = maps.specular;
-  if (!given.normal) material.normalMap = maps.normal;
-  if (!given.alpha) material.alphaMap = maps.alpha;
-  const auto renewed = [source = sources_[i], from = materials_[i], means = maps.means](
-                           Material& m) { renew(m, from, shadedAs(source, *means)); };
+  if (!given.contains("diffuseMap")) material.diffuseMap = maps.diffuse;
+  if (!given.contains("specularMap")) material.specularMap = maps.specular;
+  if (!given.contains("normalMap")) material.normalMap = maps.normal;
+  if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;
+  const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
+    renew(m, shadedAs(source, *means), given);
+  };
   return {std::move(material), renewed};
 }
 

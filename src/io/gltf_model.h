@@ -19,7 +19,7 @@ class GltfModel : public Model {
             Warnings& warnings);
 
   const std::vector<Material>& materials() const override { return materials_; }
-  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMaps& given,
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override;
   // A body for each mesh of the file, which nodes share.
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;

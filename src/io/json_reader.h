@@ -31,6 +31,7 @@ class JsonValue {
   JsonValue(const JsonDocument& document, const Json& value, std::string pointer)
       : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
 
+  const std::string& pointer() const { return pointer_; }  // into the file, RFC 6901
   std::string where() const { return document_->file + "#" + pointer_; }
   [[noreturn]] void fail(const std::string& expected) const;
 

@@ -15,6 +15,7 @@
 #include "io/scene_context.h"
 #include "io/scene_items.h"
 #include "io/scene_materials.h"
+#include "io/scene_settings.h"
 #include "io/scene_view.h"
 
 namespace whit {
@@ -28,6 +29,12 @@ bool isSceneFile(const fs::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension == ".json";
+}
+
+std::vector<SceneSetting> parseSettings(const LoadOptions& options) {
+  std::vector<SceneSetting> settings;
+  for (const std::string& text : options.settings) settings.push_back(parseSceneSetting(text));
+  return settings;
 }
 
 // The scene's own values, then those that were given with its name.
@@ -67,7 +74,9 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   JsonDocument document;
   document.file = path.string();
+  const std::vector<SceneSetting> settings = parseSettings(options);
   document.root = parseJson(readTextFile(path, kJsonBytesLimit), document.file);
+  for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
   JsonObject file{JsonValue(document)};
   file.need("whit").integer(kSchemaVersion, kSchemaVersion);
   readParameters(file, name.parameters, document);
@@ -133,17 +142,56 @@ void supplyLight(SceneDescription& scene) {
   scene.ambient.down = Rgb(0.1f);
 }
 
+Json listOf(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+// The lights as a scene file has them; every bit comes back.
+Json describeLights(const std::vector<PointLight>& lights) {
+  Json list = Json::array();
+  for (const PointLight& light : lights) {
+    list.push_back({{"name", light.name},
+                    {"position", listOf(light.position)},
+                    {"intensity", listOf(light.intensity)},
+                    {"radius", light.radius}});
+  }
+  return list;
+}
+
+// Of a model, whose lights are there: as if a scene file gave them with the settings.
+std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
+                                    const std::string& file, SceneContext& context) {
+  for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
+    context.scene.lights[i].pointer = "/lights/" + std::to_string(i);
+  }
+  if (settings.empty()) return std::nullopt;
+  JsonDocument document{file, {{"lights", describeLights(context.scene.lights)}}, {}};
+  for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
+  JsonObject view{JsonValue(document)};
+  context.scene.lights.clear();
+  readLights(view, context.scene);
+  readSky(view, context);
+  const std::optional<double> fromSky = readAmbient(view, context.scene);
+  view.finish();
+  return fromSky;
+}
+
 SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
   SceneContext context(path, options, warnings, progress);
-  JsonDocument nothing;
-  nothing.root = Json::object();
-  JsonObject file{JsonValue(nothing)};
-  MaterialReader materials(file, context);
-  ItemReader(context, materials).readModelAlone(path);
-  finishTextures(context, std::nullopt);
+  JsonDocument nothing{path.string(), Json::object(), {}}, overrides = nothing;
+  std::vector<SceneSetting> others;
+  for (SceneSetting& setting : parseSettings(options)) {
+    if (setting.tokens.front() == "materials") {
+      applySceneSetting(setting, overrides);
+    } else {
+      others.push_back(std::move(setting));
+    }
+  }
+  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
+  MaterialReader materials(noMaterials, context);
+  ItemReader(context, materials).readModelAlone(file, path);
   if (context.scene.lights.empty()) supplyLight(context.scene);
+  finishTextures(context, readModelView(others, path.string(), context));
   return std::move(context.scene);
 }
 

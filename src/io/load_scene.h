@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/warnings.h"
@@ -15,6 +16,9 @@ struct LoadOptions {
   std::uint64_t maxMemoryBytes = 16ull << 30;  // texels and geometry while loading
   int threads = 0;                             // decoders; 0: all
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
+  // "POINTER=VALUE", see scene_settings.h, taken for parts of the scene file. Of a model: members
+  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient".
+  std::vector<std::string> settings;
 };
 
 // `name`: a scene file (.json), a model (model.h), or the bare name of a shipped scene, looked for

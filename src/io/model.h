@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,9 @@
 
 namespace whit {
 
-// The maps of a model's material that a scene file has replaced.
-struct GivenMaps {
-  bool diffuse = false, specular = false, normal = false, alpha = false;
-};
+// Names of a material's members that a scene file gives itself or that follow from those, in place
+// of what a model's own file says.
+using GivenMembers = std::set<std::string>;
 
 struct TexturedMaterial {
   Material material;
@@ -35,9 +35,9 @@ class Model {
 
   // As the file has them, without their maps.
   virtual const std::vector<Material>& materials() const = 0;
-  // `material` is materials()[i] or an edited copy of it; comes back with slots for the maps of the
-  // file, but for those `given`.
-  virtual TexturedMaterial withMaps(std::size_t i, Material material, const GivenMaps& given,
+  // `material` is materials()[i] or a copy with the `given` members changed; comes back with slots
+  // for the other maps of the file.
+  virtual TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                                     TextureLoader& textures) = 0;
   // What the model holds, its shared meshes being bodies of their own in `layout`. `materials` has
   // the scene's index for each of materials().

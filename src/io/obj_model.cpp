@@ -76,17 +76,17 @@ void ObjModel::readMaterials() {
   sources_.push_back(greyMaterial("default", path_.string()));
 }
 
-TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMaps& given,
+TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
                                     TextureLoader& textures) {
   MtlMaterial source = sources_[i];
   source.material = std::move(material);
-  if (given.diffuse) source.diffuse.name.clear();
-  if (given.specular) source.specular.name.clear();
-  if (given.normal) {
+  if (given.contains("diffuseMap")) source.diffuse.name.clear();
+  if (given.contains("specularMap")) source.specular.name.clear();
+  if (given.contains("normalMap")) {
     source.normal.name.clear();
     source.bump.name.clear();
   }
-  if (given.alpha) {
+  if (given.contains("alphaMap")) {
     source.alpha.name.clear();
     source.alphaFromDiffuse = false;
   }

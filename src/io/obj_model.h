@@ -20,7 +20,7 @@ class ObjModel : public Model {
 
   // One for each material that faces use, and a grey one last for faces without any.
   const std::vector<Material>& materials() const override { return materials_; }
-  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMaps& given,
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override;
   // Parses the faces at the first call.
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;

@@ -21,7 +21,7 @@ class PlyModel : public Model {
 
   // A grey one.
   const std::vector<Material>& materials() const override { return materials_; }
-  TexturedMaterial withMaps(std::size_t, Material material, const GivenMaps&,
+  TexturedMaterial withMaps(std::size_t, Material material, const GivenMembers&,
                             TextureLoader&) override {
     return {std::move(material), {}};
   }

@@ -1,7 +1,9 @@
 #include "io/scene_items.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -20,6 +22,23 @@ namespace {
   throwBadScene(
       slot.where(),
       "unknown " + kind + (nearest.empty() ? std::string() : "; is \"" + nearest + "\" meant?"));
+}
+
+// By which scene files call the materials of a model: their names, with a number after those that
+// are taken.
+std::vector<std::string> distinctNames(const std::vector<Material>& materials) {
+  std::set<std::string> taken;
+  for (const Material& material : materials) taken.insert(material.name);
+  std::map<std::string, int> uses;
+  std::vector<std::string> names;
+  for (const Material& material : materials) {
+    std::string name = material.name;
+    int& use = uses[material.name];
+    while (++use > 1 && !taken.insert(name = material.name + "#" + std::to_string(use)).second) {
+    }
+    names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -43,12 +62,9 @@ void ItemReader::read(JsonObject& file) {
   layout_.moveTo(context_.scene);
 }
 
-void ItemReader::readModelAlone(const std::filesystem::path& path) {
+void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
   Model& model = context_.model(path);
-  std::vector<std::uint32_t> materials;
-  for (std::size_t i = 0; i < model.materials().size(); ++i) {
-    materials.push_back(addMaterial(model, i, model.materials()[i], {}));
-  }
+  const std::vector<std::uint32_t> materials = modelMaterials(model, file);
   layout_.append(contentOf(model, path, materials), {Affine()}, layout_.body(0));
   layout_.moveTo(context_.scene);
   model.addView(context_.scene);
@@ -151,10 +167,13 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
 // Overrides first, then images are asked for: they are decoded while the geometry is read.
 std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
   std::vector<Material> materials = model.materials();
-  std::vector<GivenMaps> given(materials.size());
+  std::vector<GivenMembers> given(materials.size());
+  const std::vector<std::string> names = distinctNames(materials);
+  const std::string section = item.value().pointer() + "/materials/";
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    materials[i].pointer = section + escapePointer(names[i]);
+  }
   if (const auto overrides = item.find("materials")) {
-    std::vector<std::string> names;
-    for (const Material& material : materials) names.push_back(material.name);
     const auto apply = [&](const JsonValue& value, std::size_t i) {
       JsonObject object(value);
       materials_.override(object, materials[i], given[i]);
@@ -179,7 +198,7 @@ std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& 
 }
 
 std::uint32_t ItemReader::addMaterial(Model& model, std::size_t i, Material material,
-                                      const GivenMaps& given) {
+                                      const GivenMembers& given) {
   TexturedMaterial textured = model.withMaps(i, std::move(material), given, context_.textures);
   const std::uint32_t index = materials_.add(std::move(textured.material));
   if (textured.whenDecoded) {

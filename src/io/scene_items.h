@@ -21,8 +21,9 @@ class ItemReader {
 
   // Fills in the scene's objects and instances.
   void read(JsonObject& file);
-  // A scene that is a model and nothing else.
-  void readModelAlone(const std::filesystem::path& path);
+  // A scene that is a model and nothing else, but for the section "materials" of `file`: what
+  // materials of the model are to be instead.
+  void readModelAlone(JsonObject& file, const std::filesystem::path& path);
 
  private:
   struct NamedObject {
@@ -36,7 +37,8 @@ class ItemReader {
   Body readShape(JsonObject& item, const JsonValue& name);
   Body readModel(JsonObject& item, const JsonValue& path);
   std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
-  std::uint32_t addMaterial(Model& model, std::size_t i, Material material, const GivenMaps& given);
+  std::uint32_t addMaterial(Model& model, std::size_t i, Material material,
+                            const GivenMembers& given);
   Body contentOf(Model& model, const std::filesystem::path& path,
                  const std::vector<std::uint32_t>& materials);
   std::uint32_t object(const JsonValue& name);

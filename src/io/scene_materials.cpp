@@ -84,6 +84,7 @@ MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : contex
     JsonObject object(value);
     Material material;
     material.name = name;
+    material.pointer = value.pointer();
     read(object, material);
     object.finish();
     materials_.emplace(name, add(material));
@@ -100,9 +101,12 @@ std::uint32_t MaterialReader::add(Material material) {
 }
 
 std::uint32_t MaterialReader::defaultMaterial() {
+  const auto named = materials_.find("default");
+  if (named != materials_.end()) return named->second;
   if (!default_) {
     Material material;
     material.name = "default";
+    material.pointer = "/materials/default";
     default_ = add(material);
   }
   return *default_;
@@ -196,12 +200,11 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   }
 }
 
-void MaterialReader::override(JsonObject& object, Material& material, GivenMaps& given) {
+void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
   read(object, material);
-  given.diffuse = given.diffuse || object.has("diffuseMap");
-  given.specular = given.specular || object.has("specularMap");
-  given.normal = given.normal || object.has("normalMap");
-  given.alpha = given.alpha || object.has("alphaMap");
+  for (const auto& [name, value] : object.value().members()) given.insert(name);
+  if (object.has("mirror")) given.insert("mirrorGrazing");
+  if (object.has("transmission")) given.insert("castsShadow");
 }
 
 }  // namespace whit

@@ -74,6 +74,7 @@ void readLights(JsonObject& file, SceneDescription& scene) {
     PointLight light;
     const auto name = object.find("name");
     light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
+    light.pointer = value.pointer();
     light.position = Vec3f(object.need("position").vector());
     light.intensity = object.need("intensity").colour();
     light.radius = object.number("radius", light.radius, kLeastRadius);

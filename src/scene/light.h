@@ -15,6 +15,7 @@ struct PointLight {
   Vec3f position;
   Rgb intensity{1, 1, 1};  // radiant intensity, W/sr per channel
   float radius = 0.01f;
+  std::string pointer;  // as of a Material
 };
 
 struct Sky {

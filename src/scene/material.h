@@ -51,6 +51,10 @@ struct Material {
 
   bool castsShadow = true;  // false: light passes, as if the surface were not there
 
+  // Where a scene's description has or can have these members (JSON pointer, RFC 6901); empty:
+  // nowhere.
+  std::string pointer;
+
   bool hasGlossy() const { return maxComponent(specular) > 0; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }

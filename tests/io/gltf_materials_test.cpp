@@ -208,6 +208,15 @@ TEST_F(GltfMaterials, RoughnessIsTheMeanOfItsMap) {
   EXPECT_NEAR(scene.materials[0].roughness, 0.4f, 1e-6f);
 }
 
+TEST_F(GltfMaterials, WhatIsGivenStaysEvenIfItIsWhatTheFileSaysWithoutItsMaps) {
+  save("mr.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
+  useImages({"mr.tga"});
+  options_.settings = {"/materials//roughness=1"};
+  const SceneDescription scene = loadText(sceneText(
+      {{0, "{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}", 1}}));
+  EXPECT_EQ(scene.materials[0].roughness, 1);
+}
+
 TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
   save("t.tga", tga(2, 1, {{255, 255, 255, 100}, {255, 255, 255, 255}}));
   useImages({"t.tga"});
