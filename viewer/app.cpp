@@ -8,14 +8,16 @@
 #include "core/error.h"
 #include "io/image_file.h"
 #include "viewer/comparison_panel.h"
+#include "viewer/edit_settings.h"
 #include "viewer/motion.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr double kIdleSeconds = 0.25;    // between looks at the scene file
-constexpr double kLongestSeconds = 0.1;  // of one step: a stall does not make the camera leap
+constexpr double kIdleSeconds = 0.25;     // between looks at the scene file
+constexpr double kLongestSeconds = 0.1;   // of one step: a stall does not make the camera leap
+constexpr double kUndrawnSeconds = 0.05;  // at most, while a picture is awaited
 constexpr double kMessageSeconds = 4;
 
 double samplesOf(const FrameRequest& request) {
@@ -35,7 +37,8 @@ App::App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
       thread_(scene, options.common, &Window::wake),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
-      edit_{scene, scene->scene.materials, scene->scene.lights},
+      read_{scene, scene->scene.materials, scene->scene.lights, {}},
+      edit_(read_),
       lastTick_(std::chrono::steady_clock::now()) {
   watch(options.scene);
   settings_.rate = resolution_.rate();
@@ -50,6 +53,8 @@ void App::run() {
 
 bool App::step() {
   window_.poll(waitSeconds());
+  const bool fresh = fetchFrame();
+  window_.poll(0);  // once more: the next picture has what the user did before this one was there
   const double seconds = tick();
   ScriptPlayer::Step step;
   if (script_) {
@@ -61,9 +66,9 @@ bool App::step() {
   handleInput();
   restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
   watchSceneFile(seconds);
-  fetchFrame();
-  askForFrame();
-  draw(step.screenshot);
+  askForFrame();  // before anything is drawn, which the next picture need not wait for
+  if (fresh) showPicture();
+  if (worthDrawing(step, fresh, seconds)) draw(step.screenshot);
   window_.input.endFrame();
   messageSeconds_ -= seconds;
   return true;
@@ -71,8 +76,19 @@ bool App::step() {
 
 double App::waitSeconds() const {
   if (script_) return thread_.busy() ? kScriptSecondsPerFrame : 0;
+  if (thread_.committed()) return kUndrawnSeconds;  // nothing can be asked for until it is there
   const bool active = !window_.input.held.empty() || pathTime_ || restSeconds_ < kSettleSeconds;
   return active ? 1 / resolution_.rate() : kIdleSeconds;
+}
+
+// A picture under way should find this thread waiting for it, not drawing the one before once more.
+bool App::worthDrawing(const ScriptPlayer::Step& step, bool fresh, double seconds) {
+  undrawnSeconds_ += seconds;
+  const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
+  const bool wanted = fresh || !step.screenshot.empty() || window_.input.pointer;
+  if (awaited && !wanted) return false;
+  undrawnSeconds_ = 0;
+  return true;
 }
 
 double App::tick() {
@@ -100,25 +116,25 @@ void App::flyPath(double seconds) {
   control_.set(cameraAt(path, *pathTime_));
 }
 
-void App::fetchFrame() {
+bool App::fetchFrame() {
   const std::string error = thread_.takeError();
   if (!error.empty()) {
     opening_.clear();
     if (shown_.scene) settings_.options = shown_.request.options;  // that are known to work
     fail(error);
   }
-  if (!thread_.take(shown_)) return;
+  if (!thread_.take(shown_)) return false;
   latency_.fetched(shown_.request.serial);
   if (shown_.scene != scene_) {
     const bool elsewhere = !opening_.empty();
     takeScene();
-    if (elsewhere) return;  // seen from where the camera was in the other scene
+    if (elsewhere) return false;  // seen from where the camera was in the other scene
   }
   const FrameRequest& request = shown_.request;
   if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   panel_.remember(shown_);
   if (shown_.request.measureKnobs) settings_.measureKnobs = false;
-  showPicture();
+  return true;
 }
 
 // What the window is filled with: the frame, or how it compares.
@@ -178,9 +194,10 @@ void App::askForFrame() {
     request = requestFor(resolution_.still(), true);
   }
   if (asked_ && samePicture(request, *asked_)) return;
-  request.serial = ++serial_;
+  request.serial = serial_ + 1;
+  if (!thread_.ask(request)) return;
+  ++serial_;
   asked_ = request;
-  thread_.ask(request);
 }
 
 void App::drawPanel() {
@@ -189,6 +206,7 @@ void App::drawPanel() {
   const bool edited = panel_.draw(shown_, control_.speed(), settings_, edit_);
   if (edited) {
     ++edits_;
+    edit_.settings = editSettings(read_, edit_);
     thread_.edit(edit_);
   }
   if (edited || settings_.options != before.options || settings_.view != before.view) {

@@ -31,10 +31,11 @@ class App {
   // app.cpp: the loop
   bool step();  // false: the script has come to its end
   double waitSeconds() const;
+  bool worthDrawing(const ScriptPlayer::Step& step, bool fresh, double seconds);
   double tick();
   bool moveCamera(double seconds);
   void flyPath(double seconds);
-  void fetchFrame();
+  bool fetchFrame();  // whether there is another picture to show
   void askForFrame();
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void showPicture();
@@ -50,6 +51,7 @@ class App {
   void handleViewKey(int key);
   void handlePictureKey(int key);
   void obey(const ScriptCommand& command);
+  std::string command() const;
   void attempt(const std::function<void()>& action);
   void jump(const Camera& camera);
 
@@ -76,11 +78,12 @@ class App {
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
   std::optional<FrameRequest> asked_;
-  int serial_ = 0;  // of the last request
-  ShadingEdit edit_;
+  int serial_ = 0;           // of the last request
+  ShadingEdit read_, edit_;  // the scene as it was read, and as it is to be
   int reloads_ = 0, edits_ = 0;
   double restSeconds_ = 0;  // since something changed
-  bool sharp_ = false;      // the frame shown gets no finer
+  double undrawnSeconds_ = 0;
+  bool sharp_ = false;  // the frame shown gets no finer
   std::optional<double> pathTime_;
   std::string message_, error_;
   double messageSeconds_ = 0;  // that it is still to be seen

@@ -53,6 +53,9 @@ void App::handleInput() {
   if (!input.dropped.empty()) open(input.dropped.front());
 }
 
+// That makes the picture shown.
+std::string App::command() const { return renderCommand(sceneName_, options_.common, shown_); }
+
 void App::obey(const ScriptCommand& command) {
   using Kind = ScriptCommand::Kind;
   if (command.kind == Kind::resize) {
@@ -91,14 +94,13 @@ void App::handleKey(int key) {
       reload();
       break;
     case GLFW_KEY_F12:
-      if (shown_.scene) say("saved " + savePicture(shown_) + " (.png, .exr, .json)");
+      if (shown_.scene) say("saved " + savePicture(shown_, command()) + " (.png, .exr, .json)");
       break;
     case GLFW_KEY_C:
       if (!shown_.scene) break;
-      std::printf("%s\n", renderCommand(sceneName_, options_.common, shown_).c_str());
+      std::printf("%s\n", command().c_str());
       std::fflush(stdout);
-      say(edits_ == 0 ? "printed the view as options of whit render"
-                      : "printed the view; materials and lights are those of the scene's file");
+      say("printed the view as options of whit render");
       break;
     default:
       break;

@@ -37,7 +37,7 @@ void App::reload() {
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();
-  thread_.load(sceneName_);
+  thread_.load({sceneName_, scene_->settings});
   say("reading the scene again");
 }
 
@@ -46,14 +46,14 @@ void App::open(const std::string& name) {
   restSeconds_ = 0;
   error_.clear();
   opening_ = name;
-  thread_.load(name);
+  thread_.load({name, {}});  // settings belong to the scene that they were given with
   say("reading " + name);
 }
 
 // The frame just fetched shows a scene that was read anew.
 void App::takeScene() {
   scene_ = shown_.scene;
-  edit_ = {scene_, scene().materials, scene().lights};
+  read_ = edit_ = {scene_, scene().materials, scene().lights, {}};
   edits_ = 0;
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/image_output.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
 
@@ -49,17 +50,21 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
       options_(common.render),
       renderer_(std::make_unique<Renderer>(scene_->scene, options_)) {}
 
-void FrameTracer::load(const std::string& name) {
-  std::shared_ptr<cli::OpenScene> scene = cli::openScene(name, common_, nullptr);
+void FrameTracer::load(const SceneChoice& choice) {
+  cli::CommonOptions common = common_;
+  common.load.settings = choice.settings;
+  std::shared_ptr<cli::OpenScene> scene = cli::openScene(choice.name, common, nullptr);
   auto renderer = std::make_unique<Renderer>(scene->scene, options_);
   renderer_ = std::move(renderer);  // before the scene that the old one reads goes
   scene_ = std::move(scene);
+  editSettings_.clear();
 }
 
 void FrameTracer::edit(ShadingEdit edit) {
   if (edit.scene != scene_) return;
   editShading(scene_->scene, std::move(edit.materials), std::move(edit.lights));
   renderer_->shadingChanged();
+  editSettings_ = std::move(edit.settings);
 }
 
 void FrameTracer::applyOptions(const FrameRequest& request) {
@@ -83,7 +88,9 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   frame.request = request;
   frame.options = options_;
   frame.metadata = describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
-  if (request.edits > 0) frame.metadata.emplace_back("edited", "materials or lights");
+  frame.settings = scene_->settings;
+  frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());
+  cli::addSettings(frame.settings, frame.metadata);
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
@@ -144,7 +151,6 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
   sizeDisplay(comparison.reference);
   double msPerRow = kReferenceBandMs;
   for (int y = 0; y < size.height; y = comparison.rows) {
-    if (superseded()) return false;
     const int rows = std::max(static_cast<int>(kReferenceBandMs / msPerRow), 1);
     const int end = std::min(y + rows, size.height);
     sizeFilm(band_, size, Crop{0, y, size.width, end});
@@ -153,6 +159,7 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     comparison.referenceMs += ms;
     comparison.rows = end;
     msPerRow = std::max(ms / (end - y), 1e-3);
+    if (superseded()) return false;
     publish(frame);
   }
   finishComparison(frame.film, options_.exposure, options_.toneCurve, comparison);

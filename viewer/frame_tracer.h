@@ -18,7 +18,7 @@ class FrameTracer {
   FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common);
 
   // Reads a scene; the old one stays when that fails.
-  void load(const std::string& name);
+  void load(const SceneChoice& choice);
   // Changes materials and lights; nothing when the scene is another one by now.
   void edit(ShadingEdit edit);
 
@@ -42,6 +42,7 @@ class FrameTracer {
   std::shared_ptr<cli::OpenScene> scene_;
   RenderOptions options_;
   std::unique_ptr<Renderer> renderer_;
+  std::vector<std::string> editSettings_;  // of the scene as it is now
   Film band_;
   double msPerSample_ = 0;
 };

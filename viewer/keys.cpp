@@ -37,9 +37,10 @@ constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
                              {"M", "measure what each knob and effect costs"},
                              {"X", "against the reference; drag the line"},
                              {"C", "print the view as options of whit render"},
-                             {"F12", "save PNG, EXR and camera"},
+                             {"F12", "save PNG, EXR, camera and command"},
                              {"F5 F9", "save, restore the camera"},
                              {"R", "reload the scene"},
+                             {"drop a file", "open it"},
                              {"Esc", "quit"}};
 
 }  // namespace

@@ -110,12 +110,14 @@ void drawView(const TracedFrame& frame, PanelSettings& settings) {
 }
 
 void drawKeys() {
-  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+  if (!ImGui::BeginTable("keys", 2)) return;
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("what they do");
   for (const KeyHelp& help : keyHelp()) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(help.keys);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(help.text);
+    ImGui::TextWrapped("%s", help.text);
   }
   ImGui::EndTable();
 }
@@ -134,8 +136,7 @@ void placeAtBottom() {
 void Panel::remember(const TracedFrame& frame) {
   costs_.learn(frame);
   if (frame.request.interruptible) return;
-  times_[next_] = static_cast<float>(frame.stats.frameMs);
-  next_ = (next_ + 1) % times_.size();
+  graph_.add(frame.stats.frameMs);
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -147,13 +148,7 @@ void Panel::drawTimes(const TracedFrame& frame) const {
               frame.request.spp == 1 ? "" : "s");
   ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
               frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2f ms traced, %.2f in Embree", stats.frameMs,
-                stats.embreeMs());
-  const float highest = *std::max_element(times_.begin(), times_.end());
-  ImGui::PlotLines("##times", times_.data(), static_cast<int>(times_.size()),
-                   static_cast<int>(next_), text, 0, highest * 1.1f,
-                   ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4));
+  ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
 }
 
 bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const {
@@ -206,6 +201,7 @@ bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings
   bool edited = false;
   if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
+    graph_.draw(settings.rate);
     ImGui::Text("speed %.3g units a second", speed);
     edited = drawTabs(frame, settings, scene);
   }
@@ -214,12 +210,14 @@ bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings
 }
 
 void Panel::drawMessage(const std::string& message) {
-  placeAtBottom();
-  ImGui::SetNextWindowBgAlpha(0.6f);
-  if (ImGui::Begin("message", nullptr, kLine | ImGuiWindowFlags_NoInputs)) {
-    ImGui::TextUnformatted(message.c_str());
-  }
-  ImGui::End();
+  constexpr float kMargin = 10, kPadding = 6, kRounding = 6;
+  constexpr ImU32 kText = IM_COL32(255, 255, 255, 255), kShade = IM_COL32(0, 0, 0, 190);
+  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(message.c_str());
+  const ImVec2 at((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y);
+  ImDrawList& list = *ImGui::GetForegroundDrawList();  // panels would hide it
+  list.AddRectFilled(ImVec2(at.x - kPadding, at.y - kPadding),
+                     ImVec2(at.x + size.x + kPadding, at.y + size.y + kPadding), kShade, kRounding);
+  list.AddText(at, kText, message.c_str());
 }
 
 bool Panel::drawError(const std::string& error) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "viewer/frame_graph.h"
 #include "viewer/knob_costs.h"
 
 namespace whit::view {
@@ -44,9 +45,7 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const;
 
   KnobCosts costs_;
-  // Milliseconds of frames in motion, for the graph.
-  std::array<float, 120> times_{};
-  std::size_t next_ = 0;
+  FrameGraph graph_;
 };
 
 }  // namespace whit::view

@@ -20,19 +20,20 @@ RenderThread::~RenderThread() {
   thread_.join();
 }
 
-void RenderThread::ask(const FrameRequest& request) {
+bool RenderThread::ask(const FrameRequest& request) {
   {
     const std::lock_guard lock(mutex_);
-    asked_ = request;
+    if (!exchange_.ask(request)) return false;
     busy_ = true;
   }
   wake_.notify_one();
+  return true;
 }
 
-void RenderThread::load(const std::string& name) {
+void RenderThread::load(const SceneChoice& scene) {
   {
     const std::lock_guard lock(mutex_);
-    sceneToLoad_ = name;
+    exchange_.load(scene);
     busy_ = true;
   }
   wake_.notify_one();
@@ -41,7 +42,7 @@ void RenderThread::load(const std::string& name) {
 void RenderThread::edit(ShadingEdit edit) {
   {
     const std::lock_guard lock(mutex_);
-    edit_ = std::move(edit);
+    exchange_.edit(std::move(edit));
     busy_ = true;
   }
   wake_.notify_one();
@@ -49,10 +50,7 @@ void RenderThread::edit(ShadingEdit edit) {
 
 bool RenderThread::take(TracedFrame& frame) {
   const std::lock_guard lock(mutex_);
-  if (!fresh_) return false;
-  std::swap(frame, ready_);
-  fresh_ = false;
-  return true;
+  return exchange_.take(frame);
 }
 
 std::string RenderThread::takeError() {
@@ -65,23 +63,27 @@ bool RenderThread::busy() const {
   return busy_;
 }
 
-bool RenderThread::superseded() const {
+bool RenderThread::committed() const {
   const std::lock_guard lock(mutex_);
-  return waiting() || quit_;
+  return exchange_.committed();
 }
 
-bool RenderThread::waiting() const { return asked_ || sceneToLoad_ || edit_; }
+bool RenderThread::superseded() const {
+  const std::lock_guard lock(mutex_);
+  return exchange_.waiting() || quit_;
+}
 
 void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    busy_ = waiting();
-    wake_.wait(lock, [this] { return waiting() || quit_; });
+    busy_ = exchange_.waiting();
+    wake_.wait(lock, [this] { return exchange_.waiting() || quit_; });
     if (quit_) return;
     try {
       serve(lock);
     } catch (const std::exception& error) {
       if (!lock.owns_lock()) lock.lock();
+      exchange_.giveUp();
       error_ = error.what();
     }
     lock.unlock();
@@ -96,15 +98,12 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
     work();
     lock.lock();
   };
-  if (sceneToLoad_) {
-    const std::string name = *std::exchange(sceneToLoad_, std::nullopt);
-    unlocked([&] { tracer_.load(name); });
-  } else if (edit_) {
-    ShadingEdit edit = *std::exchange(edit_, std::nullopt);
-    unlocked([&] { tracer_.edit(std::move(edit)); });
-  } else {
-    const FrameRequest request = *std::exchange(asked_, std::nullopt);
-    unlocked([&] { trace(request); });
+  if (const auto scene = exchange_.nextScene()) {
+    unlocked([&] { tracer_.load(*scene); });
+  } else if (auto edit = exchange_.nextEdit()) {
+    unlocked([&] { tracer_.edit(std::move(*edit)); });
+  } else if (const auto request = exchange_.begin()) {
+    unlocked([&] { trace(*request); });
   }
 }
 
@@ -112,18 +111,19 @@ void RenderThread::trace(const FrameRequest& request) {
   const bool complete = tracer_.trace(
       request, back_, [this] { return superseded(); },
       [this](const TracedFrame& frame) { publish(frame); });
-  if (!complete) return;
   const std::lock_guard lock(mutex_);
-  std::swap(back_, ready_);
-  fresh_ = true;
+  if (complete) {
+    exchange_.finish(back_);
+  } else {
+    exchange_.giveUp();
+  }
 }
 
 void RenderThread::publish(const TracedFrame& frame) {
   TracedFrame copy = frame;
   {
     const std::lock_guard lock(mutex_);
-    std::swap(ready_, copy);
-    fresh_ = true;
+    exchange_.show(copy);
   }
   onChange_();
 }

@@ -1,5 +1,5 @@
-// Tracing apart from the window's thread: the newest request wins, and a finished frame is handed
-// over by exchanging buffers, so that neither thread waits for the other.
+// Tracing apart from the window's thread: frames are handed over by exchanging buffers, so that
+// neither thread waits for the other.
 #pragma once
 
 #include <condition_variable>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "viewer/frame_exchange.h"
 #include "viewer/frame_tracer.h"
 
 namespace whit::view {
@@ -22,22 +23,23 @@ class RenderThread {
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
 
-  void ask(const FrameRequest& request);
+  // False: not now, as FrameExchange has it; `onChange` tells when to ask again.
+  bool ask(const FrameRequest& request);
   // Reads a scene, between frames; the old one stays when that fails.
-  void load(const std::string& name);
+  void load(const SceneChoice& scene);
   // Changes materials and lights, between frames; nothing when the scene is another one by then.
   void edit(ShadingEdit edit);
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
   std::string takeError();  // empty: none
   bool busy() const;        // tracing, or about to
+  bool committed() const;   // tracing a picture that nothing stops
 
  private:
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);
   void publish(const TracedFrame& frame);
-  bool waiting() const;  // something is to be done; with the mutex held
   bool superseded() const;
 
   const std::function<void()> onChange_;
@@ -46,11 +48,8 @@ class RenderThread {
 
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;
-  std::optional<FrameRequest> asked_;
-  std::optional<std::string> sceneToLoad_;
-  std::optional<ShadingEdit> edit_;
-  TracedFrame ready_;
-  bool fresh_ = false, busy_ = false, quit_ = false;
+  FrameExchange exchange_;
+  bool busy_ = false, quit_ = false;
   std::string error_;
   std::thread thread_;
 };

@@ -9,10 +9,13 @@ namespace whit::view {
 
 namespace {
 
+constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
 constexpr float kLargestIntensity = 1e6f, kLargestRadiance = 1e4f;
 
 bool drawColour(const char* label, Rgb& colour) {
-  return ImGui::ColorEdit3(label, &colour.x, ImGuiColorEditFlags_Float);
+  if (!ImGui::ColorEdit3(label, &colour.x, ImGuiColorEditFlags_Float)) return false;
+  colour = min(max(colour, Rgb(0.0f)), Rgb(1.0f));
+  return true;
 }
 
 // Colour and strength of what has no upper limit. The colour's largest channel is 1.
@@ -20,7 +23,7 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
   float strength = maxComponent(value);
   Rgb colour = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
   const bool recoloured = drawColour(label, colour);
-  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
   const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
   if (!recoloured && !turned) return false;
   value = colour * strength;
@@ -30,7 +33,9 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
 bool drawLight(PointLight& light) {
   bool changed = drawBright("colour", "intensity", kLargestIntensity, light.intensity);
   const float step = 0.002f * std::max(1.0f, maxComponent(abs(light.position)));
-  changed |= ImGui::DragFloat3("position", &light.position.x, step);
+  constexpr float kFarthest = 1e18f;
+  changed |=
+      ImGui::DragFloat3("position", &light.position.x, step, -kFarthest, kFarthest, "%.3f", kClamp);
   return changed;
 }
 
@@ -38,12 +43,12 @@ bool drawMaterial(Material& m) {
   constexpr float kLeastIor = 1, kLargestIor = 3, kLargestAbsorption = 100;
   bool changed = drawColour("diffuse", m.diffuse);
   changed |= drawColour("specular", m.specular);
-  if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
+  if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1, "%.3f", kClamp);
   changed |= drawColour("mirror", m.mirror);
   changed |= drawColour("mirror, grazing", m.mirrorGrazing);
   changed |= drawColour("transmission", m.transmission);
   if (m.hasTransmission()) {
-    changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f");
+    changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f", kClamp);
     changed |= drawBright("absorption", "absorption per unit", kLargestAbsorption, m.absorption);
   }
   changed |= drawBright("emission", "radiance", kLargestRadiance, m.emission);

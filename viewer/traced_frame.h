@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/open_scene.h"
 #include "io/image_file.h"
@@ -13,6 +14,12 @@
 #include "viewer/knob_measurement.h"
 
 namespace whit::view {
+
+// A scene as it is called on the command line, and its settings there.
+struct SceneChoice {
+  std::string name;
+  std::vector<std::string> settings;
+};
 
 struct FrameRequest {
   Camera camera;
@@ -39,6 +46,7 @@ struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;  // that was edited
   std::vector<Material> materials;
   std::vector<PointLight> lights;
+  std::vector<std::string> settings;  // that amount to the same when the scene is read
 };
 
 struct TracedFrame {
@@ -50,6 +58,7 @@ struct TracedFrame {
   ImageMetadata metadata;
   EffectSet effects;                               // that were traced
   std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
+  std::vector<std::string> settings;  // with which the scene was read, then those of an edit
   Machine machine;
   std::string legend;                    // of a debug view
   std::optional<Comparison> comparison;  // where the request is with the reference

@@ -70,24 +70,26 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
       text += " " + quoted("--" + name + "=" + value);
     }
   }
+  for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
   if (common.load.allowOutside) text += " --allow-outside";
   return text;
 }
 
-std::string savePicture(const TracedFrame& frame) {
+std::string savePicture(const TracedFrame& frame, const std::string& command) {
   const cli::WriteScope scope;
   const std::string name = freeName(frame.scene->scene.name);
   cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
   cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
-  writeCamera(name + ".json", frame.request.camera);
+  writeCamera(name + ".json", frame.request.camera, command);
   return name;
 }
 
-void writeCamera(const std::string& file, const Camera& camera) {
-  const Json json{{"eye", vectorJson(camera.eye)},
-                  {"at", vectorJson(camera.at)},
-                  {"up", vectorJson(camera.up)},
-                  {"fov", camera.fov}};
+void writeCamera(const std::string& file, const Camera& camera, const std::string& command) {
+  Json json{{"eye", vectorJson(camera.eye)},
+            {"at", vectorJson(camera.at)},
+            {"up", vectorJson(camera.up)},
+            {"fov", camera.fov}};
+  if (!command.empty()) json["command"] = command;
   const cli::WriteScope scope;
   writeTextFile(file, json.dump(2) + "\n");
 }

@@ -13,12 +13,13 @@ namespace whit::view {
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame);
 
-// Writes NAME-NNNN.png, .exr and .json (the camera) into the current folder, with the first number
-// that is free; returns "NAME-NNNN". Throws Error(io).
-std::string savePicture(const TracedFrame& frame);
+// Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
+// the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).
+std::string savePicture(const TracedFrame& frame, const std::string& command);
 
-// A camera as scene files have it: {"eye": [x,y,z], "at": ..., "up": ..., "fov": degrees}.
-void writeCamera(const std::string& file, const Camera& camera);
+// A camera as scene files have it: {"eye": [x,y,z], "at": ..., "up": ..., "fov": degrees}; and
+// "command", unless that is empty.
+void writeCamera(const std::string& file, const Camera& camera, const std::string& command = "");
 // Throws Error: io when it cannot be read, badScene with the place and what was expected.
 Camera readCamera(const std::string& file);
 

@@ -84,6 +84,45 @@ TEST_F(Viewer, ErrorsAreShownAndSurvived) {
   EXPECT_NE(codes("before.png").codes, codes("error.png").codes);
 }
 
+// Keys, mouse, then the panel: a light and a material are unfolded and changed.
+TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
+  const cli::Outcome outcome = play(
+      "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
+      "click 30 233\nwait 5 frames\nclick 100 278\nclick 60 302 130 302\n"         // the lamp
+      "click 30 359\nwait 5 frames\nclick 60 428 20 428\nclick 110 380 140 380\n"  // the mirror
+      "key H\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+      {"--size", "640x480"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  for (const char* edited : {"/lights/0/position=", "/lights/0/intensity=",
+                             "/materials/mirror/mirror=", "/materials/mirror/diffuse="}) {
+    EXPECT_NE(lines[0].find(std::string("--set '") + edited), std::string::npos) << lines[0];
+  }
+  EXPECT_EQ(lines[0].find("/materials/floor"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+  render(lines[0], "again.exr");
+  EXPECT_TRUE(cli::readFile(folder_ / "tiny-0001.exr") == cli::readFile(folder_ / "again.exr"))
+      << "the files, with all that they say about themselves";
+  EXPECT_NE(cli::readFile(folder_ / "tiny-0001.json").find("\"command\": \"whit render"),
+            std::string::npos);
+}
+
+// What is set on the command line belongs to the scene named there: it stays when that is read
+// again, and goes when another one is opened.
+TEST_F(Viewer, SettingsStayWithTheirScene) {
+  std::ofstream(folder_ / "other.json") << cli::readFile(folder_ / "tiny.json");
+  const cli::Outcome outcome = play(
+      "key N\nwait sharp\nkey C\nkey R\nwait 60 frames\nwait sharp\nkey C\n"
+      "drop other.json\nwait 60 frames\nwait sharp\nkey C\n",
+      {"--set", "/materials/floor/diffuse=[0.9, 0.1, 0.1]"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_NE(lines[0].find(" --set '/materials/floor/diffuse=[0.9, 0.1, 0.1]'"), std::string::npos);
+  EXPECT_EQ(lines[1], lines[0]);
+  EXPECT_EQ(lines[2].find("--set"), std::string::npos) << lines[2];
+}
+
 // Everything that keys and mouse can do, but quit and write files.
 std::string randomEvents(unsigned seed, int count) {
   constexpr std::array kKeys{"W", "A", "S", "D", "Q", "E", "Left", "Up", "Space", "1", "2",

@@ -97,9 +97,11 @@ TEST_F(RenderThreadTest, BandsMakeTheSamePicture) {
 
 TEST_F(RenderThreadTest, TheNewestRequestWins) {
   RenderThread thread(opened_, common_, [] {});
+  request_.interruptible = true;
+  TracedFrame early;
   for (int i = 1; i <= 50; ++i) {
     request_.options.exposure = static_cast<float>(i) / 8;
-    thread.ask(request_);
+    while (!thread.ask(request_)) thread.take(early);
   }
   ASSERT_TRUE(waitFor(thread));
   TracedFrame frame;
@@ -160,7 +162,7 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);
-  ShadingEdit edit{scene_, scene_->scene.materials, scene_->scene.lights};
+  ShadingEdit edit{scene_, scene_->scene.materials, scene_->scene.lights, {}};
   for (Material& m : edit.materials) m.mirror = m.mirrorGrazing = {0, 0, 0};
   for (Material& m : edit.materials) m.diffuse = {0.2f, 0.9f, 0.1f};
   edit.lights[0].position.x = -2;
@@ -184,7 +186,7 @@ TEST_F(RenderThreadTest, ReloadsTheScene) {
   std::string text = cli::readFile(name_);
   text.replace(text.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.9");
   std::ofstream(name_) << text;
-  thread.load(name_);
+  thread.load({name_, {}});
   const TracedFrame frame = traced(thread);
   EXPECT_NE(frame.scene, scene_);
   scene_ = frame.scene;
@@ -194,7 +196,7 @@ TEST_F(RenderThreadTest, ReloadsTheScene) {
 TEST_F(RenderThreadTest, ABrokenSceneLeavesTheOldOne) {
   RenderThread thread(opened_, common_, [] {});
   std::ofstream(name_) << "{ \"whit\": 1, ";
-  thread.load(name_);
+  thread.load({name_, {}});
   ASSERT_TRUE(waitFor(thread));
   EXPECT_NE(thread.takeError().find("tiny.json:1"), std::string::npos);
   EXPECT_EQ(thread.takeError(), "");

@@ -1,6 +1,7 @@
 // whit-view itself, with a scripted user on a virtual display.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstring>
 
 #include "viewer/view_files.h"
@@ -76,7 +77,14 @@ TEST_F(Viewer, BenchmarkTellsTracingFromDisplay) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("tracing"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("display"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("latency"), std::string::npos) << outcome.out;
+  const std::size_t latency = outcome.out.find("latency");
+  ASSERT_NE(latency, std::string::npos) << outcome.out;
+  int median = 0, largest = 0;
+  const std::size_t frames = outcome.out.find("; ", latency);
+  ASSERT_EQ(std::sscanf(outcome.out.c_str() + frames, "; %d and %d frames", &median, &largest), 2)
+      << outcome.out;
+  EXPECT_GE(median, 1);
+  EXPECT_LE(largest, 2) << "FrameExchange promises no more";
 }
 
 TEST_F(Viewer, ErrorsEndAScript) {
