@@ -31,17 +31,19 @@ void drawSplit(double split, bool labels) {
   drawLabel(list, ImVec2(x + gap, y), "reference");
 }
 
+// In short lines, which have room beside the panel in a small window.
 void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
   const ImageDifference& d = *comparison.difference;
   ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
   ImGui::Text("FLIP  %.2g", d.flipMean);
-  ImGui::Text("8-bit codes: largest %d, over 1 in %.3f %%", d.maxCode, d.pixelsGe2CodesPct);
-  ImGui::Text("packets %.1f ms, reference %.0f ms", frame.stats.frameMs, comparison.referenceMs);
+  ImGui::Text("8-bit codes: largest %d", d.maxCode);
+  ImGui::Text("             over 1 in %.3f %%", d.pixelsGe2CodesPct);
+  ImGui::Text("packets   %.1f ms", frame.stats.frameMs);
+  ImGui::Text("reference %.0f ms", comparison.referenceMs);
 }
 
 void drawFindings(const TracedFrame& frame, bool heat) {
-  ImGui::TextUnformatted(heat ? "difference from the reference, in 8-bit codes"
-                              : "packets against the reference");
+  ImGui::TextUnformatted(heat ? "differences in 8-bit codes" : "packets against the reference");
   if (!frame.comparison) {
     ImGui::TextDisabled("waits until nothing moves");
   } else if (frame.comparison->complete()) {
@@ -50,7 +52,7 @@ void drawFindings(const TracedFrame& frame, bool heat) {
     char text[48];
     std::snprintf(text, sizeof text, "reference: %.0f %%", 100 * frame.comparison->progress());
     ImGui::ProgressBar(static_cast<float>(frame.comparison->progress()),
-                       ImVec2(ImGui::GetFontSize() * 18, 0), text);
+                       ImVec2(ImGui::GetFontSize() * 15, 0), text);
   }
 }
 

@@ -17,7 +17,7 @@ void FrameGraph::draw(double rate) const {
   const auto budget = static_cast<float>(1000 / rate);
   const float highest = *std::max_element(times_.begin(), times_.end());
   const float scale = 1.25f * std::max(highest, budget);
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4);
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
   const int oldest = count_ < times_.size() ? 0 : static_cast<int>(next_);
   ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest,
                    count_ == 0 ? "nothing has moved yet" : nullptr, 0, scale, size);

@@ -112,7 +112,7 @@ void drawView(const TracedFrame& frame, PanelSettings& settings) {
 void drawKeys() {
   if (!ImGui::BeginTable("keys", 2)) return;
   ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("what they do");
+  ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch);
   for (const KeyHelp& help : keyHelp()) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(help.keys);

@@ -37,7 +37,7 @@ shot() {
 
 sharp=("wait 30 frames" "wait sharp")
 gone=("wait 250 frames" "wait sharp")  # messages
-shot viewer atrium 760x475 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
+shot viewer atrium 760x490 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
 shot viewer-knobs matte 960x600 "key N" "panel knobs" "${sharp[@]}" "key M" "${sharp[@]}" \
   "${gone[@]}"
 shot viewer-reference whitted 1280x720 "key X" "panel effects" "${sharp[@]}" "mouse left 120 0" \

@@ -104,7 +104,7 @@ TEST(EditSettings, OfItemsWithoutAMaterial) {
 class EditedModel : public testing::Test {
  protected:
   EditedModel() {
-    std::ofstream(folder_ / "m.mtl") << "newmtl a/b~c\nKd 1 0.5 0\nmap_Ks t.png\n"
+    std::ofstream(folder_ / "m.mtl") << "newmtl a/b~c\nKd 1 0.5 0\nillum 1\nmap_Ks t.png\n"
                                         "newmtl it's=1\nKs 0.5 0.5 0.5\nmap_Ks t.png\n";
     writePng(folder_ / "t.png", DisplayImage{1, 1, {128, 128, 128, 255}}, {});
     std::ofstream(folder_ / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"

@@ -88,8 +88,8 @@ TEST_F(Viewer, ErrorsAreShownAndSurvived) {
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
-      "click 30 233\nwait 5 frames\nclick 100 278\nclick 60 302 130 302\n"         // the lamp
-      "click 30 359\nwait 5 frames\nclick 60 428 20 428\nclick 110 380 140 380\n"  // the mirror
+      "click 30 220\nwait 5 frames\nclick 100 265\nclick 60 289 130 289\n"         // the lamp
+      "click 30 346\nwait 5 frames\nclick 60 415 20 415\nclick 110 367 140 367\n"  // the mirror
       "key H\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "640x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);
