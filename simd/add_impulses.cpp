@@ -89,9 +89,10 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
                          size_t i, const RayColumns& children, size_t at) {
   const FloatTag d;
   const UintTag du;
-  const VF throughput = hn::Mul(hn::Load(d, rays.throughput + i), child.largest);
-  const MF worth = hn::Ge(throughput, hn::Set(d, cutoff));
-  const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
+  const VF largest = child.largest;
+  const VF throughput = hn::Mul(hn::Load(d, rays.throughput + i), largest);
+  const MF traced =
+      hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))));
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);

@@ -25,8 +25,8 @@ struct CameraRays {
   Vec3f eye, forward, right, up;
   float halfWidth = 0, halfHeight = 0;
   float sampleX = 0.5f, sampleY = 0.5f;
-  std::uint32_t media = 0;         // CameraFrame's
   std::uint32_t sampleNumber = 0;  // the sample's place in the pattern
+  std::uint32_t media = 0;         // CameraFrame's
 };
 
 // Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =

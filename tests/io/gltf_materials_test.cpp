@@ -299,6 +299,38 @@ TEST_F(GltfMaterials, SmoothSurfacesMirror) {
                Rgb(0.04f));
 }
 
+// A rough white metal before a wall that glows, of which the tail of the lobe sees the edges.
+TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
+  candela_ = 0;
+  const auto reflected = [&](const std::string& material, int glossy) {
+    const std::vector<Square> squares{{0, material, 1}, {6, glowing("[1,0.5,0.25]"), 60}};
+    const Scene scene = Scene::finalize(loadText(sceneText(squares)), warnings_);
+    RenderOptions options;
+    options.size = ImageSize{1, 1};
+    options.glossy = glossy;
+    Renderer renderer(scene, options);
+    Film film = makeFilm(scene, options);
+    renderer.render(scene.cameras[0], film);
+    return film.image.pixels[0];
+  };
+  const std::string rough = "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}";
+  expectColour(reflected(rough, 0), Rgb(0.0f));
+  const Rgb seen = reflected(rough, 64);
+  // Of alpha 1/4, a white lobe reflects 0.916 of an even light to who looks along the normal: the
+  // integral of 2 c / (c + sqrt(c^2 (1 - alpha^2) + alpha^2)) over its samples; 64 of them.
+  EXPECT_NEAR(seen.x, 0.916, 0.05);
+  EXPECT_NEAR(seen.y, seen.x / 2, 1e-5);
+  EXPECT_NEAR(seen.z, seen.x / 4, 1e-5);
+  // Smooth: one impulse, whatever the number of samples.
+  expectColour(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
+               {1, 0.5f, 0.25f});
+  // What transmits keeps to its impulses.
+  const std::string glass =
+      "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5},\"extensions\":"
+      "{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}";
+  expectColour(reflected(glass, 64), Rgb{0.04f, 0.02f, 0.01f});
+}
+
 TEST_F(GltfMaterials, EmissionAndUnlit) {
   candela_ = 0;
   expectColour(pixel("{\"emissiveFactor\":[0.5,0.25,0],\"extensions\":"

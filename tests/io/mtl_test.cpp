@@ -62,7 +62,10 @@ TEST_F(Mtl, IlluminationModels) {
     const Material m = materialOf(colours + "illum " + illum + "\n");
     EXPECT_EQ(m.mirror, Rgb(0.25f));
     EXPECT_EQ(m.mirrorGrazing, Rgb(0.25f));
+    EXPECT_FALSE(m.hasGlossyReflection());
   }
+  EXPECT_TRUE(materialOf(colours + "illum 2\n").hasGlossyReflection());
+  EXPECT_FALSE(materialOf(colours + "illum 4\n").hasGlossyReflection());
   EXPECT_EQ(materialOf(colours + "illum 5\n").mirrorGrazing, Rgb(1.0f));
   for (const char* illum : {"4", "6", "7", "9"}) {
     const Material m = materialOf(colours + "d 0.25\nillum " + illum + "\n");

@@ -90,8 +90,10 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
       "\"glass\": {\"transmission\": 0.9, \"ior\": 1.33, \"absorption\": [0,1,2], \"priority\": 2},"
       "\"shadowGlass\": {\"transmission\": 0.9, \"castsShadow\": true},"
       "\"mirror\": {\"mirror\": [0.5,0.25,0.125], \"roughness\": 0.1, \"specular\": 0.5},"
-      "\"coat\": {\"mirror\": 0.1, \"mirrorGrazing\": 1, \"emission\": [3,2,1]}}");
-  ASSERT_EQ(scene.materials.size(), 5u);
+      "\"coat\": {\"mirror\": 0.1, \"mirrorGrazing\": 1, \"emission\": [3,2,1]},"
+      "\"both\": {\"mirror\": 0.1, \"specular\": 0.5, \"glossyReflection\": true},"
+      "\"dull\": {\"specular\": 0.5, \"glossyReflection\": false}}");
+  ASSERT_EQ(scene.materials.size(), 7u);
   const Material &plain = scene.materials[0], &glass = scene.materials[1];
   EXPECT_EQ(plain.name, "plain");
   EXPECT_EQ(plain.diffuse, Rgb(0.25f));
@@ -105,6 +107,10 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
   EXPECT_EQ(scene.materials[3].mirrorGrazing, Rgb(0.5f, 0.25f, 0.125f));
   EXPECT_EQ(scene.materials[4].mirrorGrazing, Rgb(1.0f));
   EXPECT_EQ(scene.materials[4].emission, Rgb(3, 2, 1));
+  // What has an impulse for its reflection samples no lobe, unless it says so.
+  std::vector<bool> reflections;
+  for (const Material& m : scene.materials) reflections.push_back(m.glossyReflection);
+  EXPECT_EQ(reflections, (std::vector<bool>{true, false, false, false, false, true, false}));
 }
 
 TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
