@@ -41,6 +41,10 @@ fetchDebian13() {
       *) dpkg -x "$package" "$folder" ;;
     esac
   done
+  # A compiler of another system does not look where Debian keeps what differs by architecture.
+  for package in "$folder"/usr/include/*-linux-gnu; do
+    [ ! -d "$package" ] || cp -r "$package/." "$folder/usr/include/"
+  done
   [ -e "$folder/lib" ] || ln -s usr/lib "$folder/lib"
   rm -rf "$apt"
   touch "$folder/complete"

@@ -13,32 +13,32 @@ set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 scene=$1 size=$2
 shift 2
+options=("$@")
 whit=${WHIT:-$(cd "$(dirname "$0")/../.." && pwd)/build/whit}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-measure() {
-  local ranks=$1
-  shift
-  mpirun --oversubscribe --bind-to none -n "$ranks" "$whit" bench "$scene" --size "$size" \
-    --threads 1 --frames "${FRAMES:-20}" --json "$work/$ranks.json" --quiet "$@" >/dev/null
+measure() { # NAME RANKS THREADS
+  mpirun --oversubscribe --bind-to none -n "$2" "$whit" bench "$scene" --size "$size" \
+    --threads "$3" --frames "${FRAMES:-20}" --json "$work/$1.json" --quiet "${options[@]}" >/dev/null
+  echo "$1 $(value "$work/$1.json" frame_ms median)" >>"$work/turns"
 }
-# In turn, since machines drift: the fastest of three counts.
 value() { # FILE OBJECT KEY
   sed -n "/\"$2\": {/,\$s/.*\"$3\": \([0-9.e+-]*\).*/\1/p" "$1" | head -1
 }
+# In turn, since machines drift: the fastest of three counts.
 for _ in 1 2 3; do
-  for ranks in 1 2; do
-    measure $ranks "$@"
-    echo "$ranks $(value "$work/$ranks.json" frame_ms median)" >>"$work/turns"
-  done
+  measure 1 1 1
+  measure 2 2 1
+  measure threads 1 2
 done
 
-quickest() { awk -v ranks="$1" '$1 == ranks && (!least || $2 < least) { least = $2 } END { print least }' "$work/turns"; }
-one=$(quickest 1) two=$(quickest 2)
+quickest() { awk -v name="$1" '$1 == name && (!least || $2 < least) { least = $2 } END { print least }' "$work/turns"; }
+one=$(quickest 1) two=$(quickest 2) threads=$(quickest threads)
 field() { value "$work/2.json" farm "$1"; }
 
-awk -v scene="$scene" -v size="$size" -v one="$one" -v two="$two" -v blocks="$(field blocks)" \
+awk -v scene="$scene" -v size="$size" -v one="$one" -v two="$two" -v threads="$threads" \
+  -v blocks="$(field blocks)" \
   -v most="$(field max)" -v side="$(field block_side)" -v place="$(field place_ms)" \
   -v messages="$(field messages)" -v bytes="$(field message_bytes)" -v link="${LINK:-1.25e9}" \
   -v delay="${DELAY:-50e-6}" '
@@ -53,7 +53,8 @@ awk -v scene="$scene" -v size="$size" -v one="$one" -v two="$two" -v blocks="$(f
     serve = place / messages; wire = 1e3 * bytes / messages / link
     printf "%s at %s: %d blocks of %dx%d pixels, %.2f ms each, the longest %.2f;\n", scene, size, blocks, side, side, one / blocks, most
     printf "a message %.1f kB, %.3f ms to place, %.3f ms on the wire.\n\n", bytes / messages / 1e3, serve, wire
-    printf "Measured: %.1f ms on 1 rank, %.1f ms on 2: efficiency %.2f.\n\n", one, two, one / two / 2
+    printf "Measured: %.1f ms on 1 rank, %.1f ms on 2: efficiency %.2f.\n", one, two, one / two / 2
+    printf "One process with two threads: %.1f ms, efficiency %.2f.\n\n", threads, one / threads / 2
     print "| ranks | frame, ms | faster | efficiency |"
     print "|---:|---:|---:|---:|"
     for (n = 2; n <= 1024; n *= 2) {

@@ -71,13 +71,11 @@ class OwnShare {
           } catch (...) {
             failure_ = std::current_exception();
           }
-          done_ = true;
         }) {}
   ~OwnShare() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  bool done() const { return done_; }
   const std::vector<TracedBlock>& finish() {
     thread_.join();
     if (failure_) std::rethrow_exception(failure_);
@@ -85,7 +83,7 @@ class OwnShare {
   }
 
  private:
-  std::atomic<bool> done_{false}, stop_{false};
+  std::atomic<bool> stop_{false};
   std::vector<TracedBlock> traced_;
   std::exception_ptr failure_;
   std::thread thread_;  // last: it uses the others

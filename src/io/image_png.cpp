@@ -36,7 +36,7 @@ void onError(png_structp png, png_const_charp message) {
 void onWarning(png_structp, png_const_charp) {}
 
 bool isAscii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < 127; });
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
 }
 
 // Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, and the

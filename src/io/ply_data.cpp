@@ -46,7 +46,7 @@ double PlyData::binaryNumber(PlyType type) {
   at_ += size;
   const bool little = format_ == PlyHeader::Format::littleEndian;
   if (little != (std::endian::native == std::endian::little)) {
-    std::reverse(bytes.data(), bytes.data() + size);
+    std::reverse(bytes.data(), bytes.data() + std::min(size, bytes.size()));
   }
   switch (type) {
     case PlyType::int8:
