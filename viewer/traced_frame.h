@@ -38,7 +38,7 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
 struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;  // that was edited
   std::vector<Material> materials;
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
 };
 
 struct TracedFrame {

@@ -51,7 +51,7 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
 void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOptions& options) {
   std::printf("\neffects\n");
   for (const EffectRow& row : effectRows(open.scene, options)) {
-    std::printf("  %-16s%-5s%s\n", row.name.c_str(), row.on ? "on" : "-", row.because.c_str());
+    std::printf("  %-18s%-5s%s\n", row.name.c_str(), row.on ? "on" : "-", row.because.c_str());
   }
   std::printf("\nstages\n");
   for (const Stage stage : renderer.plan().stages) {

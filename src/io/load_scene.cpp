@@ -122,7 +122,7 @@ void supplyLight(SceneDescription& scene) {
   const auto [lower, upper] = boundsOf(scene);
   const float size = std::max(length(upper - lower), 1e-6f);
   const Vec3f offset = Vec3f(0.6f, 1.0f, 0.8f) * size;
-  PointLight light;
+  Light light;
   light.name = "supplied";
   light.position = (lower + upper) * 0.5f + offset;
   // A white surface that faces the light from the middle of the model is seen as 1.

@@ -11,7 +11,10 @@ namespace {
 
 // Effects that mean nothing without another one go with it.
 EffectSet consistent(EffectSet e) {
-  if (!e.has(Effect::lights)) e = e.without(Effect::shadows).without(Effect::glossy);
+  if (!e.has(Effect::lights)) {
+    e = e.without(Effect::shadows).without(Effect::glossy);
+    e = e.without(Effect::spotLights).without(Effect::directionalLights);
+  }
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;

@@ -20,6 +20,8 @@ const char* sceneWith(Effect effect) {
     case Effect::instances:
       return "landscape?triangles=20000";
     case Effect::skyImage:
+    case Effect::spotLights:
+    case Effect::directionalLights:
       return "effects";
     default:
       return "whitted";
