@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
+#include "simd/light-inl.h"
 #include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,16 +36,9 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
   return Scale3(MulAdd3(grazing, schlick, f0), scale);
 }
 
-// Where on the way to the light shadow rays stop: short of it by the rounding error of its
-// position.
-HWY_INLINE float LightBound(const PointLight& light) {
-  const Vec3f p = abs(light.position);
-  return 0x1p-19f * (p.x + p.y + p.z);
-}
-
 template <uint32_t kBits>
 HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choices,
-                                                     EffectSet effects, const PointLight& light,
+                                                     EffectSet effects, const Light& light,
                                                      const RayColumns& rays,
                                                      const SurfelColumns& surfels, size_t n,
                                                      const UnshadowedColumns& unshadowed,
@@ -53,9 +47,8 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
   const UintTag du;
   const bool traced = effects.has(Effect::shadows), hidden = effects.has(Effect::transmission);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const V3 lightPosition = Broadcast3(light.position), intensity = Broadcast3(light.intensity);
-  const VF radiusSquared = hn::Set(d, light.radius * light.radius);
-  const VF bound = hn::Set(d, LightBound(light)), shortest = hn::Set(d, 1.0f - 0x1p-22f);
+  const LightLanes<kBits> lanes(light);
+  const V3 intensity = Broadcast3(light.intensity);
   size_t count = 0;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU material = hn::Load(du, surfels.material + i);
@@ -68,7 +61,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
-    const V3 toLight = Sub3(lightPosition, position);
+    const V3 toLight = lanes.Towards(position);
     const VF distanceSquared = Dot(toLight, toLight);
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
@@ -79,7 +72,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
       start = Add3(position, lift);
     }
     live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
-    live = hn::And(live, hn::Gt(distanceSquared, zero));
+    live = lanes.Within(hn::And(live, hn::Gt(distanceSquared, zero)), toLight, distanceSquared);
     if (hn::AllFalse(d, live)) {
       hn::Store(zero, d, unshadowed.visible + i);
       continue;
@@ -102,8 +95,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
         bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
       }
     }
-    const VF falloff = hn::Div(nl, hn::Max(distanceSquared, radiusSquared));
-    const V3 radiance = Scale3(Mul3(bsdf, intensity), falloff);
+    const V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, distanceSquared));
     const VF largest = MaxComponent(radiance);
     live = hn::And(live, hn::Gt(largest, zero));
     if (choices.lightCutoff > 0) {
@@ -119,21 +111,18 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     const V3 origin =
         RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
                   hn::Load(d, surfels.offset + i), 1.0f);
-    const V3 direction = Sub3(lightPosition, origin);
-    const VF tFar = hn::Max(hn::NegMulAdd(bound, inverseDistance, shortest), zero);
     const Compactor lit(live);
     lit.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
-    lit.Store(direction, shadows.dirX, shadows.dirY, shadows.dirZ, count);
-    lit.Store(tFar, shadows.tFar + count);
+    lit.Store(lanes.Towards(origin), shadows.dirX, shadows.dirY, shadows.dirZ, count);
+    lit.Store(lanes.Reach(inverseDistance), shadows.tFar + count);
     lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
     count += lit.Count();
   }
   return count;
 }
 
-size_t FindRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
-                                 const PointLight& light, const RayColumns& rays,
-                                 const SurfelColumns& surfels, size_t n,
+size_t FindRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects, const Light& light,
+                                 const RayColumns& rays, const SurfelColumns& surfels, size_t n,
                                  const UnshadowedColumns& unshadowed,
                                  const ShadowColumns& shadows) {
   static constexpr auto kVariants = variantTable<kFindRadianceAndShadowRays>(
@@ -149,7 +138,7 @@ HWY_AFTER_NAMESPACE();
 namespace whit::simd {
 HWY_EXPORT(FindRadianceAndShadowRays);
 std::size_t findRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
-                                      const PointLight& light, const RayColumns& rays,
+                                      const Light& light, const RayColumns& rays,
                                       const SurfelColumns& surfels, std::size_t n,
                                       const UnshadowedColumns& unshadowed,
                                       const ShadowColumns& shadows) noexcept {

@@ -52,9 +52,9 @@ struct Kernel {
 inline constexpr Kernel kInterpolateSurfels{
     "interpolateSurfels", Stage::findIntersections,
     EffectSet().with(Effect::smoothNormals).with(Effect::textures).with(Effect::normalMaps)};
-inline constexpr Kernel kFindRadianceAndShadowRays{"findRadianceAndShadowRays",
-                                                   Stage::findRadianceAndShadowRays,
-                                                   EffectSet().with(Effect::glossy)};
+inline constexpr Kernel kFindRadianceAndShadowRays{
+    "findRadianceAndShadowRays", Stage::findRadianceAndShadowRays,
+    EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
 
 // In the order of the stages.
 inline constexpr std::array kKernels{

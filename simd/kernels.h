@@ -54,7 +54,7 @@ void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet eff
 // the number of shadow rays; `visible` is 0 in the slots that have one, and 0 where nothing
 // contributes. Without Effect::shadows no rays are written and `visible` is 1 where light falls.
 std::size_t findRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
-                                      const PointLight& light, const RayColumns& rays,
+                                      const Light& light, const RayColumns& rays,
                                       const SurfelColumns& surfels, std::size_t n,
                                       const UnshadowedColumns& unshadowed,
                                       const ShadowColumns& shadows) noexcept;

@@ -73,11 +73,11 @@ mutations() {
   plant same-index-reflects simd/fresnel-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
     'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
-  plant shadow-ray-too-long simd/find_radiance_and_shadow_rays.cpp \
+  plant shadow-ray-too-long simd/light-inl.h \
     'shortest = hn::Set(d, 1.0f - 0x1p-22f)' 'shortest = hn::Set(d, 1.0f + 0x1p-10f)'
-  plant light-without-radius simd/find_radiance_and_shadow_rays.cpp \
-    'hn::Div(nl, hn::Max(distanceSquared, radiusSquared))' \
-    'hn::Div(nl, hn::Add(distanceSquared, hn::Mul(radiusSquared, hn::Zero(d))))'
+  plant light-without-radius simd/light-inl.h \
+    'hn::Div(nl, hn::Max(distanceSquared, radiusSquared_))' \
+    'hn::Div(nl, distanceSquared)'
   plant flipped-normal simd/interpolate_surfels.cpp \
     'hn::IfThenElse(entering, one, hn::Set(d, -1.0f))' 'one'
   plant normal-of-tiny-triangle simd/triangle-inl.h \

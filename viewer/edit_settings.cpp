@@ -63,14 +63,22 @@ void addMaterial(const Material& read, const Material& edited, std::vector<std::
   d.add("absorption", &Material::absorption);
 }
 
+void addLight(const Light& read, const Light& edited, std::vector<std::string>& settings) {
+  const bool directional = edited.kind == Light::Kind::directional;
+  Differences<Light> d(read, edited, settings);
+  d.add("position", &Light::position);
+  d.add(directional ? "irradiance" : "intensity", &Light::intensity);
+  d.add("direction", &Light::direction);
+  d.add("innerConeAngle", &Light::innerConeAngle);
+  d.add("outerConeAngle", &Light::outerConeAngle);
+}
+
 }  // namespace
 
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited) {
   std::vector<std::string> settings;
   for (std::size_t i = 0; i < read.lights.size(); ++i) {
-    Differences<PointLight> d(read.lights[i], edited.lights[i], settings);
-    d.add("position", &PointLight::position);
-    d.add("intensity", &PointLight::intensity);
+    addLight(read.lights[i], edited.lights[i], settings);
   }
   for (std::size_t i = 0; i < read.materials.size(); ++i) {
     addMaterial(read.materials[i], edited.materials[i], settings);

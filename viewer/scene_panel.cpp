@@ -30,13 +30,36 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
   return true;
 }
 
-bool drawLight(PointLight& light) {
-  bool changed = drawBright("colour", "intensity", kLargestIntensity, light.intensity);
+// A direction that was dragged to nowhere stays as it was.
+bool drawDirection(Vec3f& direction) {
+  Vec3f turned = normalized(direction, {0, -1, 0});
+  if (!ImGui::DragFloat3("direction", &turned.x, 0.005f, -1, 1)) return false;
+  direction = normalized(turned, direction);
+  return true;
+}
+
+bool drawCone(Light& light) {
+  constexpr float kLeastOuter = 0.5f, kLargestOuter = 90;
+  bool changed = ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeastOuter, kLargestOuter,
+                                    "%.1f", ImGuiSliderFlags_AlwaysClamp);
+  changed |= ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargestOuter, "%.1f",
+                                ImGuiSliderFlags_AlwaysClamp);
+  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
+  return changed;
+}
+
+bool drawLight(Light& light) {
+  const bool directional = light.kind == Light::Kind::directional;
+  bool changed = drawBright("colour", directional ? "irradiance" : "intensity", kLargestIntensity,
+                            light.intensity);
+  if (light.kind != Light::Kind::point) changed |= drawDirection(light.direction);
+  if (light.kind == Light::Kind::spot) changed |= drawCone(light);
+  if (directional) return changed;
   const float step = 0.002f * std::max(1.0f, maxComponent(abs(light.position)));
   constexpr float kFarthest = 1e18f;
-  changed |=
-      ImGui::DragFloat3("position", &light.position.x, step, -kFarthest, kFarthest, "%.3f", kClamp);
-  return changed;
+  return ImGui::DragFloat3("position", &light.position.x, step, -kFarthest, kFarthest, "%.3f",
+                           kClamp) ||
+         changed;
 }
 
 bool drawMaterial(Material& m) {
@@ -77,7 +100,7 @@ bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
 
 }  // namespace
 
-bool drawLights(std::vector<PointLight>& lights) { return drawItems(lights, "light", drawLight); }
+bool drawLights(std::vector<Light>& lights) { return drawItems(lights, "light", drawLight); }
 
 bool drawMaterials(std::vector<Material>& materials) {
   return drawItems(materials, "material", drawMaterial);

@@ -6,7 +6,7 @@
 namespace whit::view {
 
 // Between ImGui's Begin and End. Each returns whether something was changed.
-bool drawLights(std::vector<PointLight>& lights);
+bool drawLights(std::vector<Light>& lights);
 bool drawMaterials(std::vector<Material>& materials);
 
 }  // namespace whit::view

@@ -45,7 +45,7 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
 struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;  // that was edited
   std::vector<Material> materials;
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
   std::vector<std::string> settings;  // that amount to the same when the scene is read
 };
 

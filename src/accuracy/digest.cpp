@@ -85,9 +85,10 @@ void add(Digester& d, const Camera& camera) {
   const auto& [name, eye, at, up, fov] = camera;
   add(d, eye), add(d, at), add(d, up), add(d, fov);
 }
-void add(Digester& d, const PointLight& light) {
-  const auto& [name, position, intensity, radius, pointer] = light;
-  add(d, position), add(d, intensity), add(d, radius);
+void add(Digester& d, const Light& light) {
+  const auto& [name, position, intensity, radius, kind, direction, inner, outer, pointer] = light;
+  add(d, position), add(d, intensity), add(d, radius), add(d, kind);
+  add(d, direction), add(d, inner), add(d, outer);
 }
 void add(Digester& d, const Medium& medium) {
   const auto& [ior, absorption, priority] = medium;

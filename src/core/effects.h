@@ -22,8 +22,10 @@ namespace whit {
   X(sky, "sky that is not black")                              \
   X(skyImage, "sky from an image")                             \
   X(ambient, "ambient light")                                  \
-  X(lights, "point lights")                                    \
-  X(shadows, "shadows of point lights")                        \
+  X(lights, "point, spot or directional lights")               \
+  X(spotLights, "cones of spot lights")                        \
+  X(directionalLights, "directional lights")                   \
+  X(shadows, "shadows of lights")                              \
   X(mirror, "reflected impulses")                              \
   X(transmission, "refracted impulses")                        \
   X(absorption, "absorption inside dielectrics")               \

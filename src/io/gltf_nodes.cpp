@@ -135,21 +135,39 @@ class TreeReader {
 
   void addLight(std::size_t index, int number, const Affine& map) {
     const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(number)];
-    if (source.type != "point") {
-      const std::string kind = source.type == "spot"          ? "spot light"
-                               : source.type == "directional" ? "directional light"
-                                                              : "light of an unknown type";
-      document_.warnings().add(kind + " left out",
-                               document_.where("nodes", index) + " (" + source.name + ")");
-      return;
+    Light light;
+    light.name = source.name.empty() ? model_.nodes[index].name : source.name;
+    if (source.type == "spot") {
+      light.kind = Light::Kind::spot;
+      if (!setCone(source.spot, light)) warn("spot light's cone mended", index);
+    } else if (source.type == "directional") {
+      light.kind = Light::Kind::directional;
+    } else if (source.type != "point") {
+      return warn("light of an unknown type left out", index);
+    }
+    if (source.range > 0 && light.kind != Light::Kind::directional) {
+      warn("light's range left out, it shines on", index);
     }
     const std::vector<double>& c = source.color;
-    PointLight light;
-    light.name = source.name.empty() ? model_.nodes[index].name : source.name;
-    light.position = Vec3f(map.p);
     const Vec3d colour = c.empty() ? Vec3d(1.0) : Vec3d{c[0], c[1], c[2]};
+    light.position = Vec3f(map.p);
+    light.direction = Vec3f(-normalized(map.z));
     light.intensity = Rgb(colour * (source.intensity / kLumensPerWatt));
     stage_.lights.push_back(light);
+  }
+
+  // False: they were not 0 <= inner <= outer, half a degree <= outer <= a right angle. Equal ones,
+  // a sharp edge, are not what the extension allows but what writers write.
+  static bool setCone(const tinygltf::SpotLight& spot, Light& light) {
+    constexpr double kRightAngle = kPi / 2, kLeastOuter = kPi / 360;
+    const double outer = std::clamp(spot.outerConeAngle, kLeastOuter, kRightAngle);
+    const double inner = std::clamp(spot.innerConeAngle, 0.0, outer);
+    light.outerConeAngle = static_cast<float>(outer * 180 / kPi);
+    light.innerConeAngle =
+        std::min(static_cast<float>(inner * 180 / kPi), std::nextafter(light.outerConeAngle, 0.0f));
+    constexpr double kRounding = 1e-5;
+    return std::abs(outer - spot.outerConeAngle) < kRounding &&
+           std::abs(inner - spot.innerConeAngle) < kRounding;
   }
 
   const GltfDocument& document_;

@@ -15,7 +15,8 @@ namespace whit {
 inline constexpr int kGltfDepthLimit = 256;
 
 // Radiometric units: KHR_lights_punctual gives candela, and a watt is taken for 683 lumens, as
-// Blender's exporter does, so that an exported lamp of P watts has P / (4 pi) W/sr again.
+// Blender's exporter does, so that an exported lamp of P watts has P / (4 pi) W/sr again. Likewise
+// lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
 
 struct GltfPlacedMesh {
@@ -27,11 +28,11 @@ struct GltfStage {
   std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
   std::vector<Camera> cameras;
   double aspect = 0;  // of the first camera; 0: none is given
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
 };
 
 // Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
-// what they hold; orthographic cameras, spot and directional lights are left out; skins are not
+// what they hold; orthographic cameras and the ranges of lights are left out; skins are not
 // applied: each is counted in the document's warnings. Throws badScene "file#/nodes/i" where the
 // nodes are no tree or deeper than kGltfDepthLimit.
 GltfStage readGltfNodes(const GltfDocument& document);

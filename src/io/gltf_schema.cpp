@@ -40,7 +40,10 @@ constexpr Rule kRules[] = {
     {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
     {"extensions/KHR_lights_punctual/lights/*/color", Kind::vector, 3},
     {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/*/range", Kind::number},
     {"extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
+    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
 
     {"buffers", Kind::list},
     {"buffers/*", Kind::object},

@@ -131,7 +131,7 @@ void supplyLight(SceneDescription& scene) {
   const auto [lower, upper] = boundsOf(scene);
   const float size = std::max(length(upper - lower), 1e-6f);
   const Vec3f offset = Vec3f(0.6f, 1.0f, 0.8f) * size;
-  PointLight light;
+  Light light;
   light.name = "supplied";
   light.position = (lower + upper) * 0.5f + offset;
   // A white surface that faces the light from the middle of the model is seen as 1.
@@ -144,15 +144,28 @@ void supplyLight(SceneDescription& scene) {
 
 Json listOf(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
-// The lights as a scene file has them; every bit comes back.
-Json describeLights(const std::vector<PointLight>& lights) {
-  Json list = Json::array();
-  for (const PointLight& light : lights) {
-    list.push_back({{"name", light.name},
-                    {"position", listOf(light.position)},
-                    {"intensity", listOf(light.intensity)},
-                    {"radius", light.radius}});
+// A light as a scene file has it; every bit comes back.
+Json describeLight(const Light& light) {
+  Json json{{"name", light.name}};
+  if (light.kind != Light::Kind::point) json["direction"] = listOf(light.direction);
+  if (light.kind == Light::Kind::directional) {
+    json.update({{"type", "directional"}, {"irradiance", listOf(light.intensity)}});
+    return json;
   }
+  json.update({{"position", listOf(light.position)},
+               {"intensity", listOf(light.intensity)},
+               {"radius", light.radius}});
+  if (light.kind == Light::Kind::spot) {
+    json.update({{"type", "spot"},
+                 {"innerConeAngle", light.innerConeAngle},
+                 {"outerConeAngle", light.outerConeAngle}});
+  }
+  return json;
+}
+
+Json describeLights(const std::vector<Light>& lights) {
+  Json list = Json::array();
+  for (const Light& light : lights) list.push_back(describeLight(light));
   return list;
 }
 

@@ -43,6 +43,31 @@ void readPath(JsonObject& file, SceneDescription& scene) {
   }
 }
 
+void readDirection(JsonObject& object, Light& light) {
+  const JsonValue direction = object.need("direction");
+  light.direction = Vec3f(direction.vector());
+  if (!(maxComponent(abs(light.direction)) > 0))
+    direction.fail("a direction that is not [0, 0, 0]");
+}
+
+void readDirectional(JsonObject& object, Light& light) {
+  light.kind = Light::Kind::directional;
+  readDirection(object, light);
+  light.intensity = object.need("irradiance").colour();
+}
+
+void readCone(JsonObject& object, Light& light) {
+  constexpr double kLeastOuter = 0.5, kLargestOuter = 90;
+  light.kind = Light::Kind::spot;
+  readDirection(object, light);
+  light.outerConeAngle =
+      object.number("outerConeAngle", light.outerConeAngle, kLeastOuter, kLargestOuter);
+  light.innerConeAngle = object.number("innerConeAngle", light.innerConeAngle, 0, kLargestOuter);
+  if (light.innerConeAngle < light.outerConeAngle) return;
+  object.value().fail("an innerConeAngle below the outerConeAngle, " +
+                      std::to_string(light.outerConeAngle) + " degrees");
+}
+
 }  // namespace
 
 void readCameras(JsonObject& file, SceneDescription& scene) {
@@ -71,13 +96,20 @@ void readLights(JsonObject& file, SceneDescription& scene) {
   if (!lights) return;
   for (const JsonValue& value : lights->elements()) {
     JsonObject object(value);
-    PointLight light;
+    Light light;
     const auto name = object.find("name");
     light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
     light.pointer = value.pointer();
-    light.position = Vec3f(object.need("position").vector());
-    light.intensity = object.need("intensity").colour();
-    light.radius = object.number("radius", light.radius, kLeastRadius);
+    const auto type = object.find("type");
+    const std::string kind = type ? type->word({"point", "spot", "directional"}) : "point";
+    if (kind == "directional") {
+      readDirectional(object, light);
+    } else {
+      light.position = Vec3f(object.need("position").vector());
+      light.intensity = object.need("intensity").colour();
+      light.radius = object.number("radius", light.radius, kLeastRadius);
+      if (kind == "spot") readCone(object, light);
+    }
     object.finish();
     scene.lights.push_back(light);
   }

@@ -10,7 +10,11 @@ namespace whit {
 
 // "size", "cameras" and "path".
 void readCameras(JsonObject& file, SceneDescription& scene);
-// "lights".
+// "lights": of each, "type" is "point" (default), "spot" or "directional", "name" is free. Point
+// and spot lights have "position", "intensity" (W/sr) and "radius"; spot lights also "direction"
+// and, half angles in degrees, "innerConeAngle" (0) and "outerConeAngle" (45), between which they
+// fall off. Directional lights have "direction" and "irradiance" (W/m^2 on a surface that faces
+// them).
 void readLights(JsonObject& file, SceneDescription& scene);
 // "sky"; its image is there after context.textures.finish().
 void readSky(JsonObject& file, SceneContext& context);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
@@ -15,7 +16,8 @@ constexpr double kUnitRoundOff = 1.0 / (1 << 24);  // of float
 
 // Distance from O to the light, in lengths of the shadow ray, up to which occluders count: less
 // than the whole way by the rounding of the light's position in float.
-double shadowReach(const PointLight& light, double distance) {
+double shadowReach(const Light& light, double distance) {
+  if (light.kind == Light::Kind::directional) return std::numeric_limits<double>::infinity();
   const Vec3d p = abs(Vec3d(light.position));
   const double uncertainty = 32 * kUnitRoundOff * (p.x + p.y + p.z) / distance;
   return std::max(0.0, 1 - (uncertainty + 4 * kUnitRoundOff));
@@ -57,10 +59,12 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   return fresnel * (distribution * visibility);
 }
 
-LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
+LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices) {
   LightArrival arrival;
-  const Vec3d toLight = Vec3d(light.position) - surfel.position;
+  const bool directional = light.kind == Light::Kind::directional;
+  if (directional && !effects.has(Effect::directionalLights)) return arrival;
+  const Vec3d toLight = towards(light, surfel.position);
   const double squaredDistance = dot(toLight, toLight);
   if (!(squaredDistance > 0)) return arrival;
   const double distance = std::sqrt(squaredDistance);
@@ -72,7 +76,11 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Po
   if (!(front && cosine > 0)) return arrival;
 
   const double radius = light.radius;
-  const RgbD biradiance = RgbD(light.intensity) / std::max(squaredDistance, radius * radius);
+  RgbD biradiance(light.intensity);
+  if (!directional) biradiance = biradiance / std::max(squaredDistance, radius * radius);
+  if (light.kind == Light::Kind::spot && effects.has(Effect::spotLights)) {
+    biradiance *= coneOf(light).falloff(l);
+  }
   RgbD reflected = surfel.diffuse / kPi;
   if (effects.has(Effect::glossy) && maxComponent(surfel.specular) > 0) {
     reflected += glossyLobe(surfel, l);
@@ -81,7 +89,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Po
   Surfel start = surfel;
   if (lifted) start.position += surfel.lift;
   const Vec3d origin = rayOrigin(choices.offset, start, 1);
-  arrival.shadowRay = {origin, Vec3d(light.position) - origin};
+  arrival.shadowRay = {origin, towards(light, origin)};
   arrival.tFar = shadowReach(light, distance);
   return arrival;
 }

@@ -22,9 +22,9 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight);
 struct LightArrival {
   RgbD radiance;    // towards the viewer if nothing is in between; all 0: no need to look
   Ray shadowRay;    // from the surfel to the light, not normalised
-  double tFar = 0;  // a little before the light
+  double tFar = 0;  // a little before the light; infinite where it is directional
 };
-LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const PointLight& light,
+LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {});
 
 }  // namespace whit::reference

@@ -152,7 +152,7 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCoun
                                 PrimaryShare* share) const {
   RgbD sum;
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-    const PointLight& light = scene_.lights[i];
+    const Light& light = scene_.lights[i];
     const LightArrival arrival =
         radianceFromLight(settings_.effects, surfel, light, settings_.shading);
     const double largest = maxComponent(arrival.radiance);

@@ -12,8 +12,11 @@ namespace {
 // Effects that mean nothing without another one go with it.
 EffectSet consistent(EffectSet e, int glossySamples) {
   if (!e.has(Effect::glossy) || glossySamples == 0) e = e.without(Effect::glossyReflection);
-  if (!e.has(Effect::lights)) e = e.without(Effect::shadows);
-  if (!e.has(Effect::lights) && !e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
+  if (!e.has(Effect::lights)) {
+    e = e.without(Effect::shadows);
+    e = e.without(Effect::spotLights).without(Effect::directionalLights);
+    if (!e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
+  }
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;

@@ -217,7 +217,9 @@ class StageComparer : public StageObserver {
               kRadianceLimit, c, i);
       const Vec3d origin{c.shadows.orgX[k], c.shadows.orgY[k], c.shadows.orgZ[k]};
       const Vec3d direction{c.shadows.dirX[k], c.shadows.dirY[k], c.shadows.dirZ[k]};
-      const double far = maxComponent(abs(Vec3d(c.light->position))) + maxComponent(abs(origin));
+      const bool directional = c.light->kind == Light::Kind::directional;
+      const double end = directional ? 1 : maxComponent(abs(Vec3d(c.light->position)));
+      const double far = end + (directional ? 0 : maxComponent(abs(origin)));
       compare(stage, "shadowOrigin", origin, twin.shadowRay.origin, 0, kPositionLimit, c, i);
       compare(stage, "shadowDirection", direction, twin.shadowRay.direction, far, kPositionLimit, c,
               i);
@@ -228,9 +230,13 @@ class StageComparer : public StageObserver {
   // half vector, over the width of the lobe, is how much a highlight moves.
   double grazingScale(const ChunkView& c, std::size_t i, const RgbD& radiance) const {
     const reference::Surfel s = surfelOf(c, i);
-    const Vec3d l = normalized(Vec3d(c.light->position) - s.position);
+    const Vec3d l = normalized(towards(*c.light, s.position));
     const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
-    return maxComponent(radiance) / (std::max(dot(l, s.shadingNormal), 1e-4) * width);
+    const double scale = maxComponent(radiance) / (std::max(dot(l, s.shadingNormal), 1e-4) * width);
+    if (c.light->kind != Light::Kind::spot) return scale;
+    // Likewise the cosine to the cone's axis, over the width of its edge.
+    const SpotCone cone = coneOf(*c.light);
+    return scale * std::max(1.0, 2 * cone.scale / std::max(std::sqrt(cone.falloff(l)), 1e-4));
   }
 
   void compareVisibility(const ChunkView& c) {

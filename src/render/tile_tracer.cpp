@@ -26,6 +26,17 @@ EffectSet neededBy(std::uint32_t materialFlags, EffectSet effects) {
   return effects;
 }
 
+// A light needs the code of its own kind only.
+EffectSet neededBy(const Light& light, EffectSet effects) {
+  if (light.kind != Light::Kind::spot) effects = effects.without(Effect::spotLights);
+  if (light.kind != Light::Kind::directional) effects = effects.without(Effect::directionalLights);
+  return effects;
+}
+
+bool isLeftOut(const Light& light, EffectSet effects) {
+  return light.kind == Light::Kind::directional && !effects.has(Effect::directionalLights);
+}
+
 simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample, std::uint32_t sampleNumber) {
   return {Vec3f(camera.eye),
           Vec3f(camera.forward),
@@ -154,9 +165,11 @@ void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& ra
   const EffectSet effects = neededBy(materialFlags_, plan_.effects);
   const bool sharing = depth == 0 && pass.job.shares && pass.job.shareShadows;
   for (std::size_t number = 0; number < pass.job.tables->lights.size(); ++number) {
-    const PointLight& light = pass.job.tables->lights[number];
-    shadowCount_ = simd::findRadianceAndShadowRays(*pass.job.tables, effects, light, rays,
-                                                   *surfels_, level.chunk, *unshadowed_, *shadows_);
+    const Light& light = pass.job.tables->lights[number];
+    if (isLeftOut(light, effects)) continue;
+    shadowCount_ =
+        simd::findRadianceAndShadowRays(*pass.job.tables, neededBy(light, effects), light, rays,
+                                        *surfels_, level.chunk, *unshadowed_, *shadows_);
     endStage(pass, Stage::findRadianceAndShadowRays, depth, &light);
     if (plan_.traceShadows) {
       if (sharing && !pass.job.lends) borrowVisibility(pass, number);
@@ -218,7 +231,7 @@ void TileTracer::finishChunk(Pass& pass, std::size_t depth) {
   level.cursor += level.chunk;
 }
 
-void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const PointLight* light) {
+void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Light* light) {
   pass.clock.lap(stage, static_cast<int>(depth));
   if (pass.job.stageBarrier) {
     pass.job.stageBarrier->arrive_and_wait();

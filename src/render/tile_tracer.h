@@ -37,7 +37,7 @@ struct ChunkView {
   UnshadowedColumns unshadowed;
   ShadowColumns shadows;
   std::size_t shadowCount = 0;
-  const PointLight* light = nullptr;  // from findRadianceAndShadowRays to addShading
+  const Light* light = nullptr;  // from findRadianceAndShadowRays to addShading
   RayColumns children;
   // Children, in this order: mirrored and sampled reflections, refractions.
   std::size_t reflections = 0, refractions = 0;
@@ -119,7 +119,7 @@ class TileTracer {
   void shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays);
   void addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays);
   void finishChunk(Pass& pass, std::size_t depth);
-  void endStage(Pass& pass, Stage stage, std::size_t depth, const PointLight* light = nullptr);
+  void endStage(Pass& pass, Stage stage, std::size_t depth, const Light* light = nullptr);
   void updateImage(const FrameJob& job, std::span<const std::uint32_t> pixels, FrameStats& stats);
   void keepAs(FilmPrecision precision, std::size_t n);
   void reserveLevel(std::size_t depth, std::size_t rays);

@@ -21,8 +21,8 @@ bool sameKind(const Material& a, const Material& b) {
          isBlack(a.diffuse) == isBlack(b.diffuse);
 }
 
-bool sameKindOfLight(const PointLight& a, const PointLight& b) {
-  return isBlack(a.intensity) == isBlack(b.intensity);
+bool sameKindOfLight(const Light& a, const Light& b) {
+  return a.kind == b.kind && isBlack(a.intensity) == isBlack(b.intensity);
 }
 
 void keepBaked(const Material& from, Material& to) {
@@ -36,7 +36,7 @@ void keepBaked(const Material& from, Material& to) {
 
 // As Scene::finalize() does: throws, or mends what has an obvious nearest value.
 void checkAndMend(const Scene& scene, std::vector<Material>& materials,
-                  std::vector<PointLight>& lights) {
+                  std::vector<Light>& lights) {
   SceneDescription d;
   d.name = scene.name;
   d.lights = lights;
@@ -52,7 +52,7 @@ void checkAndMend(const Scene& scene, std::vector<Material>& materials,
 
 }  // namespace
 
-void editShading(Scene& scene, std::vector<Material> materials, std::vector<PointLight> lights) {
+void editShading(Scene& scene, std::vector<Material> materials, std::vector<Light> lights) {
   if (materials.size() != scene.materials.size() || lights.size() != scene.lights.size()) {
     throwUsage("an edit cannot change the number of materials or lights");
   }

@@ -13,6 +13,6 @@ namespace whit {
 // stay valid. Values are judged as by Scene::finalize(): throws Error(badScene), the scene then
 // being what it was; Error(usage) for another number of items. Renderers of the scene have to be
 // told (Renderer::shadingChanged) before their next frame.
-void editShading(Scene& scene, std::vector<Material> materials, std::vector<PointLight> lights);
+void editShading(Scene& scene, std::vector<Material> materials, std::vector<Light> lights);
 
 }  // namespace whit

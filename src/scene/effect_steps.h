@@ -7,14 +7,18 @@
 
 namespace whit {
 
-// What the matte scene starts with: primary and shadow rays.
+// What the matte scene starts with: primary and shadow rays, lights that shine all around.
 inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with(Effect::shadows);
 
 // Each needs only those before it.
 inline constexpr std::array kAddedEffects{
-    Effect::ambient,       Effect::emission,         Effect::sky,        Effect::skyImage,
-    Effect::smoothNormals, Effect::textures,         Effect::normalMaps, Effect::alphaMasks,
-    Effect::glossy,        Effect::glossyReflection, Effect::instances,  Effect::mirror,
+    Effect::spotLights,    Effect::directionalLights,
+    Effect::ambient,       Effect::emission,
+    Effect::sky,           Effect::skyImage,
+    Effect::smoothNormals, Effect::textures,
+    Effect::normalMaps,    Effect::alphaMasks,
+    Effect::glossy,        Effect::glossyReflection,
+    Effect::instances,     Effect::mirror,
     Effect::transmission,  Effect::absorption,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);

@@ -128,16 +128,24 @@ void Gatherer::surroundings() {
 }
 
 void Gatherer::lights() {
-  std::uint64_t shining = 0, casting = 0;
-  for (const PointLight& light : scene_.lights) shining += !isBlack(light.intensity);
+  std::uint64_t shining = 0, spots = 0, directional = 0, casting = 0;
+  for (const Light& light : scene_.lights) {
+    if (isBlack(light.intensity)) continue;
+    ++shining;
+    spots += light.kind == Light::Kind::spot;
+    directional += light.kind == Light::Kind::directional;
+  }
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     if (scene_.materials[i].castsShadow) casting += uses_[i];
   }
   const std::string dark =
-      scene_.lights.empty() ? "the scene has no point light" : "every point light is black";
-  set(Effect::lights, shining > 0, counted(shining, "point light"), dark);
+      scene_.lights.empty() ? "the scene has no light" : "every light is black";
+  set(Effect::lights, shining > 0, counted(shining, "light"), dark);
+  set(Effect::spotLights, spots > 0, counted(spots, "spot light"), "no light has a cone");
+  set(Effect::directionalLights, directional > 0, counted(directional, "directional light"),
+      "no light is directional");
   set(Effect::shadows, shining > 0 && casting > 0,
-      counted(shining, "point light") + ", " + counted(casting, "triangle") +
+      counted(shining, "light") + ", " + counted(casting, "triangle") +
           (casting == 1 ? " casts shadows" : " cast shadows"),
       shining > 0 ? "no triangle casts a shadow" : dark);
 }

@@ -49,6 +49,16 @@ void leaveOutOfSky(Sky& sky, EffectSet effects) {
   sky.ground = {0.2f, 0.18f, 0.15f};
 }
 
+void leaveOutOfLights(std::vector<Light>& lights, EffectSet effects) {
+  if (effects.has(Effect::lights)) lights.clear();
+  for (Light& light : lights) {
+    const bool wide = effects.has(Effect::spotLights) && light.kind == Light::Kind::spot;
+    if (wide) light.kind = Light::Kind::point;
+  }
+  if (!effects.has(Effect::directionalLights)) return;
+  std::erase_if(lights, [](const Light& light) { return light.kind == Light::Kind::directional; });
+}
+
 void keepFirstUses(SceneDescription& d) {
   std::vector<bool> seen(d.objects.size(), false);
   std::erase_if(d.instances, [&](const Instance& instance) {
@@ -65,7 +75,7 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
   if (effects.has(Effect::textures) || effects.has(Effect::normalMaps)) dropUnusedTexels(d);
   leaveOutOfSky(d.sky, effects);
   if (effects.has(Effect::ambient)) d.ambient = Ambient();
-  if (effects.has(Effect::lights)) d.lights.clear();
+  leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::instances)) keepFirstUses(d);
   if (!effects.has(Effect::smoothNormals)) return;
   for (Object& object : d.objects) {

@@ -49,6 +49,24 @@ RgbD hemisphereMean(const EnvironmentImage& image, bool upper) {
 
 }  // namespace
 
+Vec3d towards(const Light& light, const Vec3d& position) {
+  if (light.kind == Light::Kind::directional) return -normalized(Vec3d(light.direction));
+  return Vec3d(light.position) - position;
+}
+
+SpotCone coneOf(const Light& light) {
+  const double inner = std::cos(light.innerConeAngle * kPi / 180);
+  const double outer = std::cos(light.outerConeAngle * kPi / 180);
+  // The extension's least width, 0.001, but not for cones that it would dim at their axis.
+  const double least = std::min(0.001, 0.1 * (1 - outer));
+  return {normalized(Vec3d(light.direction)), outer, 1 / std::max(least, inner - outer)};
+}
+
+double SpotCone::falloff(const Vec3d& unitToLight) const {
+  const double s = std::clamp((-dot(axis, unitToLight) - cosOuter) * scale, 0.0, 1.0);
+  return s * s;
+}
+
 RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
   switch (sky.kind) {
     case Sky::Kind::none:

@@ -1,4 +1,4 @@
-// Point lights, the sky, and the ambient light made from it.
+// Lights, the sky, and the ambient light made from it.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,36 @@
 
 namespace whit {
 
-// Biradiance at distance d: intensity / max(d^2, radius^2); `radius` only bounds it near the light.
-struct PointLight {
+// What arrives at a surface that faces the light, with nothing in between:
+// - point, at distance d: intensity / max(d^2, radius^2); `radius` only bounds it near the light;
+// - spot: the same within its cone, see SpotCone;
+// - directional: `intensity`, everywhere.
+struct Light {
+  enum class Kind { point, spot, directional };
+
   std::string name;
-  Vec3f position;
-  Rgb intensity{1, 1, 1};  // radiant intensity, W/sr per channel
+  Vec3f position;          // of no meaning for a directional light
+  Rgb intensity{1, 1, 1};  // radiant, W/sr per channel; of a directional light irradiance, W/m^2
   float radius = 0.01f;
+  Kind kind = Kind::point;
+  Vec3f direction{0, -1, 0};  // of spot and directional lights: where they shine, of any length
+  // Of spot lights, degrees from the direction, 0 <= inner < outer <= 90.
+  float innerConeAngle = 0, outerConeAngle = 45;
   std::string pointer;  // as of a Material
 };
+
+// From `position` to the light: all the way, or a unit vector where the light is directional.
+Vec3d towards(const Light& light, const Vec3d& position);
+
+// How a spot light falls off between its cones (glTF's KHR_lights_punctual, "Inner and Outer Cone
+// Angles"): s^2 with s = (cos(angle) - cosOuter) * scale, clamped to [0, 1].
+struct SpotCone {
+  Vec3d axis;  // unit
+  double cosOuter = -1, scale = 1;
+
+  double falloff(const Vec3d& unitToLight) const;
+};
+SpotCone coneOf(const Light& light);
 
 struct Sky {
   enum class Kind { none, colour, gradient, image };

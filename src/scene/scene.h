@@ -28,7 +28,7 @@ struct SceneDescription {
   int width = 480, height = 300;  // the scene's own image size
   std::vector<Camera> cameras;    // the first is the default
   std::vector<Keyframe> cameraPath;
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
   Sky sky;
   Ambient ambient;
   std::vector<Material> materials;
@@ -94,7 +94,7 @@ class Scene {
   int width = 480, height = 300;
   std::vector<Camera> cameras;  // at least one
   std::vector<Keyframe> cameraPath;
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
   Sky sky;
   Ambient ambient;
   std::vector<Material> materials;

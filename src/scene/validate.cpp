@@ -48,14 +48,27 @@ void checkCameras(const SceneDescription& d) {
   }
 }
 
+void checkDirection(const Light& light, const std::string& where) {
+  if (light.kind == Light::Kind::point) return;
+  if (!isFinite(light.direction) || !(maxComponent(abs(light.direction)) > 0)) {
+    throwBadScene(where, "expected a direction of finite numbers that are not all 0");
+  }
+  if (light.kind == Light::Kind::directional) return;
+  const float inner = light.innerConeAngle, outer = light.outerConeAngle;
+  if (!(inner >= 0 && inner < outer && outer <= 90)) {
+    throwBadScene(where, "expected cone angles with 0 <= inner < outer <= 90 degrees");
+  }
+}
+
 void checkLights(const SceneDescription& d) {
   for (std::size_t i = 0; i < d.lights.size(); ++i) {
-    const PointLight& light = d.lights[i];
+    const Light& light = d.lights[i];
     const std::string where = place(d.name, "light", i, light.name);
     if (!isFinite(light.position)) throwBadScene(where, "expected a finite position");
     if (!isRadiance(light.intensity)) {
       throwBadScene(where, "expected a finite intensity, 0 or more a channel");
     }
+    checkDirection(light, where);
     // Its square is divided by.
     const float square = light.radius * light.radius;
     if (!(light.radius > 0) || !std::isnormal(square)) {

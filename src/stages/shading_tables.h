@@ -79,7 +79,7 @@ struct ShadingTables {
   HugeVector<std::uint32_t> texels;          // all textures of the frame's effects
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
   SkyTable sky;
   Ambient ambient;
   ShadingChoices shading;

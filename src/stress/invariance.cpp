@@ -24,7 +24,7 @@ SceneDescription room() {
   builder.add(sphereMesh(3, {-1, 1, -0.5}, 0.9, mirror, true));
   builder.add(sphereMesh(3, {1.1, 0.8, 0.4}, 0.75, glass, true));
   builder.add(sphereMesh(2, {0.2, 0.5, 1.4}, 0.4, glossy));
-  PointLight second = lightAt({2.5f, 4.25f, 2}, 20);
+  Light second = lightAt({2.5f, 4.25f, 2}, 20);
   second.intensity = {20, 15, 10};
   builder.description.lights = {lightAt({-2.2f, 4, 2.7f}, 30), second};
   builder.description.sky.kind = Sky::Kind::gradient;
@@ -170,7 +170,7 @@ Finding scaling(const Setup& setup) {
     for (Mesh& mesh : d.objects[0].meshes) {
       for (Vec3f& p : mesh.positions) p = scaled(p, k);
     }
-    for (PointLight& light : d.lights) {
+    for (Light& light : d.lights) {
       light.position = scaled(light.position, k);
       light.intensity = scaled(light.intensity, 2 * k);
       light.radius = std::ldexp(light.radius, k);
@@ -196,7 +196,7 @@ Finding mirroring(const Setup& setup) {
     for (Vec3f& p : mesh.positions) p.x = -p.x;
     for (Vec3f& n : mesh.normals) n = {n.x, -n.y, -n.z};  // the winding has turned as well
   }
-  for (PointLight& light : d.lights) light.position.x = -light.position.x;
+  for (Light& light : d.lights) light.position.x = -light.position.x;
   d.cameras[0].eye.x = -d.cameras[0].eye.x;
   d.cameras[0].at.x = -d.cameras[0].at.x;
   compare(finding, pictureOfRoom(opaque(), small(setup)), pictureOfRoom(std::move(d), small(setup)),

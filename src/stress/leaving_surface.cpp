@@ -23,7 +23,7 @@ Finding selfHits(const Scene& scene, const Vec3d& centre, double radius, const S
       spawned.push_back(child.ray);
     }
   }
-  const PointLight light = lightAt(Vec3f(centre + Vec3d{3, 2.5, -2} * radius), 1);
+  const Light light = lightAt(Vec3f(centre + Vec3d{3, 2.5, -2} * radius), 1);
   probe.light(light);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (maxComponent(probe.unshadowed(i)) <= 0 || !probe.isHit(i)) continue;

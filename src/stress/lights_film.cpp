@@ -30,7 +30,7 @@ Finding lightsAtNoDistance(const Setup& setup) {
     m.specular = Rgb(0.5f);
     builder.add(m);
     builder.add(floorAt(0, 1, 0));
-    PointLight light = lightAt({0, height, 0}, 1);
+    Light light = lightAt({0, height, 0}, 1);
     light.radius = 1e-3f;
     builder.description.lights = {light};
     const Scene scene = builder.build();

@@ -111,7 +111,7 @@ std::vector<ProbeChild> Probe::refractions(float cutoff) {
       simd::addRefractions(tables(), effects(), cutoff, *rays_, *surfels_, count_, *children_, 0));
 }
 
-std::size_t Probe::light(const PointLight& light) {
+std::size_t Probe::light(const Light& light) {
   std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
   const std::size_t n = simd::findRadianceAndShadowRays(tables(), effects(), light, *rays_,
                                                         *surfels_, count_, *unshadowed_, *shadows_);

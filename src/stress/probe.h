@@ -41,7 +41,7 @@ class Probe {
   std::vector<ProbeChild> reflections(float cutoff = 0);
   std::vector<ProbeChild> refractions(float cutoff = 0);
   // findRadianceAndShadowRays and checkShadows: shadow rays, of which `visible` were not blocked.
-  std::size_t light(const PointLight& light);
+  std::size_t light(const Light& light);
 
   // Overwrites every slot of every column with these bits.
   void poison(std::uint32_t bits);

@@ -150,8 +150,8 @@ class RandomScene {
     builder_.place({"", std::move(meshes)}, placements);
   }
 
-  PointLight light() {
-    PointLight light;
+  Light light() {
+    Light light;
     light.position = Vec3f(place());
     light.intensity = colour(amount());
     light.radius = static_cast<float>(std::max(1e-6, 0.01 * size()));

@@ -44,8 +44,8 @@ inline Texture makeTexture(TexelFormat format, int width, int height,
   return t;
 }
 
-inline PointLight lightAt(const Vec3f& position, float intensity) {
-  PointLight light;
+inline Light lightAt(const Vec3f& position, float intensity) {
+  Light light;
   light.position = position;
   light.intensity = Rgb(intensity);
   return light;

@@ -149,7 +149,7 @@ Finding terminator(const Setup& setup) {
   SceneBuilder builder;
   builder.add(diffuseMaterial(3.14159265f));
   builder.add(sphereMesh(2, {}, 1, 0, true));
-  const PointLight light = lightAt({1000, 0, 0}, 1e6f);
+  const Light light = lightAt({1000, 0, 0}, 1e6f);
   builder.description.lights = {light};
   const Scene scene = builder.build();
   Probe probe(scene, setup);

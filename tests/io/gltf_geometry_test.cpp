@@ -202,7 +202,7 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
       "\"znear\":0.1,\"aspectRatio\":2}},{\"type\":\"orthographic\",\"orthographic\":"
       "{\"xmag\":1,\"ymag\":1,\"zfar\":9,\"znear\":1}}],"
       "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"name\":\"lamp\","
-      "\"intensity\":1366,\"color\":[1,0.5,0]},{\"type\":\"directional\",\"name\":\"sun\"}]}},"
+      "\"intensity\":1366,\"color\":[1,0.5,0],\"range\":9},{\"type\":\"laser\"}]}},"
       "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"name\":\"eye\",\"translation\":[0,0,3],\"rotation\":"
       "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},"
       "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
@@ -219,8 +219,49 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
   EXPECT_EQ(scene.lights[0].name, "lamp");
   expectNear(Vec3d(scene.lights[0].position), {1, 2, 3});
   expectNear(Vec3d(scene.lights[0].intensity), {2, 1, 0});  // 1366 cd at 683 lm/W
-  EXPECT_EQ(warned("directional light left out"), 1u);
+  EXPECT_EQ(warned("light of an unknown type left out"), 1u);
+  EXPECT_EQ(warned("light's range left out, it shines on"), 1u);
   EXPECT_EQ(warned("camera that is not a perspective one left out"), 1u);
+}
+
+// Along the node's -z; angles in radians, from the axis.
+TEST_F(GltfGeometry, SpotAndDirectionalLights) {
+  const SceneDescription scene = loadText(triangleText(
+      "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":["
+      "{\"type\":\"spot\",\"intensity\":683,\"spot\":{\"innerConeAngle\":0.5235987755982988,"
+      "\"outerConeAngle\":1.0471975511965976}},"
+      "{\"type\":\"directional\",\"name\":\"sun\",\"intensity\":1366},"
+      "{\"type\":\"spot\",\"spot\":{}},"
+      "{\"type\":\"spot\",\"spot\":{\"innerConeAngle\":0.5,\"outerConeAngle\":0.5}},"
+      "{\"type\":\"spot\",\"spot\":{\"innerConeAngle\":1,\"outerConeAngle\":0.5}}]}},"
+      "\"nodes\":[{\"mesh\":0},"
+      "{\"translation\":[1,2,3],\"scale\":[2,2,2],\"rotation\":"
+      "[0,0.70710678118654757,0,0.70710678118654757],"
+      "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
+      "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}},"
+      "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":2}}},"
+      "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":3}}},"
+      "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":4}}}]"));
+  ASSERT_EQ(scene.lights.size(), 5u);
+  const Light &spot = scene.lights[0], &sun = scene.lights[1];
+  EXPECT_EQ(spot.kind, Light::Kind::spot);
+  expectNear(Vec3d(spot.position), {1, 2, 3});
+  expectNear(Vec3d(spot.direction), {-1, 0, 0});  // -z, turned a quarter about +y
+  expectNear(Vec3d(spot.intensity), {1, 1, 1});   // 683 cd at 683 lm/W
+  EXPECT_FLOAT_EQ(spot.innerConeAngle, 30);
+  EXPECT_FLOAT_EQ(spot.outerConeAngle, 60);
+  EXPECT_EQ(sun.kind, Light::Kind::directional);
+  EXPECT_EQ(sun.name, "sun");
+  expectNear(Vec3d(sun.direction), {0, 0, -1});
+  expectNear(Vec3d(sun.intensity), {2, 2, 2});  // 1366 lx
+  EXPECT_FLOAT_EQ(scene.lights[2].innerConeAngle, 0);
+  EXPECT_FLOAT_EQ(scene.lights[2].outerConeAngle, 45);
+  // A sharp edge and, mended, one of angles that are no cones'.
+  for (const std::size_t i : {3u, 4u}) {
+    EXPECT_LT(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle);
+    EXPECT_NEAR(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle, 1e-4);
+  }
+  EXPECT_EQ(warned("spot light's cone mended"), 1u);
 }
 
 TEST_F(GltfGeometry, FilesWithoutALightAreGivenOne) {

@@ -53,6 +53,38 @@ TEST_F(SceneSections, Lights) {
   EXPECT_EQ(scene.lights[1].radius, 0.5f);
 }
 
+TEST_F(SceneSections, SpotAndDirectionalLights) {
+  const SceneDescription scene = loadMembers(
+      "\"lights\": [{\"type\": \"spot\", \"position\": [1,2,3], \"direction\": [0,-2,0], "
+      "\"intensity\": 7, \"innerConeAngle\": 10, \"outerConeAngle\": 20},"
+      "{\"type\": \"directional\", \"direction\": [1,0,0], \"irradiance\": [1,2,3]},"
+      "{\"type\": \"point\", \"position\": [0,0,0], \"intensity\": 1}]");
+  ASSERT_EQ(scene.lights.size(), 3u);
+  EXPECT_EQ(scene.lights[0].kind, Light::Kind::spot);
+  EXPECT_EQ(scene.lights[0].direction, Vec3f(0, -2, 0));
+  EXPECT_EQ(scene.lights[0].innerConeAngle, 10);
+  EXPECT_EQ(scene.lights[0].outerConeAngle, 20);
+  EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
+  EXPECT_EQ(scene.lights[1].intensity, Rgb(1, 2, 3));
+  EXPECT_EQ(scene.lights[2].kind, Light::Kind::point);
+}
+
+TEST_F(SceneSections, LightsThatAreNone) {
+  const std::string spot = "\"type\": \"spot\", \"position\": [0,0,0], \"intensity\": 1";
+  for (const auto& [light, where] : std::vector<std::pair<std::string, std::string>>{
+           {"\"type\": \"spots\", \"position\": [0,0,0], \"intensity\": 1", "/lights/0/type"},
+           {spot, "\"direction\""},
+           {spot + ", \"direction\": [0,0,0]", "/lights/0/direction"},
+           {spot + ", \"direction\": [0,1,0], \"innerConeAngle\": 50", "below the outerConeAngle"},
+           {spot + ", \"direction\": [0,1,0], \"outerConeAngle\": 91", "/outerConeAngle"},
+           {"\"type\": \"directional\", \"direction\": [0,1,0], \"intensity\": 1",
+            "\"irradiance\""},
+           {"\"position\": [0,0,0], \"intensity\": 1, \"direction\": [0,1,0]", "/direction"}}) {
+    const std::string error = errorOfMembers("\"lights\": [{" + light + "}]");
+    EXPECT_NE(error.find(where), std::string::npos) << error << " lacks " << where;
+  }
+}
+
 TEST_F(SceneSections, SkyOfOneColourAndAmbientFromIt) {
   const SceneDescription scene = loadMembers(
       "\"sky\": {\"colour\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25}");

@@ -73,7 +73,7 @@ TEST_F(GlossyTest, ReflectsAtMostAllLight) {
 TEST_F(GlossyTest, AddsToTheDiffusePart) {
   Surfel s = surfel(0.25, 0.04, {0, 0, 1});
   s.diffuse = RgbD(0.5);
-  const PointLight light = test::lightAt({0, 0, 2}, 4);
+  const Light light = test::lightAt({0, 0, 2}, 4);
   const double lobe = 0.04 / (4 * kPi * 0.0625);
   EXPECT_NEAR(radianceFromLight(EffectSet::all(), s, light).radiance.x, 0.5 / kPi + lobe, 1e-12);
   const EffectSet matte = EffectSet::all().without(Effect::glossy);

@@ -25,7 +25,7 @@ Scene stillLife() {
   builder.add(test::box({0.2f, 0.1f, 0}, {1.2f, 1.1f, 1}, builder.add(test::glassMaterial(1.5f))));
   builder.sky(0.7f);
   builder.description.ambient = {Rgb(0.2f), Rgb(0.1f)};
-  PointLight light;
+  Light light;
   light.position = {2, 4, 3};
   light.intensity = Rgb(20.0f);
   builder.description.lights = {light};
@@ -155,7 +155,7 @@ TEST(Render, PowerOfTwoScaleChangesNothing) {
     for (TriangleRecord& t : scaled.triangles) {
       for (float& p : t.position) p *= scale;
     }
-    for (PointLight& light : scaled.lights) {
+    for (Light& light : scaled.lights) {
       light.position *= scale;
       light.intensity *= scale * scale;
       light.radius *= scale;

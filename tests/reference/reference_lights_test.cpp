@@ -67,7 +67,7 @@ TEST(Lights, NearTheSurfaceStayFinite) {
   for (const float height : {1e-2f, 1e-6f, 1e-30f, 0.0f}) {
     SceneBuilder builder;
     builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
-    PointLight light = lightAt({0.25f, height, 0.25f}, 1);
+    Light light = lightAt({0.25f, height, 0.25f}, 1);
     light.radius = 0.1f;
     builder.description.lights = {light};
     Settings settings = test::uncut();

@@ -34,7 +34,7 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
 TEST(Analytic, lightFallsOffOverAPlane) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
-  const PointLight light = lightAt({0.5f, 2, -0.25f}, 10);
+  const Light light = lightAt({0.5f, 2, -0.25f}, 10);
   builder.description.lights.push_back(light);
   const Scene scene = builder.build();
   const RenderOptions o = smallOptions();

@@ -10,7 +10,7 @@
 namespace whit::test {
 namespace {
 
-using Edit = std::function<void(std::vector<Material>&, std::vector<PointLight>&)>;
+using Edit = std::function<void(std::vector<Material>&, std::vector<Light>&)>;
 
 // Renders, edits, and renders again with the same renderer.
 void expectAsIfRead(const std::string& name, const Edit& edit) {
@@ -28,7 +28,7 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   renderer.render(camera, film);
   const Image before = film.image;
   std::vector<Material> materials = edited.materials;
-  std::vector<PointLight> lights = edited.lights;
+  std::vector<Light> lights = edited.lights;
   edit(materials, lights);
   editShading(edited, materials, lights);
   renderer.shadingChanged();
@@ -60,7 +60,7 @@ TEST(EditShading, EffectsGo) {
     for (Material& m : materials) m.mirror = m.mirrorGrazing = m.transmission = {0, 0, 0};
   });
   expectAsIfRead("matte", [](auto&, auto& lights) {
-    for (PointLight& light : lights) light.intensity = {0, 0, 0};
+    for (Light& light : lights) light.intensity = {0, 0, 0};
   });
 }
 
@@ -104,7 +104,7 @@ TEST(EditShading, WhatCannotBeIsRefused) {
   Scene scene = load("whitted");
   const auto statusOf = [&](const Edit& edit) {
     std::vector<Material> materials = scene.materials;
-    std::vector<PointLight> lights = scene.lights;
+    std::vector<Light> lights = scene.lights;
     edit(materials, lights);
     try {
       editShading(scene, materials, lights);

@@ -21,7 +21,7 @@ EffectSet withDependents(Effect effect) {
   const EffectSet set = EffectSet().with(effect);
   switch (effect) {
     case Effect::lights:
-      return set.with(Effect::shadows);
+      return set.with(Effect::shadows).with(Effect::spotLights).with(Effect::directionalLights);
     case Effect::sky:
       return set.with(Effect::skyImage);
     case Effect::transmission:

@@ -25,7 +25,7 @@ void scale(SceneDescription& d, int k) {
     }
   }
   for (Instance& instance : d.instances) instance.toWorld.p *= std::ldexp(1.0, k);
-  for (PointLight& light : d.lights) {
+  for (Light& light : d.lights) {
     light.position = scaled(light.position, k);
     light.intensity = scaled(light.intensity, 2 * k);
     light.radius = std::ldexp(light.radius, k);
@@ -60,7 +60,7 @@ TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
     d.sky = Sky{};
     d.ambient = Ambient{};
     for (Material& m : d.materials) m.emission = Rgb(0.0f);
-    for (PointLight& light : d.lights) light.intensity = scaled(light.intensity, k);
+    for (Light& light : d.lights) light.intensity = scaled(light.intensity, k);
     return render(Scene::finalize(std::move(d), warnings), smallOptions()).image;
   };
   Image expected = lit(0);

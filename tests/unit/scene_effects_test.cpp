@@ -93,9 +93,23 @@ const std::vector<Rule>& rules() {
          addLight(d, {});
          first(d).castsShadow = false;
        },
-       "2 point lights",
+       "2 lights",
        {}},
-      {Effect::shadows, [](auto& d) { addLight(d); }, "1 point light, 2 triangles cast shadows",
+      {Effect::spotLights,
+       [](auto& d) {
+         addLight(d);
+         d.lights[0].kind = Light::Kind::spot;
+         first(d).castsShadow = false;
+       },
+       "1 spot light", EffectSet().with(Effect::lights)},
+      {Effect::directionalLights,
+       [](auto& d) {
+         addLight(d);
+         d.lights[0].kind = Light::Kind::directional;
+         first(d).castsShadow = false;
+       },
+       "1 directional light", EffectSet().with(Effect::lights)},
+      {Effect::shadows, [](auto& d) { addLight(d); }, "1 light, 2 triangles cast shadows",
        EffectSet().with(Effect::lights)},
       {Effect::mirror,
        [](auto& d) { first(d).mirrorGrazing = Rgb(1.0f); },
@@ -134,7 +148,7 @@ TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
   }
   EXPECT_EQ(reason(scene, Effect::transmission).because,
             "no mesh uses a material with transmission");
-  EXPECT_EQ(reason(scene, Effect::shadows).because, "the scene has no point light");
+  EXPECT_EQ(reason(scene, Effect::shadows).because, "the scene has no light");
   EXPECT_EQ(reason(scene, Effect::skyImage).because, "the sky is black");
 }
 
@@ -188,7 +202,7 @@ TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
   addLight(d, {});
   const Scene scene = finalized(std::move(d));
   EXPECT_EQ(scene.effects, EffectSet());
-  EXPECT_EQ(reason(scene, Effect::lights).because, "every point light is black");
+  EXPECT_EQ(reason(scene, Effect::lights).because, "every light is black");
 }
 
 TEST(SceneEffects, DielectricsReflectUnlessAllIndicesAreOne) {

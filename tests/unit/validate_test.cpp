@@ -23,7 +23,7 @@ struct Refusal {
   std::vector<std::string> parts;
 };
 
-void addLight(SceneDescription& d, const PointLight& light) { d.lights.push_back(light); }
+void addLight(SceneDescription& d, const Light& light) { d.lights.push_back(light); }
 
 const std::vector<Refusal>& refusals() {
   static const std::vector<Refusal> all{
@@ -53,6 +53,26 @@ const std::vector<Refusal>& refusals() {
          addLight(d, {"key", {}, {1, 1, 1}, 1e-20f});
        },
        {"radius"}},
+      {"spot light to nowhere",
+       [](auto& d) {
+         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 0, 0}});
+       },
+       {"light 'key'", "direction"}},
+      {"directional light from everywhere",
+       [](auto& d) {
+         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::directional, {0, kInf, 0}});
+       },
+       {"light 'key'", "direction"}},
+      {"cone inside out",
+       [](auto& d) {
+         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 30});
+       },
+       {"light 'key'", "inner < outer"}},
+      {"cone beyond a right angle",
+       [](auto& d) {
+         addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 91});
+       },
+       {"light 'key'", "90 degrees"}},
       {"camera",
        [](auto& d) {
          d.cameras.resize(2);

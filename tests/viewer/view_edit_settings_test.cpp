@@ -45,9 +45,12 @@ void expectSame(const ShadingEdit& a, const ShadingEdit& b) {
     expectSame(x, y, &Material::diffuseMap, "diffuseMap");
   }
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
-    expectSame(a.lights[i], b.lights[i], &PointLight::position, "position");
-    expectSame(a.lights[i], b.lights[i], &PointLight::intensity, "intensity");
-    expectSame(a.lights[i], b.lights[i], &PointLight::radius, "radius");
+    expectSame(a.lights[i], b.lights[i], &Light::position, "position");
+    expectSame(a.lights[i], b.lights[i], &Light::intensity, "intensity");
+    expectSame(a.lights[i], b.lights[i], &Light::radius, "radius");
+    expectSame(a.lights[i], b.lights[i], &Light::direction, "direction");
+    expectSame(a.lights[i], b.lights[i], &Light::innerConeAngle, "innerConeAngle");
+    expectSame(a.lights[i], b.lights[i], &Light::outerConeAngle, "outerConeAngle");
   }
 }
 
@@ -65,7 +68,16 @@ class RandomEdit {
       if (chance()) m.roughness = unit();
       if (chance()) m.ior = 1 + unit();
     }
-    for (PointLight& light : scene.lights) {
+    for (Light& light : scene.lights) {
+      if (light.kind != Light::Kind::point && chance()) light.direction = {unit(), -1, unit()};
+      if (light.kind == Light::Kind::spot && chance()) {
+        light.innerConeAngle = 10 * unit();
+        light.outerConeAngle = 20 + 30 * unit();
+      }
+      if (light.kind == Light::Kind::directional) {
+        if (chance()) light.intensity = Rgb{unit(), unit(), 0};
+        continue;
+      }
       if (chance()) light.position = {1e3f * unit() - 500, -1e-3f * unit(), 1e9f * unit()};
       if (chance()) light.intensity = Rgb{unit(), 1e6f * unit(), 0};
     }
@@ -123,7 +135,9 @@ TEST_F(EditedModel, Alone) {
 
 TEST_F(EditedModel, InAScene) {
   std::ofstream(folder_ / "s.json") << R"({"whit": 1, "lights": [
-    {"position": [1, 2, 3], "intensity": 5}], "scene": [{"group": [{"model": "m.obj",
+    {"position": [1, 2, 3], "intensity": 5}, {"type": "directional", "direction": [0, -1, 1],
+    "irradiance": 2}, {"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+    "intensity": 3}], "scene": [{"group": [{"model": "m.obj",
     "materials": {"*": {"mirror": 0.2}, "it's=1": {"transmission": 0.5, "ior": 1.3}}}]}]})";
   expectThatEditsComeBack(folder_ / "s.json");
 }

@@ -1,0 +1,110 @@
+// What arrives from a light of any kind. `kBits` are the effects that the kernel is compiled for:
+// the code of kinds that it has no bit of is not there.
+#if defined(WHIT_SIMD_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_LIGHT_INL_H_
+#undef WHIT_SIMD_LIGHT_INL_H_
+#else
+#define WHIT_SIMD_LIGHT_INL_H_
+#endif
+
+#include <limits>
+
+#include "core/effects.h"
+#include "scene/light.h"
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// Where on the way to the light shadow rays stop: short of it by the rounding error of its
+// position.
+HWY_INLINE float LightBound(const Light& light) {
+  const Vec3f p = abs(light.position);
+  return 0x1p-19f * (p.x + p.y + p.z);
+}
+
+template <uint32_t kBits>
+class LightLanes {
+  static constexpr bool kSpots = (kBits & EffectSet::bit(Effect::spotLights)) != 0;
+  static constexpr bool kDirectional = (kBits & EffectSet::bit(Effect::directionalLights)) != 0;
+
+ public:
+  HWY_INLINE explicit LightLanes(const Light& light) {
+    const FloatTag d;
+    const bool directional = light.kind == Light::Kind::directional;
+    position_ = Broadcast3(light.position);
+    radiusSquared_ = hn::Set(d, light.radius * light.radius);
+    bound_ = hn::Set(d, LightBound(light));
+    if constexpr (kDirectional) {
+      directional_ = directional;
+      if (directional) position_ = Broadcast3(Vec3f(towards(light, {})));
+    }
+    if constexpr (kSpots) {
+      const SpotCone cone = light.kind == Light::Kind::spot ? coneOf(light) : SpotCone();
+      spot_ = light.kind == Light::Kind::spot;
+      axis_ = Broadcast3(Vec3f(cone.axis));
+      cosOuter_ = hn::Set(d, static_cast<float>(cone.cosOuter));
+      coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
+    }
+  }
+
+  // All the way, or a unit vector where the light is directional.
+  HWY_INLINE V3 Towards(const V3& from) const {
+    if constexpr (kDirectional) {
+      if (directional_) return position_;
+    }
+    return Sub3(position_, from);
+  }
+
+  // Whether the cone reaches that far aside; not exact, where it has almost fallen off to nothing.
+  HWY_INLINE MF Within(MF live, const V3& toLight, VF distanceSquared) const {
+    if constexpr (kSpots) {
+      if (!spot_) return live;
+      const VF along = hn::Neg(Dot(axis_, toLight)), zero = hn::Zero(FloatTag());
+      const VF edge = hn::Mul(hn::Mul(cosOuter_, cosOuter_), distanceSquared);
+      live = hn::And(live, hn::And(hn::Gt(along, zero), hn::Gt(hn::Mul(along, along), edge)));
+    }
+    return live;
+  }
+
+  // What a surface receives of the intensity; `nl` is the cosine at it, `l` the direction.
+  HWY_INLINE VF Falloff(VF nl, const V3& l, VF distanceSquared) const {
+    if constexpr (kDirectional) {
+      if (directional_) return nl;
+    }
+    const VF falloff = hn::Div(nl, hn::Max(distanceSquared, radiusSquared_));
+    if constexpr (kSpots) {
+      if (spot_) return hn::Mul(falloff, Cone(l));
+    }
+    return falloff;
+  }
+
+  // Where shadow rays end, in lengths of Towards().
+  HWY_INLINE VF Reach(VF inverseDistance) const {
+    const FloatTag d;
+    if constexpr (kDirectional) {
+      if (directional_) return hn::Set(d, std::numeric_limits<float>::infinity());
+    }
+    const VF shortest = hn::Set(d, 1.0f - 0x1p-22f);
+    return hn::Max(hn::NegMulAdd(bound_, inverseDistance, shortest), hn::Zero(d));
+  }
+
+ private:
+  // SpotCone::falloff.
+  HWY_INLINE VF Cone(const V3& l) const {
+    const FloatTag d;
+    const VF inside = hn::Sub(hn::Neg(Dot(axis_, l)), cosOuter_);
+    const VF s = hn::Min(hn::Max(hn::Mul(inside, coneScale_), hn::Zero(d)), hn::Set(d, 1.0f));
+    return hn::Mul(s, s);
+  }
+
+  V3 position_;  // of a directional light the unit vector towards it
+  VF radiusSquared_, bound_;
+  bool spot_ = false, directional_ = false;
+  V3 axis_;
+  VF cosOuter_, coneScale_;
+};
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,152 @@
+// Spot and directional lights in the vector pipeline, and what they cost where there are none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/metrics.h"
+#include "reference/generate_ray.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+#include "stress/scene_builder.h"
+
+namespace whit::test {
+namespace {
+
+using namespace stress;
+
+constexpr double kPi = 3.14159265358979323846;
+
+Light spot(float inner, float outer) {
+  Light light = lightAt({0, 2, 0}, 10);
+  light.name = "spot";
+  light.kind = Light::Kind::spot;
+  light.innerConeAngle = inner;
+  light.outerConeAngle = outer;
+  return light;
+}
+
+Light sun(const Vec3f& direction) {
+  Light light;
+  light.name = "sun";
+  light.kind = Light::Kind::directional;
+  light.direction = direction;
+  light.intensity = Rgb(3.0f);
+  return light;
+}
+
+// Over a floor of albedo 0.5 that fills the picture.
+Scene floorUnder(const std::vector<Light>& lights) {
+  SceneBuilder builder;
+  builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
+  builder.description.lights = lights;
+  Camera camera;
+  camera.eye = {0, 3, 0};
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 50;
+  builder.description.cameras = {camera};
+  return builder.build();
+}
+
+TEST(LightKinds, aSpotLightDrawsItsConeOnTheFloor) {
+  constexpr double kInner = 15 * kPi / 180, kOuter = 25 * kPi / 180;
+  const Scene scene = floorUnder({spot(15, 25)});
+  const Picture picture = render(scene, smallOptions());
+  const Image& image = picture.image;
+  const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
+  // Twenty roundings of a float, magnified by the edge of the cone.
+  const double bound = 20 * 0x1p-24 / (std::cos(kInner) - std::cos(kOuter));
+  std::uint64_t lit = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
+      const Vec3d l = Vec3d{0, 2, 0} - point;
+      const double cosine = l.y / length(l);
+      const double s =
+          std::clamp((cosine - std::cos(kOuter)) / (std::cos(kInner) - std::cos(kOuter)), 0.0, 1.0);
+      const double full = 10 * 0.5 / kPi * cosine / dot(l, l);
+      ASSERT_NEAR(static_cast<double>(image.at(x, y).x), full * s * s, bound * full)
+          << x << "," << y;
+      lit += s > 0;
+    }
+  }
+  // No ray looks for the light from outside of its cone.
+  EXPECT_GT(lit, 100u);
+  EXPECT_NEAR(static_cast<double>(picture.stats.of(RayKind::shadow).rays), static_cast<double>(lit),
+              2);
+}
+
+TEST(LightKinds, aDirectionalLightIsEvenAndFacesTheSurface) {
+  const Picture picture = render(floorUnder({sun({3, -4, 0})}), smallOptions());
+  for (const Rgb& pixel : picture.image.pixels) {
+    ASSERT_NEAR(static_cast<double>(pixel.x), 0.5 / kPi * 3 * 0.8, 20 * 0x1p-24);
+  }
+  const Picture below = render(floorUnder({sun({0, 1, 0})}), smallOptions());
+  EXPECT_EQ(below.stats.of(RayKind::shadow).rays, 0u) << "the floor faces away";
+}
+
+// Every stage against its twin, on every target, and the picture against the reference.
+TEST(LightKinds, agreeWithTheReference) {
+  const Scene scene = load("effects");
+  for (const std::string& target : simd::availableTargets()) {
+    RenderOptions o = smallOptions();
+    o.simd = target;
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column;
+    }
+  }
+  simd::chooseTarget("auto");
+  const RenderOptions o = smallOptions();
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  const ImageDifference d = compareImages(packets.image, reference.image);
+  EXPECT_LE(d.pixelsGe2CodesPct, 0.1);
+}
+
+// Each effect left out by --disable, in both renderers.
+TEST(LightKinds, leftOutAreGoneAsInTheReference) {
+  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
+  for (const Effect effect : {Effect::spotLights, Effect::directionalLights}) {
+    RenderOptions o = smallOptions();
+    o.disable = EffectSet().with(effect);
+    Renderer renderer(scene, o);
+    Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+    renderer.render(chooseCamera(scene, o), packets);
+    renderer.renderReference(chooseCamera(scene, o), reference);
+    EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0);
+  }
+}
+
+// The code of spot and directional lights gives the bits of point lights, where it is compiled in.
+TEST(LightKinds, theirKernelsKeepTheBitsOfPointLights) {
+  const Scene scene = floorUnder({lightAt({0.5f, 2, -0.25f}, 10), lightAt({-1, 1, 1}, 4)});
+  ASSERT_FALSE(scene.effects.has(Effect::spotLights) ||
+               scene.effects.has(Effect::directionalLights));
+  RenderOptions o = smallOptions();
+  const Image plain = render(scene, o).image;
+  o.effects = EffectChoice::all;
+  EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+}
+
+// Threads, tiles, queues and packets change no bit.
+TEST(LightKinds, howTheFrameIsSplitChangesNoBit) {
+  const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
+  const Image expected = render(scene, smallOptions()).image;
+  for (const int packet : {1, 4, 8, 16}) {
+    RenderOptions o = smallOptions();
+    o.packet = packet;
+    o.tile = 16;
+    o.queue = 48;
+    o.threads = 1;
+    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << packet;
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
