@@ -104,7 +104,9 @@ TEST(Bake, MirroredObjectsKeepTheirOutside) {
 TEST(Bake, ObjectsUsedMoreOftenAreInstanced) {
   SceneDescription d = sceneOf(square());
   d.objects.push_back({"unused", {square()}});
+  d.materials.resize(2);
   d.objects.push_back({"pair", {square(), square()}});
+  d.objects[2].meshes[1].materials = {1};  // otherwise its triangles would be doubles
   d.instances.push_back({2, Affine::translation({0, 0, 5})});
   d.instances.push_back({2, Affine::translation({0, -3, 0}) * Affine::scaling({-1, 1, 1})});
   const Scene scene = finalized(std::move(d));
@@ -124,9 +126,12 @@ TEST(Bake, ObjectsUsedMoreOftenAreInstanced) {
 }
 
 TEST(Bake, InstancedTrianglesAreCountedIn64Bits) {
-  Mesh mesh = square();
-  for (int i = 0; i < 16; ++i) {
-    mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  Mesh mesh;
+  mesh.materials = {0};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}};
+  for (std::uint32_t i = 1; i <= 1u << 17; ++i) {
+    mesh.positions.push_back({1, static_cast<float>(i), 0});
+    mesh.triangles.push_back({0, i, i + 1});
   }
   SceneDescription d = sceneOf(mesh);  // 2^17 triangles
   for (int i = 1; i < 1 << 16; ++i) d.instances.push_back({0, {}});
@@ -171,7 +176,9 @@ TEST(Bake, TrianglesAreSortedByClassAndKeepTheirOrder) {
     mesh.triangles.push_back({v, v + 1, v + 2});
     mesh.materials.push_back(static_cast<std::uint32_t>(i * 7 % 4));
   }
-  d.objects[0].meshes = {mesh, square(), mesh};
+  Mesh behind = mesh;
+  for (Vec3f& p : behind.positions) p.z = -1;
+  d.objects[0].meshes = {mesh, square(), behind};
   d.objects[0].meshes[1].materials = {2};
   const Scene scene = finalized(std::move(d));
   const Geometry& g = scene.geometries[0];
