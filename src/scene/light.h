@@ -24,7 +24,7 @@ struct Light {
   Vec3f direction{0, -1, 0};  // of spot and directional lights: where they shine, of any length
   // Of spot lights, degrees from the direction, 0 <= inner < outer <= 90.
   float innerConeAngle = 0, outerConeAngle = 45;
-  std::string pointer;  // as of a Material
+  std::string pointer{};  // as of a Material
 };
 
 // From `position` to the light: all the way, or a unit vector where the light is directional.
