@@ -86,7 +86,8 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   Mesh mesh;
   mesh.materials = {0};
   for (std::uint32_t i = 0; i < uvs.size(); ++i) {
-    mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const float z = static_cast<float>(i);  // two in one place would be one
+    mesh.positions.insert(mesh.positions.end(), {{0, 0, z}, {1, 0, z}, {0, 1, z}});
     mesh.uvs.insert(mesh.uvs.end(), 3, uvs[i]);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
