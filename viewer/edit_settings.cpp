@@ -59,6 +59,10 @@ void addMaterial(const Material& read, const Material& edited, std::vector<std::
   }
   d.add("transmission", &Material::transmission);
   if (d.changed(&Material::transmission)) d.say("castsShadow", jsonOf(read.castsShadow));
+  if (d.changed(&Material::mirror) || d.changed(&Material::mirrorGrazing) ||
+      d.changed(&Material::transmission)) {
+    d.say("glossyReflection", jsonOf(edited.glossyReflection));
+  }
   d.add("ior", &Material::ior);
   d.add("absorption", &Material::absorption);
 }

@@ -205,6 +205,9 @@ void MaterialReader::override(JsonObject& object, Material& material, GivenMembe
   for (const auto& [name, value] : object.value().members()) given.insert(name);
   if (object.has("mirror")) given.insert("mirrorGrazing");
   if (object.has("transmission")) given.insert("castsShadow");
+  for (const char* impulse : {"mirror", "mirrorGrazing", "transmission"}) {
+    if (object.has(impulse)) given.insert("glossyReflection");
+  }
 }
 
 }  // namespace whit

@@ -41,6 +41,7 @@ void expectSame(const ShadingEdit& a, const ShadingEdit& b) {
     expectSame(x, y, &Material::ior, "ior");
     expectSame(x, y, &Material::absorption, "absorption");
     expectSame(x, y, &Material::castsShadow, "castsShadow");
+    expectSame(x, y, &Material::glossyReflection, "glossyReflection");
     if (x.hasGlossy()) expectSame(x, y, &Material::specularMap, "specularMap");
     expectSame(x, y, &Material::diffuseMap, "diffuseMap");
   }
