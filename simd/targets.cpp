@@ -27,8 +27,13 @@ struct TargetName {
 };
 // Best first.
 constexpr TargetName kTargetNames[] = {
-    {HWY_AVX3_DL, "avx3_dl"}, {HWY_AVX3, "avx3"}, {HWY_AVX2, "avx2"},     {HWY_SSE4, "sse4"},
-    {HWY_SSSE3, "ssse3"},     {HWY_NEON, "neon"}, {HWY_SCALAR, "scalar"},
+    {HWY_AVX3_DL, "avx3_dl"},
+    {HWY_AVX3, "avx3"},
+    {HWY_AVX2, "avx2"},
+    {HWY_SSE4, "sse4"},
+    {HWY_SSSE3, "ssse3"},
+    {HWY_NEON, "neon"},
+    {HWY_SCALAR, "scalar"},
 #ifdef HWY_SSE2
     {HWY_SSE2, "sse2"},
 #endif
