@@ -109,6 +109,7 @@ fuzzReaders() {
 groups=(build view)
 if ! $quick; then groups+=(check); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
+useCompilerCache
 if ! $quick; then
   step "format" checkFormat
   step "thread sanitizer" checkThreads
@@ -116,7 +117,6 @@ if ! $quick; then
   step "fuzzing" fuzzReaders
 fi
 if $tidy; then step "tidy" checkTidy; fi
-useCompilerCache
 if ! $quick; then
   step "Embree 4" tests/embree4.sh
   step "MPI" checkRanks
