@@ -2,6 +2,7 @@
 # Builds everything and runs every test. Exits non-zero when anything fails.
 #   tests/run.sh           formatting, Release with warnings as errors, sanitizers, fuzzing
 #   tests/run.sh --quick   Release only
+#   tests/run.sh --all     fuzzers of the readers, Embree 4 and MPI as well (a quarter of an hour)
 #   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
 set -uo pipefail
 
@@ -9,11 +10,13 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root" || exit 1
 quick=false
 tidy=false
+all=false
 for word in "$@"; do
   case $word in
     --quick) quick=true ;;
     --tidy) tidy=true ;;
-    *) echo "tests/run.sh: unknown option '$word' (--quick, --tidy)" >&2; exit 2 ;;
+    --all) all=true ;;
+    *) echo "tests/run.sh: unknown option '$word' (--quick, --tidy, --all)" >&2; exit 2 ;;
   esac
 done
 failed=()
@@ -114,10 +117,10 @@ if ! $quick; then
   step "format" checkFormat
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
-  step "fuzzing" fuzzReaders
 fi
 if $tidy; then step "tidy" checkTidy; fi
-if ! $quick; then
+if $all; then
+  step "fuzzing" fuzzReaders
   step "Embree 4" tests/embree4.sh
   step "MPI" checkRanks
 fi
