@@ -20,11 +20,6 @@ constexpr double kLongestSeconds = 0.1;   // of one step: a stall does not make 
 constexpr double kUndrawnSeconds = 0.05;  // at most, while a picture is awaited
 constexpr double kMessageSeconds = 4;
 
-double samplesOf(const FrameRequest& request) {
-  const ImageSize size = request.options.size.value();
-  return static_cast<double>(size.width) * size.height * request.spp;
-}
-
 }  // namespace
 
 App::App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,

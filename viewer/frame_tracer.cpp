@@ -37,11 +37,6 @@ void copyBand(const Film& band, Film& film) {
             film.display.rgba.begin() + row * width * 4);
 }
 
-double samplesOf(const FrameRequest& request) {
-  const ImageSize size = request.options.size.value();
-  return static_cast<double>(size.width) * size.height * request.spp;
-}
-
 }  // namespace
 
 FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)

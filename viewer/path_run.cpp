@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include "cli/frame_summary.h"
 #include "cli/image_output.h"
@@ -18,14 +19,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFramesPerSecond = 24;
 
 // Once around the point looked at, about the camera's own `up` (Rodrigues' rotation).
 Camera orbit(const Camera& camera, double share) {
   const Vec3d axis = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d arm = Vec3d(camera.eye) - Vec3d(camera.at);
-  const double angle = 2 * kPi * share, c = std::cos(angle), s = std::sin(angle);
+  const double angle = 2 * std::numbers::pi * share, c = std::cos(angle), s = std::sin(angle);
   Camera turned = camera;
   turned.eye =
       Vec3f(Vec3d(camera.at) + arm * c + cross(axis, arm) * s + axis * (dot(axis, arm) * (1 - c)));

@@ -41,6 +41,11 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
          a.measureKnobs == b.measureKnobs && a.reloads == b.reloads && a.edits == b.edits;
 }
 
+inline double samplesOf(const FrameRequest& request) {
+  const ImageSize size = request.options.size.value();
+  return static_cast<double>(size.width) * size.height * request.spp;
+}
+
 // What a user makes of a scene's surfaces and lights; see scene/edit_shading.h.
 struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;  // that was edited

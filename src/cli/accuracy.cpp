@@ -28,8 +28,9 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage = "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
-constexpr const char* kSummary =
+constexpr const char* kAccuracyUsage =
+    "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
+constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
     "time and in error against a double-precision reference. Writes DIR/report.html,\n"
     "DIR/sweep.csv and DIR/pareto-SCENE.svg; references are kept in DIR/cache.";
@@ -172,7 +173,8 @@ int checkAgainst(const AccuracyJob& job, const std::string& csv) {
 
 int accuracyCommand(const Words& words) {
   AccuracyJob job;
-  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  if (parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words) == Parsed::helpShown)
+    return 0;
   settleOptions(job.common);
   checkJob(job);
   if (!job.check.empty()) accuracy::parseCsv(readText(job.check), job.check);  // before the work

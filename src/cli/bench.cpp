@@ -15,8 +15,8 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage = "whit bench SCENE... [options]";
-constexpr const char* kSummary =
+constexpr const char* kBenchUsage = "whit bench SCENE... [options]";
+constexpr const char* kBenchSummary =
     "Renders frames and says where their time goes. With --widths and --ab-effects the frames\n"
     "of all runs take turns, so that whatever else the machine does hits all of them alike.";
 constexpr int kWidths[] = {1, 4, 8, 16};
@@ -97,7 +97,8 @@ void checkJob(const BenchJob& job, const Farm& farm) {
 
 int bench(const Words& words, Farm& farm) {
   BenchJob job;
-  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  if (parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words) == Parsed::helpShown)
+    return 0;
   settleOptions(job.common);
   quietUnlessLeading(farm, job.common);
   checkJob(job, farm);

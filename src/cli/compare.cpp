@@ -16,10 +16,10 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kCompareUsage =
     "whit compare SCENE [options]\n"
     "       whit compare A B [options]";
-constexpr const char* kSummary =
+constexpr const char* kCompareSummary =
     "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two; or\n"
     "compares the image files A and B, of which B counts as the reference.";
 
@@ -133,7 +133,8 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
 
 int compareCommand(const Words& words) {
   CompareJob job;
-  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  if (parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words) == Parsed::helpShown)
+    return 0;
   settleOptions(job.common);
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});

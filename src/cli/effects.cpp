@@ -17,8 +17,8 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage = "whit effects [SCENE] --out DIR [options]";
-constexpr const char* kSummary =
+constexpr const char* kEffectsUsage = "whit effects [SCENE] --out DIR [options]";
+constexpr const char* kEffectsSummary =
     "Measures a scene with nothing but point lights and their shadows, then with one effect more "
     "at\n"
     "a time until it is complete. The frames of all steps take turns. Writes DIR/effects.csv and\n"
@@ -92,7 +92,7 @@ int effectsCommand(const Words& words) {
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);
-  if (parseOptions(kUsage, kSummary, list, words) == Parsed::helpShown) return 0;
+  if (parseOptions(kEffectsUsage, kEffectsSummary, list, words) == Parsed::helpShown) return 0;
   settleOptions(job.common);
   checkJob(job);
   auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");

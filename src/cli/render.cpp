@@ -20,8 +20,8 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
-constexpr const char* kSummary =
+constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
+constexpr const char* kRenderSummary =
     "Renders one image, or with --frames the frames of the scene's camera path.";
 
 struct RenderJob {
@@ -136,7 +136,8 @@ void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Pr
 
 int render(const Words& words, Farm& farm) {
   RenderJob job;
-  if (parseOptions(kUsage, kSummary, listOptions(job), words) == Parsed::helpShown) return 0;
+  if (parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) == Parsed::helpShown)
+    return 0;
   settleOptions(job.common);
   quietUnlessLeading(farm, job.common);
   checkJob(job, farm);

@@ -20,8 +20,8 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kUsage = "whit stress [options]";
-constexpr const char* kSummary =
+constexpr const char* kStressUsage = "whit stress [options]";
+constexpr const char* kStressSummary =
     "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
     "Exit status 1 when a bound is broken.";
 
@@ -67,7 +67,7 @@ int stressCommand(const Words& words) {
              job.sheet);
   listReportOptions(list, job.common);
   list.operands("Cases", "tests/README.md has the list", 0, 0, job.operands);
-  if (parseOptions(kUsage, kSummary, list, words) == Parsed::helpShown) return 0;
+  if (parseOptions(kStressUsage, kStressSummary, list, words) == Parsed::helpShown) return 0;
   requireJsonWritable(job.json);
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   if (!job.sheet.empty()) requireWritable(job.sheet, {".png"});

@@ -14,7 +14,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kGap = 4;
+constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kSheetGap = 4;
 
 Image pictureOf(const std::string& scene) {
   Warnings warnings;
@@ -36,14 +36,14 @@ std::vector<std::string> writeStressSheet(const std::string& path, Progress* pro
   if (scenes.empty()) throwIo("no scenes of hard cases found; is $WHIT_SCENES set?");
   const int count = static_cast<int>(scenes.size());
   const int columns = std::min(count, kColumns), rows = (count + kColumns - 1) / kColumns;
-  Image sheet(columns * (kWidth + kGap) + kGap, rows * (kHeight + kGap) + kGap);
+  Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) {
     const std::filesystem::path& scene = scenes[static_cast<std::size_t>(i)];
     reportProgress(progress, scene.stem().string(), static_cast<double>(i) / count);
     const Image picture = pictureOf(scene.string());
-    const int left = kGap + i % kColumns * (kWidth + kGap);
-    const int top = kGap + i / kColumns * (kHeight + kGap);
+    const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
+    const int top = kSheetGap + i / kColumns * (kHeight + kSheetGap);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
     }

@@ -10,7 +10,6 @@ namespace {
 using Value = tinygltf::Value;
 using Extensions = tinygltf::ExtensionMap;
 
-constexpr float kLargestIor = 10;
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
 constexpr float kLeastAttenuation = 1e-6f;  // of a colour; the logarithm is taken
 
@@ -28,9 +27,10 @@ Rgb colourOf(const Value& object, const char* key, const Rgb& fallback) {
   return {at(0), at(1), at(2)};
 }
 
-class Converter {
+class GltfMaterialReader {
  public:
-  Converter(const GltfDocument& document, const tinygltf::Material& source, std::string where)
+  GltfMaterialReader(const GltfDocument& document, const tinygltf::Material& source,
+                     std::string where)
       : document_(document), source_(source) {
     m_.name = source.name;
     m_.where = std::move(where);
@@ -215,7 +215,8 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
   const std::vector<tinygltf::Material>& sources = document.model().materials;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    materials.push_back(Converter(document, sources[i], document.where("materials", i)).convert());
+    materials.push_back(
+        GltfMaterialReader(document, sources[i], document.where("materials", i)).convert());
   }
   GltfMaterial fallback;
   fallback.name = "default";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/error.h"
@@ -10,8 +11,7 @@
 namespace whit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr char kLights[] = "KHR_lights_punctual";
+constexpr char kLightsExtension[] = "KHR_lights_punctual";
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
   return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
@@ -108,7 +108,7 @@ class TreeReader {
     if (node.mesh >= 0) stage_.meshes.push_back({static_cast<std::size_t>(node.mesh), map});
     if (node.mesh >= 0 && node.skin >= 0) warn("skinned mesh shown as it was modelled", index);
     if (node.camera >= 0) addCamera(index, map);
-    const auto light = node.extensions.find(kLights);
+    const auto light = node.extensions.find(kLightsExtension);
     if (light != node.extensions.end()) {
       addLight(index, light->second.Get("light").GetNumberAsInt(), map);
     }
@@ -118,7 +118,7 @@ class TreeReader {
   void addCamera(std::size_t index, const Affine& map) {
     const tinygltf::Node& node = model_.nodes[index];
     const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
-    const double fov = source.perspective.yfov * 180 / kPi;
+    const double fov = source.perspective.yfov * 180 / std::numbers::pi;
     if (source.type != "perspective" || !(fov > 0 && fov < 180)) {
       return warn("camera that is not a perspective one left out", index);
     }
@@ -159,12 +159,12 @@ class TreeReader {
   // False: they were not 0 <= inner <= outer, half a degree <= outer <= a right angle. Equal ones,
   // a sharp edge, are not what the extension allows but what writers write.
   static bool setCone(const tinygltf::SpotLight& spot, Light& light) {
-    constexpr double kRightAngle = kPi / 2, kLeastOuter = kPi / 360;
+    constexpr double kRightAngle = std::numbers::pi / 2, kLeastOuter = std::numbers::pi / 360;
     const double outer = std::clamp(spot.outerConeAngle, kLeastOuter, kRightAngle);
     const double inner = std::clamp(spot.innerConeAngle, 0.0, outer);
-    light.outerConeAngle = static_cast<float>(outer * 180 / kPi);
-    light.innerConeAngle =
-        std::min(static_cast<float>(inner * 180 / kPi), std::nextafter(light.outerConeAngle, 0.0f));
+    light.outerConeAngle = static_cast<float>(outer * 180 / std::numbers::pi);
+    light.innerConeAngle = std::min(static_cast<float>(inner * 180 / std::numbers::pi),
+                                    std::nextafter(light.outerConeAngle, 0.0f));
     constexpr double kRounding = 1e-5;
     return std::abs(outer - spot.outerConeAngle) < kRounding &&
            std::abs(inner - spot.innerConeAngle) < kRounding;

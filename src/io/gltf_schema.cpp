@@ -22,7 +22,7 @@ struct Rule {
   const char* list = nullptr;  // index, indices: the path of the list they refer to
 };
 
-constexpr char kLights[] = "extensions/KHR_lights_punctual/lights";
+constexpr char kLightsPath[] = "extensions/KHR_lights_punctual/lights";
 
 // Containers before what they contain. A + before the last name: the property is required.
 constexpr Rule kRules[] = {
@@ -34,7 +34,7 @@ constexpr Rule kRules[] = {
     {"extensionsRequired/*", Kind::text},
     {"extensions", Kind::object},
     {"extensions/KHR_lights_punctual", Kind::object},
-    {kLights, Kind::list},
+    {kLightsPath, Kind::list},
     {"extensions/KHR_lights_punctual/lights/*", Kind::object},
     {"extensions/KHR_lights_punctual/lights/*/+type", Kind::text},
     {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
@@ -143,7 +143,7 @@ constexpr Rule kRules[] = {
     {"nodes/*/scale", Kind::vector, 3},
     {"nodes/*/extensions", Kind::object},
     {"nodes/*/extensions/KHR_lights_punctual", Kind::object},
-    {"nodes/*/extensions/KHR_lights_punctual/+light", Kind::index, 0, kLights},
+    {"nodes/*/extensions/KHR_lights_punctual/+light", Kind::index, 0, kLightsPath},
     {"scenes", Kind::list},
     {"scenes/*", Kind::object},
     {"scenes/*/nodes", Kind::indices, 0, "nodes"},

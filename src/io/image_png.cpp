@@ -28,12 +28,12 @@ struct Writer {
   char message[160] = "";
 };
 
-void onError(png_structp png, png_const_charp message) {
+void onWriteError(png_structp png, png_const_charp message) {
   auto* writer = static_cast<Writer*>(png_get_error_ptr(png));
   std::snprintf(writer->message, sizeof writer->message, "%s", message);
   png_longjmp(png, 1);
 }
-void onWarning(png_structp, png_const_charp) {}
+void onWriteWarning(png_structp, png_const_charp) {}
 
 bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
@@ -60,7 +60,8 @@ std::vector<png_text> textChunks(const ImageMetadata& metadata,
 // False: `writer.message` says why.
 bool write(Writer& writer, std::FILE* file, const DisplayImage& image, const png_text* texts,
            int textCount) {
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
+  writer.png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onWriteError, onWriteWarning);
   if (writer.png == nullptr) return false;
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   writer.info = png_create_info_struct(writer.png);

@@ -19,23 +19,23 @@ namespace {
 constexpr png_uint_32 kSideLimit = kImageSideLimit;
 
 // Nothing here has a destructor, because libpng reports errors by longjmp.
-struct Reader {
+struct PngTextReader {
   png_structp png = nullptr;
   png_infop info = nullptr;
   int passes = 1;
   char message[160] = "";
 };
 
-void onError(png_structp png, png_const_charp message) {
-  auto* reader = static_cast<Reader*>(png_get_error_ptr(png));
+void onReadError(png_structp png, png_const_charp message) {
+  auto* reader = static_cast<PngTextReader*>(png_get_error_ptr(png));
   std::snprintf(reader->message, sizeof reader->message, "%s", message);
   png_longjmp(png, 1);
 }
-void onWarning(png_structp, png_const_charp) {}
+void onReadWarning(png_structp, png_const_charp) {}
 
 // False: `reader.message` says why.
-bool readHeader(Reader& reader, std::FILE* file) {
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, onError, onWarning);
+bool readHeader(PngTextReader& reader, std::FILE* file) {
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, onReadError, onReadWarning);
   if (reader.png == nullptr) return false;
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   reader.info = png_create_info_struct(reader.png);
@@ -48,7 +48,7 @@ bool readHeader(Reader& reader, std::FILE* file) {
   return true;
 }
 
-bool readRows(Reader& reader, png_bytep row) {
+bool readRows(PngTextReader& reader, png_bytep row) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   const png_uint_32 height = png_get_image_height(reader.png, reader.info);
   for (int pass = 0; pass < reader.passes; ++pass) {
@@ -64,9 +64,11 @@ ImageMetadata readPngMetadata(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) throwIo("cannot open '" + path + "': " + std::strerror(errno));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closing(file, &std::fclose);
-  Reader reader;
-  const auto release = [](Reader* r) { png_destroy_read_struct(&r->png, &r->info, nullptr); };
-  const std::unique_ptr<Reader, decltype(release)> releasing(&reader, release);
+  PngTextReader reader;
+  const auto release = [](PngTextReader* r) {
+    png_destroy_read_struct(&r->png, &r->info, nullptr);
+  };
+  const std::unique_ptr<PngTextReader, decltype(release)> releasing(&reader, release);
   if (!readHeader(reader, file)) throwBadScene(path, std::string("no PNG: ") + reader.message);
   std::vector<png_byte> row(png_get_rowbytes(reader.png, reader.info));
   if (!readRows(reader, row.data())) {

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::uint64_t kMtlBytesLimit = 64u << 20;
 constexpr float kDielectricReflectance = 0.04f;  // of what Pm below 1 leaves uncoloured
-constexpr float kLargestIor = 10;
 
-class Converter {
+class MtlMaterialReader {
  public:
-  Converter(const tinyobj::material_t& source, const MtlSummary& summary, Warnings& warnings)
+  MtlMaterialReader(const tinyobj::material_t& source, const MtlSummary& summary,
+                    Warnings& warnings)
       : source_(source), summary_(summary), warnings_(warnings) {}
 
   MtlMaterial convert() {
@@ -144,7 +144,7 @@ void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMateria
   for (std::size_t i = 0; i < text.materials.size() && i < found.size(); ++i) {
     const MtlSummary& summary = text.materials[i];
     if (materials.count(summary.name) > 0) continue;
-    materials.emplace(summary.name, Converter(found[i], summary, warnings).convert());
+    materials.emplace(summary.name, MtlMaterialReader(found[i], summary, warnings).convert());
   }
 }
 

@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kColours{"Kd", "Ks", "Ke", "Tf"};
 constexpr std::array<std::string_view, 6> kScalars{"Ns", "Ni", "d", "Tr", "Pr", "Pm"};
-constexpr std::array<std::string_view, 10> kMaps{"map_Kd", "map_Ks", "map_Ke", "map_d",  "map_Bump",
-                                                 "bump",   "norm",   "map_Pr", "map_Pm", "map_Ns"};
+constexpr std::array<std::string_view, 10> kMapStatements{"map_Kd",   "map_Ks", "map_Ke", "map_d",
+                                                          "map_Bump", "bump",   "norm",   "map_Pr",
+                                                          "map_Pm",   "map_Ns"};
 
 bool sameWord(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
@@ -76,7 +77,7 @@ class Normaliser {
     if (const auto colour = spelling(kColours, word)) return colourStatement(*colour, words);
     if (const auto scalar = spelling(kScalars, word)) return scalarStatement(*scalar, words);
     if (sameWord(word, "illum")) return scalarStatement("illum", words);
-    if (const auto map = spelling(kMaps, word)) return mapStatement(*map, words, line);
+    if (const auto map = spelling(kMapStatements, word)) return mapStatement(*map, words, line);
   }
 
   void newMaterial(const std::string& line) {

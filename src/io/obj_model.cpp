@@ -12,12 +12,10 @@
 namespace whit {
 namespace {
 
-constexpr float kGrey = 0.6f;
-
 MtlMaterial greyMaterial(const std::string& name, const std::string& where) {
   MtlMaterial grey;
   grey.material.name = name;
-  grey.material.diffuse = Rgb(kGrey);
+  grey.material.diffuse = Rgb(kModelGrey);
   grey.where = where;
   return grey;
 }

@@ -11,7 +11,7 @@
 namespace whit {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool isObjBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 constexpr std::array<bool, 256> numberCharacters() {
   std::array<bool, 256> table{};
@@ -38,12 +38,12 @@ bool isOldNan(std::string_view word) {
 Numbers readOddNumbers(std::string_view text) {
   Numbers result;
   for (std::size_t i = 0; i < text.size();) {
-    if (isBlank(text[i])) {
+    if (isObjBlank(text[i])) {
       ++i;
       continue;
     }
     std::size_t end = i;
-    while (end < text.size() && !isBlank(text[end])) ++end;
+    while (end < text.size() && !isObjBlank(text[end])) ++end;
     const std::string word(text.substr(i, end - i));
     char* rest = nullptr;
     const double value = std::strtod(word.c_str(), &rest);
@@ -60,7 +60,7 @@ Numbers readNumbers(std::string_view text) {
   Numbers result;
   bool inside = false, exponent = false;
   for (const char c : text) {
-    if (isBlank(c)) {
+    if (isObjBlank(c)) {
       inside = false;
       continue;
     }
@@ -77,8 +77,8 @@ Numbers readNumbers(std::string_view text) {
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && isObjBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isObjBlank(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -105,7 +105,7 @@ void ObjText::mendLineEnds() {
     looked = i;
     const std::size_t end = i + 1 < text_.size() && text_[i + 1] == '\r' ? i + 2 : i + 1;
     if (end >= text_.size() || text_[end] != '\n') continue;
-    while (isBlank(text_[lineStart])) ++lineStart;
+    while (isObjBlank(text_[lineStart])) ++lineStart;
     if (text_[lineStart] == '#') continue;
     std::fill(text_.begin() + static_cast<std::ptrdiff_t>(i),
               text_.begin() + static_cast<std::ptrdiff_t>(end) + 1, ' ');
@@ -114,13 +114,13 @@ void ObjText::mendLineEnds() {
 }
 
 void ObjText::readLine(std::size_t begin, std::size_t end) {
-  while (begin < end && isBlank(text_[begin])) ++begin;
+  while (begin < end && isObjBlank(text_[begin])) ++begin;
   const std::string_view line(text_.data() + begin, end - begin);
   if (line.starts_with("v")) return readVertex(begin, end);
   if (line.starts_with("f ") || line.starts_with("f\t")) return readFace(begin + 1, end);
   const auto nameAfter = [&](std::string_view keyword) {
     return line.size() > keyword.size() && line.starts_with(keyword) &&
-                   isBlank(line[keyword.size()])
+                   isObjBlank(line[keyword.size()])
                ? trimmed(line.substr(keyword.size()))
                : std::string_view();
   };
@@ -166,7 +166,7 @@ void ObjText::readFace(std::size_t begin, std::size_t end) {
                 text_.begin() + static_cast<std::ptrdiff_t>(end), ' ');
       break;
     }
-    const bool blank = isBlank(text_[i]);
+    const bool blank = isObjBlank(text_[i]);
     summary_.corners += !blank && !inside;
     inside = !blank;
   }

@@ -18,7 +18,7 @@ double valueOf(const std::array<char, 8>& bytes) {
   return static_cast<double>(value);
 }
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 }  // namespace
 
@@ -27,12 +27,13 @@ double PlyData::number(PlyType type) {
 }
 
 double PlyData::textNumber() {
-  for (; at_ < text_.size() && isBlank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+  for (; at_ < text_.size() && isPlySpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
   if (at_ < text_.size() && text_[at_] == '+') ++at_;
   double value = 0;
   const char* end = text_.data() + text_.size();
   const auto [rest, error] = std::from_chars(text_.data() + at_, end, value);
-  const bool wellFormed = error != std::errc::invalid_argument && (rest == end || isBlank(*rest));
+  const bool wellFormed =
+      error != std::errc::invalid_argument && (rest == end || isPlySpace(*rest));
   if (!wellFormed) throwBadScene(place(), "expected a number");
   at_ = static_cast<std::size_t>(rest - text_.data());
   return value;

@@ -13,8 +13,6 @@
 namespace whit {
 namespace {
 
-constexpr float kGrey = 0.6f;
-
 // Which component of a vertex a property is.
 enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kComponents };
 
@@ -171,7 +169,7 @@ PlyModel::PlyModel(const std::filesystem::path& path, const PathRules&, MemoryBu
     : file_(path.string()), budget_(budget) {
   Material grey;
   grey.name = "default";
-  grey.diffuse = Rgb(kGrey);
+  grey.diffuse = Rgb(kModelGrey);
   materials_.push_back(grey);
   const std::string text = readTextFile(path, budget.left());
   budget.charge(text.size(), 1, file_);

@@ -11,7 +11,7 @@
 namespace whit {
 namespace {
 
-constexpr double kLeastIor = 0.1, kLargestIor = 10;
+constexpr double kLeastIor = 0.1;
 constexpr int kLargestPriority = 1000;
 
 std::vector<std::string> useNames() { return {"colour", "data"}; }

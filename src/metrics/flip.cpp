@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/srgb.h"
 #include "core/vec3.h"
@@ -15,7 +16,6 @@ namespace whit {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPixelsPerDegree = 67;           // a 0.7 m wide 3840 pixel display seen from 0.7 m
 constexpr double kColourExponent = 0.7;           // q_c
 constexpr double kKnee = 0.4, kKneeError = 0.95;  // p_c, p_t
@@ -107,8 +107,8 @@ struct Gaussian {
 };
 Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians) {
   constexpr double kWidestB = 0.04;
-  const int radius =
-      static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * kPixelsPerDegree));
+  const int radius = static_cast<int>(std::ceil(
+      3 * std::sqrt(kWidestB / (2 * std::numbers::pi * std::numbers::pi)) * kPixelsPerDegree));
   Plane sum(plane.width, plane.height);
   std::vector<double> masses;
   std::vector<Taps> taps;
@@ -118,11 +118,11 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
     double line = 0;
     for (int i = -radius; i <= radius; ++i) {
       const double d = i / kPixelsPerDegree;
-      weights.push_back(std::exp(-kPi * kPi * d * d / g.b));
+      weights.push_back(std::exp(-std::numbers::pi * std::numbers::pi * d * d / g.b));
       line += weights.back();
     }
     taps.push_back(normalised(weights));
-    masses.push_back(g.a * std::sqrt(kPi / g.b) * line * line);
+    masses.push_back(g.a * std::sqrt(std::numbers::pi / g.b) * line * line);
     total += masses.back();
   }
   for (std::size_t k = 0; k < gaussians.size(); ++k) {

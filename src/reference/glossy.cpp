@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
@@ -10,7 +11,6 @@ namespace whit::reference {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Seen from nearer to the normal than this, as a sine, the plane of incidence is lost in rounding,
 // and any other serves as well.
 constexpr double kLeastSine = 0.01;
@@ -38,8 +38,8 @@ Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
   const Vec3d seen = normalized(Vec3d(view.x * alpha, view.y * alpha, view.z));
   const double fall = v * (1 + seen.z);  // how far below the pole
   const double radius = std::sqrt(std::max(0.0, fall * (2 - fall)));
-  const Vec3d halfway{radius * std::cos(2 * kPi * u) + seen.x,
-                      radius * std::sin(2 * kPi * u) + seen.y, (1 - v) * (1 + seen.z)};
+  const Vec3d halfway{radius * std::cos(2 * std::numbers::pi * u) + seen.x,
+                      radius * std::sin(2 * std::numbers::pi * u) + seen.y, (1 - v) * (1 + seen.z)};
   return normalized(Vec3d(halfway.x * alpha, halfway.y * alpha, halfway.z), {0, 0, 1});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
@@ -10,9 +11,6 @@
 namespace whit::reference {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kUnitRoundOff = 1.0 / (1 << 24);  // of float
 
 // Distance from O to the light, in lengths of the shadow ray, up to which occluders count: less
 // than the whole way by the rounding of the light's position in float.
@@ -51,7 +49,7 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   // normal that is a unit vector in float only, for one.
   const Vec3d across = cross(n, h);
   const double spread = nh * nh * a2 + dot(across, across);
-  const double distribution = a2 / (kPi * spread * spread);
+  const double distribution = a2 / (std::numbers::pi * spread * spread);
   const double visibility =
       0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
   const RgbD f0 = surfel.specular, f90(std::min(1.0, 25 * maxComponent(f0)));
@@ -81,7 +79,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   if (light.kind == Light::Kind::spot && effects.has(Effect::spotLights)) {
     biradiance *= coneOf(light).falloff(l);
   }
-  RgbD reflected = surfel.diffuse / kPi;
+  RgbD reflected = surfel.diffuse / std::numbers::pi;
   if (effects.has(Effect::glossy) && maxComponent(surfel.specular) > 0) {
     reflected += glossyLobe(surfel, l);
   }

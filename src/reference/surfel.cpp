@@ -8,8 +8,6 @@ namespace whit::reference {
 
 namespace {
 
-constexpr double kUnitRoundOff = 1.0 / (1 << 24);  // of float
-
 Vec3d triple(const float* values) { return {values[0], values[1], values[2]}; }
 
 // A value given at the corners, at the hit.

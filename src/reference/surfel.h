@@ -9,6 +9,8 @@
 
 namespace whit::reference {
 
+inline constexpr double kUnitRoundOff = 0x1p-24;  // of float
+
 struct Surfel {
   Vec3d position;
   Vec3d view;             // unit, back along the ray

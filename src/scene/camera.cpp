@@ -1,12 +1,11 @@
 #include "scene/camera.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace whit {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Cubic Hermite basis at s in [0, 1]; tangents are per unit of s.
 Vec3f hermite(const Vec3d& p0, const Vec3d& m0, const Vec3d& p1, const Vec3d& m1, double s) {
@@ -62,7 +61,7 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
   const double asked = camera.fov;
   const double fov = asked > kSmallestFov ? std::min(asked, kLargestFov) : kSmallestFov;
-  const double pixel = 2 * std::tan(fov * (kPi / 360)) / height;
+  const double pixel = 2 * std::tan(fov * (std::numbers::pi / 360)) / height;
   return {eye, forward, right * pixel, cross(right, forward) * pixel, width, height, 0};
 }
 

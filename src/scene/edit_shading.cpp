@@ -9,8 +9,6 @@ namespace whit {
 
 namespace {
 
-bool isBlack(const Rgb& c) { return !(maxComponent(c) > 0); }
-
 // Whether exchanging one for the other can neither bring nor take away an effect or a medium.
 bool sameKind(const Material& a, const Material& b) {
   const bool sameMedium = !a.hasTransmission() || (a.ior == b.ior && a.absorption == b.absorption &&

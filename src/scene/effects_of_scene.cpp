@@ -11,8 +11,6 @@ namespace {
 // Normals closer to the face's than this are its own, written down with five digits or more.
 constexpr double kFlat = 1e-5;
 
-bool isBlack(const Rgb& c) { return !(maxComponent(c) > 0); }
-
 std::string counted(std::uint64_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace whit {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 RgbD mix(const Rgb& a, const Rgb& b, double t) { return RgbD(a) * (1 - t) + RgbD(b) * t; }
 
@@ -37,7 +36,8 @@ RgbD hemisphereMean(const EnvironmentImage& image, bool upper) {
   for (int y = 0; y < image.height; ++y) {
     // Polar angles, measured from the pole in question and cut at the horizon.
     const int row = upper ? y : image.height - 1 - y;
-    const double a = kPi * y / image.height, b = std::min(kPi * (y + 1) / image.height, kPi / 2);
+    const double a = std::numbers::pi * y / image.height,
+                 b = std::min(std::numbers::pi * (y + 1) / image.height, std::numbers::pi / 2);
     if (a >= b) break;
     RgbD rowSum;
     for (int x = 0; x < image.width; ++x) rowSum += texel(image, x, row);
@@ -55,8 +55,8 @@ Vec3d towards(const Light& light, const Vec3d& position) {
 }
 
 SpotCone coneOf(const Light& light) {
-  const double inner = std::cos(light.innerConeAngle * kPi / 180);
-  const double outer = std::cos(light.outerConeAngle * kPi / 180);
+  const double inner = std::cos(light.innerConeAngle * std::numbers::pi / 180);
+  const double outer = std::cos(light.outerConeAngle * std::numbers::pi / 180);
   // The extension's least width, 0.001, but not for cones that it would dim at their axis.
   const double least = std::min(0.001, 0.1 * (1 - outer));
   return {normalized(Vec3d(light.direction)), outer, 1 / std::max(least, inner - outer)};
@@ -78,9 +78,9 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
     case Sky::Kind::image:
       break;
   }
-  const double u = std::atan2(d.x, -d.z) / (2 * kPi) + sky.rotation / 360.0;
+  const double u = std::atan2(d.x, -d.z) / (2 * std::numbers::pi) + sky.rotation / 360.0;
   // Unlike acos this keeps its precision near the poles.
-  const double v = std::atan2(std::hypot(d.x, d.z), d.y) / kPi;
+  const double v = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
   return lookUp(sky.image, u, v) * sky.scale;
 }
 

@@ -21,6 +21,8 @@ namespace whit {
 
 inline constexpr std::int32_t kNoTexture = -1;
 
+inline constexpr float kLargestIor = 10;  // that a file can ask for
+
 struct Material {
   std::string name;
 

@@ -79,4 +79,13 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& centre, double radius, std::s
 
 inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
 
+// From 3 above the origin.
+inline Camera lookingDown() {
+  Camera camera;
+  camera.eye = {0, 3, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 50;
+  return camera;
+}
+
 }  // namespace whit::stress

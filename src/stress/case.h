@@ -28,6 +28,8 @@ struct Setup {
 enum class Runs : std::uint8_t { once, targets, packets };
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+inline constexpr float kInf = std::numeric_limits<float>::infinity();
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // The worst of what a run has seen, and where.
 class Finding {

@@ -1,16 +1,11 @@
 // H23 to H29: triangles without area, without measure, without numbers.
 #include <array>
 #include <bit>
-#include <limits>
-
 #include "stress/bodies.h"
 
 namespace whit::stress {
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
 
 // Whatever was built, mended as loading does it.
 Scene mended(SceneDescription&& description, Warnings* warnings = nullptr) {
@@ -247,7 +242,7 @@ Finding garbage(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kDegenerateGeometryCases[] = {
     {"H23", "degenerate triangles and slivers shade to finite pixels",
      "repeated corner, collinear corners, heights 1e-20 and 1e-7", Runs::packets,
      degenerateTriangles},
@@ -267,6 +262,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> degenerateGeometryCases() { return kCases; }
+std::span<const Case> degenerateGeometryCases() { return kDegenerateGeometryCases; }
 
 }  // namespace whit::stress

@@ -252,7 +252,7 @@ Finding superfluousEffects(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kInvarianceCases[] = {
     {"H59", "a pixel traced alone has the bits of the whole image",
      "images of 1x1, 15x1, 17x3, 1x257, 16x16", Runs::packets, partialPackets},
     {"H59a", "dead lanes do not matter", "queues of 1 to 33 rays with NaN behind them",
@@ -275,6 +275,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> invarianceCases() { return kCases; }
+std::span<const Case> invarianceCases() { return kInvarianceCases; }
 
 }  // namespace whit::stress

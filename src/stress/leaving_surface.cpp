@@ -7,7 +7,7 @@ namespace whit::stress {
 
 namespace {
 
-constexpr std::size_t kRays = 1500;
+constexpr std::size_t kLeavingRays = 1500;
 // Rays that leave a facet more flatly than this may meet its neighbour, as far as floats can tell.
 constexpr double kLeast = 1e-3;
 
@@ -16,7 +16,7 @@ Finding selfHits(const Scene& scene, const Vec3d& centre, double radius, const S
                  std::uint64_t seed) {
   Finding finding(0);
   Probe probe(scene, setup);
-  probe.cast(raysOnto(centre, radius, kRays, seed));
+  probe.cast(raysOnto(centre, radius, kLeavingRays, seed));
   std::vector<ProbeRay> spawned;
   for (const ProbeChild& child : probe.reflections()) {
     if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
@@ -80,7 +80,7 @@ Finding pointsFromFarAway(const Setup& setup) {
   const Scene scene = builder.build();
   Numbers numbers(3);
   std::vector<ProbeRay> rays;
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::size_t i = 0; i < kLeavingRays; ++i) {
     const Vec3d target{numbers.in(0.2, 0.8), numbers.in(0.3, 0.5), numbers.in(0.2, 0.8)};
     const Vec3d towards = normalized(Vec3d{1, numbers.in(0.02, 1.5), numbers.in(-0.5, 0.5)});
     rays.push_back(rayThrough(Vec3f(target + towards * 1e5), Vec3f(target)));
@@ -155,7 +155,7 @@ Finding startOnAPlane(const Setup& setup) {
   const Scene scene = sceneOf(floorAt(0, 1, 0), shiny());
   Numbers numbers(9);
   std::vector<ProbeRay> rays;
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::size_t i = 0; i < kLeavingRays; ++i) {
     Vec3d target{numbers.in(-1, 1), 0, numbers.in(-1, 1)};
     if (i % 3 == 0) target = {std::floor(target.x), 0, std::floor(target.z)};
     const double elevation = std::pow(10, numbers.in(-3, 0)), turn = numbers.in(0, 6.28);
@@ -181,7 +181,7 @@ Finding sideOfTheOffset(const Setup& setup) {
   const Scene scene = builder.build();
   std::vector<ProbeRay> rays;
   Numbers numbers(10);
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::size_t i = 0; i < kLeavingRays; ++i) {
     const double angle = numbers.in(0, 1.5);
     rays.push_back({{0, 1, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
   }
@@ -226,7 +226,7 @@ Finding instanced(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kLeavingSurfaceCases[] = {
     {"H1", "no ray meets the convex body that it leaves, at any size",
      "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
     {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
@@ -247,6 +247,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> leavingSurfaceCases() { return kCases; }
+std::span<const Case> leavingSurfaceCases() { return kLeavingSurfaceCases; }
 
 }  // namespace whit::stress

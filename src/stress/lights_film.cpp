@@ -1,7 +1,5 @@
 // H65 to H76: lights at no distance, texture coordinates, film, camera.
 #include <array>
-#include <limits>
-
 #include "reference/generate_ray.h"
 #include "simd/kernels.h"
 #include "stress/bodies.h"
@@ -9,17 +7,6 @@
 namespace whit::stress {
 
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Camera lookingDown() {
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.up = {0, 0, -1};
-  camera.fov = 50;
-  return camera;
-}
 
 // On the surface, 1e-30 above it, and where a point is hit exactly.
 Finding lightsAtNoDistance(const Setup& setup) {
@@ -208,7 +195,7 @@ Finding equalSamples(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kLightAndFilmCases[] = {
     {"H65", "lights at no distance", "on the floor and up to 1e-5 above it; finite and bounded",
      Runs::packets, lightsAtNoDistance},
     {"H66", "a light in a closed box lights nothing outside", "box above a floor; lit pixels",
@@ -226,6 +213,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> lightAndFilmCases() { return kCases; }
+std::span<const Case> lightAndFilmCases() { return kLightAndFilmCases; }
 
 }  // namespace whit::stress

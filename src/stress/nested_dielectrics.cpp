@@ -245,7 +245,7 @@ Finding absorption(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kNestedDielectricCases[] = {
     {"H45", "glass on water, apart and overlapping: rays leave as they came",
      "200 angles; how far the direction has turned", Runs::packets, glassOnWater},
     {"H45a", "an overlap is the interface of the two media", "relative error of F at each face",
@@ -267,6 +267,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> nestedDielectricCases() { return kCases; }
+std::span<const Case> nestedDielectricCases() { return kNestedDielectricCases; }
 
 }  // namespace whit::stress

@@ -129,7 +129,7 @@ Finding coplanarOverlap(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kOddDirectionCases[] = {
     {"H19", "axis-aligned rays, with +0 and with -0",
      "grid of 64 x 64 from above onto its corners, edges and centres", Runs::packets, axisAligned},
     {"H20", "denormal components count as zero", "the same with 1e-40", Runs::packets,
@@ -145,6 +145,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> oddDirectionCases() { return kCases; }
+std::span<const Case> oddDirectionCases() { return kOddDirectionCases; }
 
 }  // namespace whit::stress

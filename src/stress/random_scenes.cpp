@@ -216,7 +216,7 @@ Finding randomScenes(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kRandomSceneCases[] = {
     {"H29a", "random scenes have finite pixels",
      "1000 scenes of hostile numbers, packets and reference; pixels that are not finite",
      Runs::once, randomScenes},
@@ -224,6 +224,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> randomSceneCases() { return kCases; }
+std::span<const Case> randomSceneCases() { return kRandomSceneCases; }
 
 }  // namespace whit::stress

@@ -110,8 +110,7 @@ Finding extremeIntensities(const Setup& setup) {
 // A sky texel that is no number: mended when the scene is made, at most its neighbours affected.
 Finding badSkyTexels(const Setup& setup) {
   Finding finding(0);
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInf, -kInf, -1.0f}) {
+  for (const float bad : {kNan, kInf, -kInf, -1.0f}) {
     SceneBuilder builder;
     builder.add(floorAt(0, 1, builder.add(mirrorMaterial(1))));
     const std::vector<float> white(16, 1.0f);
@@ -139,8 +138,6 @@ Finding badSkyTexels(const Setup& setup) {
 // What Min and Max make of a NaN differs from CPU to CPU; codes must not.
 Finding oddRadiance(const Setup&) {
   Finding finding(0);
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const std::array<std::pair<float, std::uint32_t>, 8> cases{{{kNan, 0},
                                                               {-kNan, 0},
                                                               {kInf, 255},
@@ -167,7 +164,7 @@ Finding oddRadiance(const Setup&) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kRangeCases[] = {
     {"H51", "normals have unit length for corners from 1e-14 to 3e17",
      "4000 triangles of all shapes", Runs::targets, unitNormals},
     {"H52", "directions keep their length over 64 reflections", "box of mirrors, 64 rays",
@@ -185,6 +182,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> rangeCases() { return kCases; }
+std::span<const Case> rangeCases() { return kRangeCases; }
 
 }  // namespace whit::stress

@@ -1,21 +1,9 @@
 // H62 to H64: deep recursion and what it is cut short by.
-#include <limits>
-
 #include "stress/bodies.h"
 
 namespace whit::stress {
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Camera lookingDown() {
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.up = {0, 0, -1};
-  camera.fov = 50;
-  return camera;
-}
 
 // A closed box of mirrors that emit 1: the sum of R^k down to the deepest impulse.
 Finding hallOfMirrors(const Setup& setup) {
@@ -118,7 +106,7 @@ Finding cutoffBias(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kRecursionCases[] = {
     {"H62", "a box of mirrors is a geometric series",
      "reflectance 0.5, 0.9, 1; depths to 64; "
      "relative error a bounce",
@@ -132,6 +120,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> recursionCases() { return kCases; }
+std::span<const Case> recursionCases() { return kRecursionCases; }
 
 }  // namespace whit::stress

@@ -277,7 +277,7 @@ Finding energyOfOneEvent(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kRefractionCases[] = {
     {"H37", "total reflection begins at the critical angle",
      "cosines within 2000 ulp of it; disagreements with the sign in long double", Runs::targets,
      criticalFlag},
@@ -303,6 +303,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> refractionCases() { return kCases; }
+std::span<const Case> refractionCases() { return kRefractionCases; }
 
 }  // namespace whit::stress

@@ -226,7 +226,7 @@ Finding grazingMirror(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kShadingNormalCases[] = {
     {"H32", "children stay on their side of the surface",
      "shading normals up to 57 degrees off, views down to 0.06 degrees; ulps below the least "
      "elevation",
@@ -247,6 +247,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> shadingNormalCases() { return kCases; }
+std::span<const Case> shadingNormalCases() { return kShadingNormalCases; }
 
 }  // namespace whit::stress

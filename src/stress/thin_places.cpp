@@ -5,7 +5,7 @@ namespace whit::stress {
 
 namespace {
 
-constexpr std::size_t kRays = 1500;
+constexpr std::size_t kThinPlaceRays = 1500;
 
 Finding thinGap(const Setup& setup) {
   Finding finding(0);
@@ -18,7 +18,7 @@ Finding thinGap(const Setup& setup) {
     Probe probe(scene, setup), below(scene, setup);
     Numbers numbers(5);
     std::vector<ProbeRay> rays, children;
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (std::size_t i = 0; i < kThinPlaceRays; ++i) {
       const Vec3f target(Vec3d{numbers.in(-0.4, 0.4), 0, numbers.in(-0.4, 0.4)});
       rays.push_back(rayThrough(target + Vec3f{0.3f, 1, 0.2f}, target));
     }
@@ -89,7 +89,7 @@ Finding concaveCorners(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), diffuseMaterial(1));
   Probe probe(scene, setup);
-  probe.cast(intoCorners(kRays, 7));
+  probe.cast(intoCorners(kThinPlaceRays, 7));
   for (const Vec3f& outside : {Vec3f{2.3f, 1.7f, 0.4f}, {-1.01f, 0.2f, 0.3f}, {0, 1.5f, -1.5f}}) {
     probe.light(lightAt(outside, 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {
@@ -111,7 +111,7 @@ Finding lightOnASurface(const Setup& setup) {
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays;
     Numbers numbers(8);
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (std::size_t i = 0; i < kThinPlaceRays; ++i) {
       const Vec3f target(Vec3d{numbers.in(-2, 2), 0, numbers.in(-2, 2)});
       rays.push_back(rayThrough({0.1f, 1, 0.1f}, target));
     }
@@ -126,7 +126,7 @@ Finding lightOnASurface(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kThinPlaceCases[] = {
     {"H5", "thin gaps are not skipped", "refracted rays between sheets 1e-5 to 1e-2 apart",
      Runs::packets, thinGap},
     {"H6", "no light through contacts", "ball and box on a floor, lights below it; lit pixels",
@@ -139,6 +139,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> thinPlaceCases() { return kCases; }
+std::span<const Case> thinPlaceCases() { return kThinPlaceCases; }
 
 }  // namespace whit::stress

@@ -6,7 +6,7 @@ namespace whit::stress {
 
 namespace {
 
-constexpr std::size_t kRays = 4000;
+constexpr std::size_t kEdgeRays = 4000;
 
 // Rays from inside a closed mesh that find nothing.
 Finding misses(const Mesh& mesh, const std::vector<ProbeRay>& rays, double bound,
@@ -33,7 +33,7 @@ Finding randomRays(const Setup& setup) {
   for (const Vec3d& centre : {Vec3d{}, kFar}) {
     Numbers numbers(12);
     std::vector<ProbeRay> rays;
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (std::size_t i = 0; i < kEdgeRays; ++i) {
       rays.push_back({inside(numbers, centre, 2), Vec3f(numbers.direction())});
     }
     finding.merge(misses(sphereMesh(5, centre, 2, 0), rays, 0, setup), true);
@@ -95,7 +95,7 @@ Finding unsharedCube(const Setup& setup) {
   const Mesh cube = unshared(box({-1, -1, -1}, {1, 1, 1}, 0));
   std::vector<ProbeRay> rays = throughEdges(cube, {}, 1);
   Numbers numbers(31);
-  while (rays.size() < kRays) {
+  while (rays.size() < kEdgeRays) {
     Vec3d target{numbers.in(-1, 1), numbers.in(-1, 1), numbers.in(-1, 1)};
     target[0] = target[0] < 0 ? -1 : 1;
     target[1] = target[1] < 0 ? -1 : 1;
@@ -147,7 +147,7 @@ Finding tJunctions(const Setup& setup) {
     const Scene scene = builder.build();
     Numbers numbers(16);
     std::vector<ProbeRay> rays;
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (std::size_t i = 0; i < kEdgeRays; ++i) {
       const Vec3f target(Vec3d{numbers.in(-0.9, 0.9), 0, 0});
       rays.push_back(rayThrough(Vec3f(Vec3d{numbers.in(-1, 1), 2, numbers.in(-1, 1)}), target));
     }
@@ -202,7 +202,7 @@ Finding openBorder(const Setup& setup) {
   const Scene scene = sceneOf(floorAt(0, 1, 0), diffuseMaterial(1));
   Numbers numbers(18);
   std::vector<ProbeRay> rays;
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::size_t i = 0; i < kEdgeRays; ++i) {
     const Vec3f target(Vec3d{1, 0, numbers.in(-1, 1)});
     rays.push_back(rayThrough({0.25f, 1, 0.125f}, target));
   }
@@ -289,7 +289,7 @@ Finding lostPixels(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kCases[] = {
+constexpr Case kWatertightnessCases[] = {
     {"H12", "no random ray leaves a closed sphere",
      "20480 triangles at the origin and at (148376, 1234, -223423)", Runs::packets, randomRays},
     {"H13", "no ray leaves through an edge", "towards the middle of every edge of a sphere",
@@ -312,6 +312,6 @@ constexpr Case kCases[] = {
 
 }  // namespace
 
-std::span<const Case> watertightnessCases() { return kCases; }
+std::span<const Case> watertightnessCases() { return kWatertightnessCases; }
 
 }  // namespace whit::stress

@@ -1,4 +1,7 @@
 #include "scene/patterns/noise.h"
+
+#include <numbers>
+
 #include "scene/shapes/generators.h"
 #include "scene/shapes/mesh_builder.h"
 
@@ -36,7 +39,7 @@ Shape makeCurtain(ShapeParameters& parameters) {
         const double d = (t - gatherAt) / (t < gatherAt ? gatherAt : 2 * (1 - gatherAt));
         const double waist = 1 - gather * (1 - smoothStep(0, 1, std::fabs(d)));
         const double wander = 0.35 * fractalNoise(seed, 2.5 * s + 7, 1.7 * t + 3, 3);
-        const double wave = std::cos(2 * kPi * (folds * s + wander));
+        const double wave = std::cos(2 * std::numbers::pi * (folds * s + wander));
         const double swing = foldDepth * fractalNoise(seed + 9, 1.3 * s, 1.5 * t + 0.5, 2);
         // Gathered cloth has nowhere to go but into deeper folds.
         const double deep = foldDepth * (0.35 + 0.65 * t) * (0.6 + 0.4 / waist);
@@ -67,7 +70,8 @@ Shape makeCanopy(ShapeParameters& parameters) {
       [&](int i, int j) {
         const double s = static_cast<double>(i) / n.nx, t = static_cast<double>(j) / n.ny;
         const double belly = 4 * s * (1 - s);
-        const double wave = std::cos(2 * kPi * ripples * t + 3 * gradientNoise(seed, 2 * s, 3 * t));
+        const double wave =
+            std::cos(2 * std::numbers::pi * ripples * t + 3 * gradientNoise(seed, 2 * s, 3 * t));
         // Pinned at the bars' ends, the middle of each edge hangs in a little.
         const double inward = 1 - 0.18 * belly;
         return Vec3d{(s - 0.5) * width,

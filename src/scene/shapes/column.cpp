@@ -1,5 +1,7 @@
 #include "scene/shapes/column.h"
 
+#include <numbers>
+
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/mesh_builder.h"
@@ -14,7 +16,7 @@ void addHalfRound(std::vector<std::array<double, 2>>& outline, double r, double 
   constexpr int kSteps = 6;
   const double half = (y1 - y0) / 2;
   for (int k = 0; k <= kSteps; ++k) {
-    const double a = kPi * k / kSteps;
+    const double a = std::numbers::pi * k / kSteps;
     outline.push_back({r + half * std::sin(a), y0 + half - half * std::cos(a)});
   }
 }
@@ -47,7 +49,8 @@ void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double 
       [&](int i, int j) {
         const double s = 2.0 * i / kAcross - 1, t = static_cast<double>(j) / kUp;
         const double curl = std::max(0.0, t - 0.55) / 0.45;
-        const double narrow = (1 - 0.55 * t * t * t) * (0.9 + 0.1 * std::cos(4 * kPi * t));
+        const double narrow =
+            (1 - 0.55 * t * t * t) * (0.9 + 0.1 * std::cos(4 * std::numbers::pi * t));
         const double out =
             bellRadius(plan, bell * t) + r * (0.05 + 0.24 * curl * curl + 0.05 * std::fabs(s));
         const double a = angle + s * halfWidth * narrow;
@@ -75,7 +78,7 @@ void addCapital(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
   builder.box({-a, bellTop - 0.01 * r, -a}, {a, plan.height, a}, plan.uvRepeat);
   const double bell = bellTop - neckTop;
   for (int k = 0; k < plan.leaves; ++k) {
-    const double step = 2 * kPi / plan.leaves;
+    const double step = 2 * std::numbers::pi / plan.leaves;
     addLeaf(builder, plan, step * (k + 0.5), neckTop, 0.92 * bell, 0.92, 0.42 * step);
     addLeaf(builder, plan, step * k, neckTop, 0.55 * bell, 0.55, 0.46 * step);
   }
@@ -88,7 +91,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     double radius = r * (1 - plan.taper * std::pow(t, 1.7));
     if (plan.flutes > 0) {
       const double phase = static_cast<double>(i) * plan.flutes / segments;
-      const double hollow = std::fabs(std::sin(kPi * phase));
+      const double hollow = std::fabs(std::sin(std::numbers::pi * phase));
       // Flutes end round, short of base and capital.
       const double fade = std::min(1.0, 14 * std::min(t, 1 - t));
       radius -= 0.085 * r * hollow * fade;
@@ -96,7 +99,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     return radius;
   };
   const auto height = [&](int j) { return lerp(y0, y1, static_cast<double>(j) / plan.rings); };
-  const double around = std::max(1.0, std::round(2 * kPi * r / plan.uvRepeat));
+  const double around = std::max(1.0, std::round(2 * std::numbers::pi * r / plan.uvRepeat));
   builder.smoothSheet(
       segments, plan.rings, true,
       [&](int i, int j) {

@@ -1,4 +1,7 @@
 #include "scene/shapes/generators.h"
+
+#include <numbers>
+
 #include "scene/shapes/mesh_builder.h"
 
 namespace whit::procedural {
@@ -56,7 +59,7 @@ Shape makeRoundedBox(ShapeParameters& parameters) {
   const int n = 2 * steps + 1;
   const auto coordinate = [&](int i, double h) {
     const int k = i <= steps ? steps - i : i - steps - 1;
-    const double c = (h - r) + (k == steps ? r : r * std::tan(kPi / 4 * k / steps));
+    const double c = (h - r) + (k == steps ? r : r * std::tan(std::numbers::pi / 4 * k / steps));
     return i <= steps ? -c : c;
   };
   MeshBuilder builder;

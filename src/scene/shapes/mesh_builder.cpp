@@ -1,6 +1,7 @@
 #include "scene/shapes/mesh_builder.h"
 
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "scene/generation_limit.h"
@@ -158,7 +159,7 @@ TurnPoint turn(int i, int n) {
     constexpr std::array<TurnPoint, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     return kQuarter[static_cast<std::size_t>(quarters / n)];
   }
-  const double angle = 2 * kPi * k / n;
+  const double angle = 2 * std::numbers::pi * k / n;
   return {std::cos(angle), std::sin(angle)};
 }
 
@@ -178,7 +179,7 @@ std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>
     const double size = std::max(std::hypot(dr, dy), 1e-300);
     across.push_back({dy / size, -dr / size});
   }
-  const double smoothest = std::cos(creaseDegrees * kPi / 180);
+  const double smoothest = std::cos(creaseDegrees * std::numbers::pi / 180);
   std::vector<ProfilePoint> profile;
   double v = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -5,14 +5,13 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "scene/mesh.h"
 #include "scene/shape.h"
 
 namespace whit::procedural {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 struct Uv {
   double u = 0, v = 0;

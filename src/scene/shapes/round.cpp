@@ -1,4 +1,5 @@
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "scene/generation_limit.h"
@@ -80,8 +81,8 @@ Shape makeIcosphere(ShapeParameters& parameters) {
     // One vertex a point keeps the mesh seamless; u jumps once around the back.
     builder.vertex({p * radius,
                     p,
-                    {0.5 + std::atan2(-p.z, p.x) / (2 * kPi),
-                     0.5 + std::asin(std::clamp(p.y, -1.0, 1.0)) / kPi}});
+                    {0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi),
+                     0.5 + std::asin(std::clamp(p.y, -1.0, 1.0)) / std::numbers::pi}});
   }
   for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
   return finished(builder.take("icosphere"), parameters);
@@ -90,7 +91,7 @@ Shape makeIcosphere(ShapeParameters& parameters) {
 Shape makeCylinder(ShapeParameters& parameters) {
   const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
   MeshBuilder builder;
-  builder.revolve(sharpProfile({{0, -h}, {r, -h}, {r, h}, {0, h}}, 2 * kPi * r),
+  builder.revolve(sharpProfile({{0, -h}, {r, -h}, {r, h}, {0, h}}, 2 * std::numbers::pi * r),
                   segmentsOf(parameters, 64));
   return finished(builder.take("cylinder"), parameters);
 }
@@ -101,7 +102,7 @@ Shape makeCone(ShapeParameters& parameters) {
   std::vector<std::array<double, 2>> outline{{0, -h}, {r, -h}, {top, h}};
   if (top > 0) outline.push_back({0, h});
   MeshBuilder builder;
-  builder.revolve(sharpProfile(outline, 2 * kPi * r), segmentsOf(parameters, 64));
+  builder.revolve(sharpProfile(outline, 2 * std::numbers::pi * r), segmentsOf(parameters, 64));
   return finished(builder.take("cone"), parameters);
 }
 
@@ -125,9 +126,9 @@ Shape makeTube(ShapeParameters& parameters) {
   const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
   const double inner = parameters.number("innerRadius", 0.8 * r, 1e-9, r * (1 - 1e-6));
   MeshBuilder builder;
-  builder.revolve(
-      sharpProfile({{inner, -h}, {r, -h}, {r, h}, {inner, h}, {inner, -h}}, 2 * kPi * r),
-      segmentsOf(parameters, 64));
+  builder.revolve(sharpProfile({{inner, -h}, {r, -h}, {r, h}, {inner, h}, {inner, -h}},
+                               2 * std::numbers::pi * r),
+                  segmentsOf(parameters, 64));
   return finished(builder.take("tube"), parameters);
 }
 

@@ -1,5 +1,7 @@
 #include "scene/shapes/terrain.h"
 
+#include <numbers>
+
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/icosphere.h"
@@ -71,7 +73,7 @@ Shape makeRock(ShapeParameters& parameters) {
   std::vector<Vec3d> normals(points.size());
   std::vector<Uv> uvs;
   for (Vec3d& p : points) {
-    uvs.push_back({0.5 + std::atan2(-p.z, p.x) / (2 * kPi), 0.5 + p.y / 2});
+    uvs.push_back({0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi), 0.5 + p.y / 2});
     double push = 0, amplitude = 1;
     Vec3d q = p * frequency + Vec3d(0.37);
     for (std::uint32_t octave = 0; octave < 4; ++octave) {

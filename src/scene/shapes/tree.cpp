@@ -1,5 +1,7 @@
 #include "scene/shapes/tree.h"
 
+#include <numbers>
+
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/icosphere.h"
@@ -52,7 +54,7 @@ class TreeBuilder {
   }
 
   Vec3d anyDirection() {
-    const double y = random_.between(-1, 1), a = random_.between(0, 2 * kPi);
+    const double y = random_.between(-1, 1), a = random_.between(0, 2 * std::numbers::pi);
     const double r = std::sqrt(std::max(0.0, 1 - y * y));
     return {r * std::cos(a), y, r * std::sin(a)};
   }
@@ -76,7 +78,7 @@ class TreeBuilder {
     }
     if (level + 1 >= plan_.levels) return;
     const int children = level == 0 ? 6 : 4;
-    const double turnStart = random_.between(0, 2 * kPi);
+    const double turnStart = random_.between(0, 2 * std::numbers::pi);
     for (int c = 0; c < children; ++c) {
       const double t = c == 0 ? 1.0 : lerp(level == 0 ? 0.55 : 0.35, 1.0, random_.next());
       const double at = t * pieces;
@@ -99,7 +101,7 @@ class TreeBuilder {
       const double reach = 0.24 * h * std::pow(1 - t, 0.85) + 0.015 * h;
       const int boughs = 6;
       for (int b = 0; b < boughs; ++b) {
-        const double a = 2 * kPi * (b + 0.5 * (w % 2) + 0.3 * random_.next()) / boughs;
+        const double a = 2 * std::numbers::pi * (b + 0.5 * (w % 2) + 0.3 * random_.next()) / boughs;
         const Vec3d out{std::cos(a), 0, std::sin(a)};
         const double size = reach * random_.between(0.8, 1.1);
         const Vec3d foot{0, t * h, 0};

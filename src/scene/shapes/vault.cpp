@@ -1,4 +1,7 @@
 #include "scene/shapes/generators.h"
+
+#include <numbers>
+
 #include "scene/shapes/mesh_builder.h"
 
 namespace whit::procedural {
@@ -59,7 +62,7 @@ Shape makeVault(ShapeParameters& parameters) {
       const double z = (j - 0.5) * depth;
       return SurfacePoint{{-width / 2 * s.cosine, rise * s.sine, z},
                           {rise * s.cosine, -width / 2 * s.sine, 0},
-                          {kPi * width / 2 * i / n / repeat, z / repeat}};
+                          {std::numbers::pi * width / 2 * i / n / repeat, z / repeat}};
     });
     return singlePart(builder.take("vault"));
   }
@@ -87,7 +90,7 @@ Shape makeCornice(ShapeParameters& parameters) {
       {-back, 0}, {0.15 * reach, 0}, {0.15 * reach, 0.22 * height}, {0.25 * reach, 0.22 * height}};
   constexpr int kSteps = 6;
   for (int k = 0; k <= kSteps; ++k) {
-    const double a = kPi / 2 * k / kSteps;  // a quarter hollow
+    const double a = std::numbers::pi / 2 * k / kSteps;  // a quarter hollow
     section.push_back({reach * (0.85 - 0.55 * std::cos(a)), height * (0.28 + 0.42 * std::sin(a))});
   }
   for (const auto& [d, y] : {std::array{1.0, 0.70}, std::array{1.0, 1.0}}) {

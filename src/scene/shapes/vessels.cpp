@@ -1,4 +1,7 @@
 #include "scene/shapes/generators.h"
+
+#include <numbers>
+
 #include "scene/shapes/mesh_builder.h"
 
 namespace whit::procedural {
@@ -81,14 +84,14 @@ Shape makeTumbler(ShapeParameters& parameters) {
   Outline outline{{0, 0}, {bottom - round, 0}};
   constexpr int kCorner = 6;
   for (int k = 1; k < kCorner; ++k) {
-    const double a = kPi / 2 * k / kCorner;
+    const double a = std::numbers::pi / 2 * k / kCorner;
     outline.push_back({bottom - round + round * std::sin(a), round - round * std::cos(a)});
   }
   outline.push_back({bottom, round});
   // The rim is a half circle across the wall.
   const double middle = radius - wall / 2, y = height - wall / 2;
   for (int k = 0; k <= 2 * kCorner; ++k) {
-    const double a = kPi * k / (2 * kCorner);
+    const double a = std::numbers::pi * k / (2 * kCorner);
     outline.push_back({middle + wall / 2 * std::cos(a), y + wall / 2 * std::sin(a)});
   }
   outline.push_back({inside, base});
