@@ -125,7 +125,7 @@ done
 if [ "$mode" = run ]; then
   mkdir -p "$copy"
   (cd "$root" && cp -ru CMakeLists.txt src simd scenes viewer tests "$copy/") || exit 1
-  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release \
+  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_UNITY=OFF \
     ${WHIT_MUTATE_CMAKE:-} >/dev/null || exit 1
   try "unchanged" | sed 's/SURVIVED/all green, as it must be/'
 fi
