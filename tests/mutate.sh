@@ -100,10 +100,10 @@ mutations() {
     'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \
     'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
-  plant stale-tfar src/accel/accel.cpp \
+  plant stale-tfar src/accel/trace_packets.cpp \
     'packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();' \
     'if (begin == 0) packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();'
-  plant off-by-one-tail src/accel/accel.cpp \
+  plant off-by-one-tail src/accel/trace_packets.cpp \
     'std::size_t lane = live; lane < kWidth' \
     'std::size_t lane = live - (live > 1 ? 1 : 0); lane < kWidth'
   plant bad-rays-traced src/accel/bad_rays.h 'if (good == kWidth) return;' 'return;'

@@ -1,16 +1,15 @@
 // The floor: what Embree alone needs for the rays of a frame.
-#include <chrono>
 #include <limits>
 #include <vector>
 
 #include "accel/embree_scene.h"
 #include "accel/parts.h"
+#include "accel/trace_packets.h"
 
 namespace whit {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::size_t kFloatsPerRay = 7;
 
 template <int kWidth, typename Ray>
@@ -54,7 +53,7 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
     hits[packet].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
   }
   QueryContext context(stream.coherent);
-  const Clock::time_point start = Clock::now();
+  const auto start = TraceClock::now();
   for (std::size_t p = 0; p < count; ++p) {
     if (stream.occlusion) {
       occluded(valid[p].lane, scene.top(), context, shadows[p]);
@@ -62,7 +61,7 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
       intersect(valid[p].lane, scene.top(), context, hits[p]);
     }
   }
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return millisecondsSince(start);
 }
 
 double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
@@ -82,7 +81,7 @@ double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
     ray.hit.geomID = ray.hit.primID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   }
   QueryContext context(stream.coherent);
-  const Clock::time_point start = Clock::now();
+  const auto start = TraceClock::now();
   for (RTCRayHit& ray : rays) {
     if (stream.occlusion) {
       occluded(nullptr, scene.top(), context, ray.ray);
@@ -90,7 +89,7 @@ double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
       intersect(nullptr, scene.top(), context, ray);
     }
   }
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return millisecondsSince(start);
 }
 
 }  // namespace
