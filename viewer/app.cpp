@@ -34,6 +34,7 @@ App::App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
       resolution_(options.rate, options.common.render.spp),
       read_{scene, scene->scene.materials, scene->scene.lights, {}},
       edit_(read_),
+      traced_(read_),
       lastTick_(std::chrono::steady_clock::now()) {
   watch(options.scene);
   settings_.rate = resolution_.rate();
@@ -115,7 +116,9 @@ bool App::fetchFrame() {
   const std::string error = thread_.takeError();
   if (!error.empty()) {
     opening_.clear();
-    if (shown_.scene) settings_.options = shown_.request.options;  // that are known to work
+    // Back to what is known to work.
+    if (shown_.scene) settings_.options = shown_.request.options;
+    edit_ = traced_;
     fail(error);
   }
   if (!thread_.take(shown_)) return false;
@@ -126,6 +129,10 @@ bool App::fetchFrame() {
     if (elsewhere) return false;  // seen from where the camera was in the other scene
   }
   const FrameRequest& request = shown_.request;
+  if (request.edits != tracedEdits_ && request.edits == edits_) {
+    tracedEdits_ = edits_;
+    traced_ = edit_;
+  }
   if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   panel_.remember(shown_);
   if (shown_.request.measureKnobs) settings_.measureKnobs = false;

@@ -78,9 +78,10 @@ class App {
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
   std::optional<FrameRequest> asked_;
-  int serial_ = 0;           // of the last request
-  ShadingEdit read_, edit_;  // the scene as it was read, and as it is to be
-  int reloads_ = 0, edits_ = 0;
+  int serial_ = 0;  // of the last request
+  // The scene as it was read, as it is to be, and as it was last traced.
+  ShadingEdit read_, edit_, traced_;
+  int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
   double restSeconds_ = 0;  // since something changed
   double undrawnSeconds_ = 0;
   bool sharp_ = false;  // the frame shown gets no finer

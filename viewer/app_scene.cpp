@@ -53,8 +53,8 @@ void App::open(const std::string& name) {
 // The frame just fetched shows a scene that was read anew.
 void App::takeScene() {
   scene_ = shown_.scene;
-  read_ = edit_ = {scene_, scene().materials, scene().lights, {}};
-  edits_ = 0;
+  read_ = edit_ = traced_ = {scene_, scene().materials, scene().lights, {}};
+  edits_ = tracedEdits_ = 0;
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();
     say("the scene was read again");

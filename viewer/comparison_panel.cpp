@@ -18,7 +18,8 @@ void drawLabel(ImDrawList& list, const ImVec2& at, const char* text) {
   list.AddText(at, kWhite, text);
 }
 
-// Behind the panels, over the picture.
+// The line behind the panels, over the picture; the words above all: in a small window a panel may
+// lie where they belong.
 void drawSplit(double split, bool labels) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -27,8 +28,9 @@ void drawSplit(double split, bool labels) {
   list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
   list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
   if (!labels) return;
-  drawLabel(list, ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
-  drawLabel(list, ImVec2(x + gap, y), "reference");
+  ImDrawList& above = *ImGui::GetForegroundDrawList();
+  drawLabel(above, ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
+  drawLabel(above, ImVec2(x + gap, y), "reference");
 }
 
 // In short lines, which have room beside the panel in a small window.
