@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The commands of README.md, as they stand there but for sizes and counts that would take long:
-# readme_test.sh README WHIT [WHIT-VIEW]. A line of a code block is run when it starts one of the
-# programs or a script of scenes/farm; one whose comment says "not run by the tests" is not.
+# readme_test.sh README WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and code within
+# text that has arguments. Those of the programs and of scenes/farm are run; those that install,
+# build or test the whole are named, and so is whatever this machine lacks something for.
 set -uo pipefail
 
 readme=$(readlink -f "$1") whit=$(readlink -f "$2") view=${3:+$(readlink -f "$3")}
@@ -45,56 +46,73 @@ makeModel >helmet.glb
 for image in a b; do "$whit" render matte --size 48x32 -o $image.exr --quiet || exit 1; done
 printf 'wait 2 frames\nquit\n' >leave.txt
 
-# Without what takes long and shows nothing more.
+# Of several processes as many as asked for, whatever the machine has, in a container too.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+
+# One command a line: first those of code blocks, without their comments, then those within text.
+commandsOf() {
+  awk '/^```/ { inside = !inside; next } inside' "$1" | sed -E 's/ +#( .*)?$//' |
+    grep -E '^([A-Z]+=[^ ]+ )*((build|scenes|tests)/[a-z]|mpirun |cmake |cpack )'
+  awk '/^```/ { inside = !inside; next } !inside' "$1" | tr '\n' ' ' |
+    grep -oE '`((build|scenes|tests)/|mpirun |cmake |cpack |whit |whit-view )[^` ]*[^`]* [^`]+`' |
+    tr -d '`' | sed -E 's/^(whit|whit-view) /build\/&/'
+}
+
+# The same without what takes long and shows nothing more: the atrium alone is made in two seconds.
 cheap() {
-  sed -E -e 's/ *(&& ffmpeg.*)?$//' -e 's/--size [0-9]+x[0-9]+/--size 64x40/' \
-    -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/1\.\.48/1..2/' -e 's/--spp [0-9]+/--spp 2/' \
+  sed -E -e 's/ *(&& ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
+    -e 's/COMMAND/render/' -e '/--crop|--frames|--record|mpirun|--widths/s/atrium/whitted/g' \
+    -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
+    -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/1\.\.48/1..2/' \
+    -e 's/mpirun -n [0-9]+/mpirun -n 2/' \
+    -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
-    -e '/whit (bench|effects|accuracy|compare glass)/{/--size/!s/$/ --size 64x40/}' \
-    -e '/whit accuracy/s/$/ --knobs spp,cutoff/' -e '/whit stress *$/s/$/ --only H13/' \
+    -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
+    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff/' -e 's/(whit stress).*/\1 --only H13/' \
     -e '/whit-view .*--record/s/$/ --size 64x40/' \
     -e '/whit-view/{/--(benchmark|record|script)/!s/$/ --script leave.txt --size 64x40/}'
 }
 
+openDisplay() {
+  [ -z "$display" ] || return 0
+  Xvfb -displayfd 3 -screen 0 800x600x24 3>number >/dev/null 2>&1 &
+  display=$!
+  for _ in $(seq 100); do [ -s number ] && break; sleep 0.1; done
+  DISPLAY=:$(cat number)
+  export DISPLAY
+}
+
+# What a command needs that is not here; nothing if it can be run.
+lacking() {
+  case $1 in
+    *sponza-mirror*) [ -n "${WHIT_DATA:-}" ] || echo "WHIT_DATA is not set" ;;
+  esac
+  case $1 in
+    *scenes/farm/*) command -v parallel >/dev/null || echo "GNU parallel is not installed" ;;
+    *mpirun*) ldd "$whit" | grep -q libmpi || echo "this build is without MPI" ;;
+    *whit-view*)
+      [ -n "$view" ] || echo "the viewer was not built"
+      command -v Xvfb >/dev/null || echo "Xvfb is not installed" ;;
+  esac
+}
+
+declare -A seen
 runs=0 left=0
 while IFS= read -r line; do
-  command=$(sed -E 's/ +#( .*)?$//' <<<"$line" | cheap)
-  case $line in
-    *"not run by the tests"*) continue ;;
-    *sponza-mirror*)
-      if [ -z "${WHIT_DATA:-}" ]; then
-        echo "!! WHIT_DATA is not set, NOT run: $line" >&2
-        left=$((left + 1))
-        continue
-      fi ;;
-  esac
+  command=$(cheap <<<"$line")
+  [ -z "${seen[$command]:-}" ] || continue
+  seen[$command]=1
   case $command in
-    *scenes/farm/*)
-      if ! command -v parallel >/dev/null; then
-        echo "!! GNU parallel is not installed, NOT run: $line" >&2
-        left=$((left + 1))
-        continue
-      fi ;;
-    *mpirun*)
-      if ! command -v mpirun >/dev/null || ! ldd "$whit" | grep -q libmpi; then
-        echo "!! without MPI, NOT run: $line" >&2
-        left=$((left + 1))
-        continue
-      fi ;;
-    *whit-view*)
-      if [ -z "$view" ] || ! command -v Xvfb >/dev/null; then
-        echo "!! without the viewer or Xvfb, NOT run: $line" >&2
-        left=$((left + 1))
-        continue
-      fi
-      if [ -z "$display" ]; then
-        Xvfb -displayfd 3 -screen 0 800x600x24 3>number >/dev/null 2>&1 &
-        display=$!
-        for _ in $(seq 100); do [ -s number ] && break; sleep 0.1; done
-        DISPLAY=:$(cat number)
-        export DISPLAY
-      fi ;;
+    *build/whit* | *scenes/farm/*) why=$(lacking "$command" | head -1) ;;
+    *) why="it installs, builds or tests the whole" ;;
   esac
+  if [ -n "$why" ]; then
+    echo "!! NOT run, $why: $line" >&2
+    left=$((left + 1))
+    continue
+  fi
+  case $command in *whit-view*) openDisplay ;; esac
   echo "$command"
   if ! bash -euo pipefail -c "$command" >said 2>&1 </dev/null; then
     cat said
@@ -102,7 +120,6 @@ while IFS= read -r line; do
     exit 1
   fi
   runs=$((runs + 1))
-done < <(awk '/^```/ { inside = !inside; next } inside' "$readme" |
-  grep -E '^([A-Z]+=[^ ]+ )*((mpirun .*)?build/whit|scenes/farm/)')
+done < <(commandsOf "$readme")
 test $runs -gt 10 || { echo "README.md: only $runs commands were found" >&2; exit 1; }
 echo "readme: $runs commands passed, $left left out"
