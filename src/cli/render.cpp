@@ -43,8 +43,8 @@ OptionList listOptions(RenderJob& job) {
   list.value({"fps", "N", 0.001, 1e6}, "frames a second of the camera path", job.fps);
   list.flag(
       "resume",
-      "leave out images that are there, whole and made with the same options; the scene's own "
-      "contents are not compared",
+      "leave out images that are there, whole and made with the same options of the same contents "
+      "of the scene",
       job.resume);
   list.value({"json", "FILE"}, "what was done and what it cost; - is standard output", job.json);
   listCommonOptions(list, job.common);
@@ -77,6 +77,7 @@ class ImageWriter {
         renderer_(open.scene, job.common.render, progress),
         film_(openFilm(open.scene, job.common)),
         run_(summarise(open.scene, job.common.render, renderer_, film_, open.loadMs)) {
+    if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
     film_.wantDisplay = false;
     for (const std::string& output : job.outputs) {
       if (std::filesystem::path(output).extension() != ".exr") film_.wantDisplay = true;
@@ -89,6 +90,7 @@ class ImageWriter {
     const RenderOptions& options = job_.common.render;
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
     addSettings(open_.settings, metadata);
+    metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
     if (farm_.leads() && job_.resume &&
         std::all_of(files.begin(), files.end(), [&](const std::string& file) {
@@ -119,6 +121,7 @@ class ImageWriter {
   Renderer renderer_;
   Film film_;
   RunSummary run_;
+  std::string sceneDigest_;
   std::vector<std::string> written_;
 };
 

@@ -12,10 +12,11 @@ namespace whit {
 namespace {
 
 template <typename T>
-double valueOf(const std::array<char, 8>& bytes) {
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return static_cast<double>(value);
+double valueOf(const char* data, bool reversed) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), data, sizeof(T));
+  if (reversed) std::reverse(bytes.begin(), bytes.end());
+  return static_cast<double>(std::bit_cast<T>(bytes));
 }
 
 bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -42,30 +43,27 @@ double PlyData::textNumber() {
 double PlyData::binaryNumber(PlyType type) {
   const std::size_t size = bytesOf(type);
   if (text_.size() - at_ < size) throwBadScene(place(), "expected a number, found the file's end");
-  std::array<char, 8> bytes{};
-  std::memcpy(bytes.data(), text_.data() + at_, size);
+  const char* data = text_.data() + at_;
   at_ += size;
   const bool little = format_ == PlyHeader::Format::littleEndian;
-  if (little != (std::endian::native == std::endian::little)) {
-    std::reverse(bytes.data(), bytes.data() + std::min(size, bytes.size()));
-  }
+  const bool reversed = little != (std::endian::native == std::endian::little);
   switch (type) {
     case PlyType::int8:
-      return valueOf<std::int8_t>(bytes);
+      return valueOf<std::int8_t>(data, reversed);
     case PlyType::uint8:
-      return valueOf<std::uint8_t>(bytes);
+      return valueOf<std::uint8_t>(data, reversed);
     case PlyType::int16:
-      return valueOf<std::int16_t>(bytes);
+      return valueOf<std::int16_t>(data, reversed);
     case PlyType::uint16:
-      return valueOf<std::uint16_t>(bytes);
+      return valueOf<std::uint16_t>(data, reversed);
     case PlyType::int32:
-      return valueOf<std::int32_t>(bytes);
+      return valueOf<std::int32_t>(data, reversed);
     case PlyType::uint32:
-      return valueOf<std::uint32_t>(bytes);
+      return valueOf<std::uint32_t>(data, reversed);
     case PlyType::float32:
-      return valueOf<float>(bytes);
+      return valueOf<float>(data, reversed);
     case PlyType::float64:
-      return valueOf<double>(bytes);
+      return valueOf<double>(data, reversed);
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "io/image_file.h"
 #include "run_program.h"
@@ -84,9 +85,10 @@ TEST(Images, MetadataMakesTheImageAgain) {
   render({tiny, "-o", folder / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff", "0.01",
           "--spp", "2", "--disable", "shadows"});
   std::vector<std::string> words{tiny, "-o", folder / "b.exr"};
+  const std::set<std::string> noOptions{"software", "scene", "sceneDigest", "effectsUsed",
+                                        "strict"};
   for (const auto& [name, text] : metadataOf(folder / "a.exr")) {
-    if (name == "software" || name == "scene" || name == "effectsUsed") continue;
-    if (name == "strict") continue;
+    if (noOptions.contains(name)) continue;
     words.push_back("--" + name + "=" + text);
   }
   render(words);
@@ -171,6 +173,34 @@ TEST(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
   EXPECT_TRUE(fs::exists(folder / "a.png"));
   render({tiny, "-o", folder / "a.exr", "--crop", "8,4,40,21", "--resume"});
   EXPECT_EQ(read(folder / "a.exr").windowHeight(), 17);
+}
+
+// Of what the scene's file and the files that it names say, only what a picture can depend on
+// counts.
+TEST(Images, ResumingTracesAnotherStateOfTheScene) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder), text = readFile(tiny);
+  for (const std::string type : {".exr", ".png"}) {
+    const std::string image = folder / ("a" + type);
+    const auto numberAfter = [&](const std::string& scene) {
+      std::ofstream(tiny) << scene;
+      // Held open, so that the number of a file that is replaced is not given again.
+      const std::ifstream held(image);
+      render({tiny, "-o", image, "--resume"});
+      return fileNumber(image);
+    };
+    const ino_t first = numberAfter(text);
+    const std::string whole = readFile(image);
+    EXPECT_EQ(numberAfter("// a remark\n" + text), first) << "traced again";
+    std::string changed = text;
+    changed.replace(changed.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.4");
+    const ino_t second = numberAfter(changed);
+    EXPECT_NE(second, first) << "not traced again";
+    EXPECT_FALSE(readFile(image) == whole);
+    EXPECT_EQ(numberAfter(changed), second) << "traced again";
+    numberAfter(text);
+    EXPECT_TRUE(readFile(image) == whole);
+  }
 }
 
 TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {

@@ -15,6 +15,13 @@ if(TARGET whit-view)
 endif()
 add_test(NAME manual.says_what_help_says
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/manual_test.sh ${programs})
+# What README.md says does not depend on sanitizers, under which it would take minutes.
+if(NOT WHIT_SANITIZE)
+  add_test(NAME readme.commands_work
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/readme_test.sh ${CMAKE_SOURCE_DIR}/README.md
+                   ${programs})
+  set_tests_properties(readme.commands_work PROPERTIES TIMEOUT 600)
+endif()
 add_test(NAME install.works_where_it_is_put
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/install_test.sh ${CMAKE_BINARY_DIR})
 add_test(NAME farm.goes_on_after_a_kill

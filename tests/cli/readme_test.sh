@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# The commands of README.md, as they stand there but for sizes and counts that would take long:
+# readme_test.sh README WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and code within
+# text that has arguments. Those of the programs and of scenes/farm are run; those that install,
+# build or test the whole are named, and so is whatever this machine lacks something for.
+set -uo pipefail
+
+readme=$(readlink -f "$1") whit=$(readlink -f "$2") view=${3:+$(readlink -f "$3")}
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+display=
+finish() {
+  if [ -n "$display" ]; then kill "$display"; fi
+  rm -rf "$work"
+}
+trap finish EXIT
+mkdir "$work/build"
+ln -s "$root/scenes" "$work/scenes"
+ln -s "$whit" "$work/build/whit"
+if [ -n "$view" ]; then ln -s "$view" "$work/build/whit-view"; fi
+cd "$work" || exit 1
+
+# The files that the commands take as given: a model of one triangle, and two images.
+littleEndian() {
+  local word
+  for word in "$@"; do
+    # shellcheck disable=SC2059  # the format is the bytes
+    printf "$(printf '\\x%02x\\x%02x\\x%02x\\x%02x' $((word & 255)) $((word >> 8 & 255)) \
+      $((word >> 16 & 255)) $((word >> 24 & 255)))"
+  done
+}
+makeModel() {
+  local json='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],'
+  json+='"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36}],'
+  json+='"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,'
+  json+='"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}'
+  while ((${#json} % 4)); do json+=' '; done
+  printf glTF
+  littleEndian 2 $((12 + 8 + ${#json} + 8 + 36)) ${#json}
+  printf 'JSON%s' "$json"
+  littleEndian 36
+  printf 'BIN\0'
+  littleEndian 0 0 0 0x3f800000 0 0 0 0x3f800000 0
+}
+makeModel >helmet.glb
+for image in a b; do "$whit" render matte --size 48x32 -o $image.exr --quiet || exit 1; done
+printf 'wait 2 frames\nquit\n' >leave.txt
+
+# Of several processes as many as asked for, whatever the machine has, in a container too.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+
+# One command a line: first those of code blocks, without their comments, then those within text.
+commandsOf() {
+  awk '/^```/ { inside = !inside; next } inside' "$1" | sed -E 's/ +#( .*)?$//' |
+    grep -E '^([A-Z]+=[^ ]+ )*((build|scenes|tests)/[a-z]|mpirun |cmake |cpack )'
+  awk '/^```/ { inside = !inside; next } !inside' "$1" | tr '\n' ' ' |
+    grep -oE '`((build|scenes|tests)/|mpirun |cmake |cpack |whit |whit-view )[^` ]*[^`]* [^`]+`' |
+    tr -d '`' | sed -E 's/^(whit|whit-view) /build\/&/'
+}
+
+# The same without what takes long and shows nothing more: the atrium alone is made in two seconds.
+cheap() {
+  sed -E -e 's/ *(&& ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
+    -e 's/COMMAND/render/' -e '/--crop|--frames|--record|mpirun|--widths/s/atrium/whitted/g' \
+    -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
+    -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/1\.\.48/1..2/' \
+    -e 's/mpirun -n [0-9]+/mpirun -n 2/' \
+    -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
+    -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
+    -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
+    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff/' -e 's/(whit stress).*/\1 --only H13/' \
+    -e '/whit-view .*--record/s/$/ --size 64x40/' \
+    -e '/whit-view/{/--(benchmark|record|script)/!s/$/ --script leave.txt --size 64x40/}'
+}
+
+openDisplay() {
+  [ -z "$display" ] || return 0
+  Xvfb -displayfd 3 -screen 0 800x600x24 3>number >/dev/null 2>&1 &
+  display=$!
+  for _ in $(seq 100); do [ -s number ] && break; sleep 0.1; done
+  DISPLAY=:$(cat number)
+  export DISPLAY
+}
+
+# What a command needs that is not here; nothing if it can be run.
+lacking() {
+  case $1 in
+    *sponza-mirror*) [ -n "${WHIT_DATA:-}" ] || echo "WHIT_DATA is not set" ;;
+  esac
+  case $1 in
+    *scenes/farm/*) command -v parallel >/dev/null || echo "GNU parallel is not installed" ;;
+    *mpirun*) ldd "$whit" | grep -q libmpi || echo "this build is without MPI" ;;
+    *whit-view*)
+      [ -n "$view" ] || echo "the viewer was not built"
+      command -v Xvfb >/dev/null || echo "Xvfb is not installed" ;;
+  esac
+}
+
+declare -A seen
+runs=0 left=0
+while IFS= read -r line; do
+  command=$(cheap <<<"$line")
+  [ -z "${seen[$command]:-}" ] || continue
+  seen[$command]=1
+  case $command in
+    *build/whit* | *scenes/farm/*) why=$(lacking "$command" | head -1) ;;
+    *) why="it installs, builds or tests the whole" ;;
+  esac
+  if [ -n "$why" ]; then
+    echo "!! NOT run, $why: $line" >&2
+    left=$((left + 1))
+    continue
+  fi
+  case $command in *whit-view*) openDisplay ;; esac
+  echo "$command"
+  if ! bash -euo pipefail -c "$command" >said 2>&1 </dev/null; then
+    cat said
+    echo "README.md: this fails: $line" >&2
+    exit 1
+  fi
+  runs=$((runs + 1))
+done < <(commandsOf "$readme")
+test $runs -gt 10 || { echo "README.md: only $runs commands were found" >&2; exit 1; }
+echo "readme: $runs commands passed, $left left out"

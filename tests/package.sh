@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Makes the Debian package, installs it in a clean system of the same release and uses it there:
+# tests/package.sh. Needs root and debootstrap (for the chroot) and the network (for
+# what the package depends on); says so and succeeds without them, but fails with CI=true.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$root/build-package
+
+leaveOut() {
+  echo "!! The package is NOT checked: $1" >&2
+  if [ -n "${CI:-}" ]; then exit 1; fi
+  exit 0
+}
+[ -r /etc/os-release ] || leaveOut "this is not Debian"
+. /etc/os-release
+[ "${ID:-}" = debian ] || leaveOut "this is not Debian"
+[ "$(id -u)" = 0 ] || leaveOut "chroot needs root"
+command -v debootstrap >/dev/null || leaveOut "no debootstrap (apt-get install debootstrap)"
+
+work=$(mktemp -d)
+trap 'rm -rf --one-file-system "$work"' EXIT
+cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_TESTS=OFF >"$work/log" ||
+  { cat "$work/log"; exit 1; }
+cmake --build "$build" --parallel "$(nproc)"
+(cd "$build" && cpack -G DEB -B "$work" >"$work/cpack.log") || { cat "$work/cpack.log"; exit 1; }
+deb=$(echo "$work"/*.deb)
+dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
+
+clean=$work/clean
+debootstrap --variant=minbase "$VERSION_CODENAME" "$clean" >"$work/debootstrap.log" 2>&1 ||
+  { tail -5 "$work/debootstrap.log"; leaveOut "debootstrap did not finish"; }
+cp "$deb" "$clean/whit.deb"
+within() { chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
+within apt-get install -y -qq --no-install-recommends /whit.deb >"$work/install.log" 2>&1 ||
+  { tail -20 "$work/install.log"; exit 1; }
+
+within whit render whitted --size 64x40 -o /tmp/there.exr --quiet
+"$build/whit" render whitted --size 64x40 -o "$work/here.exr" --quiet
+cmp "$work/here.exr" "$clean/tmp/there.exr"
+within whit info atrium --quiet | grep -q triangles
+for program in whit whit-view; do
+  if [ ! -x "$build/$program" ]; then continue; fi
+  within "$program" --version
+  within test -s "/usr/share/man/man1/$program.1" || within test -s "/usr/share/man/man1/$program.1.gz"
+done
+within dpkg --purge whit >/dev/null
+within test ! -e /usr/bin/whit
+echo "package: installed, used and removed in a clean $VERSION_CODENAME"
