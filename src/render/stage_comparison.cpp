@@ -169,6 +169,9 @@ class StageComparer : public StageObserver {
       if (plan_.groups.lift) {
         compare(stage, "lift", got.lift, twin.lift, magnitude, kLiftLimit, c, i);
       }
+      if (plan_.groups.emission) {
+        compare(stage, "emission", got.emission, twin.emission, 1, kTexturedLimit, c, i);
+      }
       if (plan_.groups.glossy) {
         compare(stage, "specular", got.specular, twin.specular, 1, kTexturedLimit, c, i);
       }
