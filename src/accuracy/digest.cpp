@@ -84,8 +84,8 @@ void add(Digester& d, const std::optional<T>& value) {
 
 // The bindings below name every member: one that is added does not compile before it is here.
 void add(Digester& d, const Camera& camera) {
-  const auto& [name, eye, at, up, fov] = camera;
-  add(d, eye), add(d, at), add(d, up), add(d, fov);
+  const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
+  add(d, eye), add(d, at), add(d, up), add(d, fov), add(d, orthographicHeight);
 }
 void add(Digester& d, const Light& light) {
   const auto& [name, position, intensity, radius, kind, direction, inner, outer, pointer] = light;

@@ -139,6 +139,8 @@ class StageComparer : public StageObserver {
       const double x = (c.pixels[c.first + i] & 0xFFFFu) + static_cast<double>(c.sample.x);
       const double y = (c.pixels[c.first + i] >> 16) + static_cast<double>(c.sample.y);
       const reference::Ray ray = reference::generateRay(job_.camera, x, y);
+      compare(Stage::generateRays, "origin", originOf(c.rays, i), ray.origin,
+              maxComponent(abs(job_.camera.eye)), kPositionLimit, c, i);
       compare(Stage::generateRays, "dir", directionOf(c.rays, i), ray.direction, 1, kDirectionLimit,
               c, i);
     }

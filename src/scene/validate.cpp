@@ -28,6 +28,9 @@ void checkSize(const SceneDescription& d) {
 }
 
 void checkCamera(const Camera& c, const std::string& where) {
+  if (!(c.orthographicHeight >= 0 && std::isfinite(c.orthographicHeight))) {
+    throwBadScene(where, "expected a finite height of an orthographic camera, or 0");
+  }
   if (!isFinite(c.eye) || !isFinite(c.at) || !isFinite(c.up) || !std::isfinite(c.fov)) {
     throwBadScene(where, "expected finite eye, at, up and fov");
   }
