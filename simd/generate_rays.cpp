@@ -25,8 +25,13 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     const VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
     const VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), halfWidth), shiftX);
     const VF y = hn::Sub(hn::Sub(halfHeight, hn::ConvertTo(d, py)), shiftY);
-    const V3 direction = Normalize3(MulAdd3(right, x, MulAdd3(up, y, forward)));
-    Store3(eye, rays.orgX, rays.orgY, rays.orgZ, i);
+    V3 origin = eye, direction = forward;
+    if (camera.orthographic) {
+      origin = MulAdd3(right, x, MulAdd3(up, y, eye));
+    } else {
+      direction = Normalize3(MulAdd3(right, x, MulAdd3(up, y, forward)));
+    }
+    Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
     hn::Store(one, d, rays.throughput + i);

@@ -18,6 +18,7 @@ constexpr uint32_t kSmooth = EffectSet::bit(Effect::smoothNormals);
 constexpr uint32_t kTextured = EffectSet::bit(Effect::textures);
 constexpr uint32_t kNormalMapped = EffectSet::bit(Effect::normalMaps);
 constexpr uint32_t kInstanced = EffectSet::bit(Effect::instances);
+constexpr uint32_t kColoured = EffectSet::bit(Effect::vertexColours);
 constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
@@ -67,6 +68,25 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
   hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
 }
 
+// What vertex colours multiply, as the flags of the lanes' materials say.
+struct Tints {
+  V3 diffuse, specular, emission;
+};
+
+HWY_INLINE Tints FindTints(const V3& colour, VF flagBits) {
+  const FloatTag d;
+  const UintTag du;
+  const VU flags = hn::BitCast(du, flagBits);
+  const auto has = [&](uint32_t flag) HWY_ATTR {
+    return hn::RebindMask(d, hn::Ne(hn::And(flags, hn::Set(du, flag)), hn::Zero(du)));
+  };
+  const VF one = hn::Set(d, 1.0f);
+  const V3 white{one, one, one};
+  const MF emission = has(kMaterialTintsEmission);
+  return {Select3(emission, white, colour), Select3(has(kMaterialTintsSpecular), colour, white),
+          Select3(emission, colour, white)};
+}
+
 // Everything but textures, which are queued, for the vector of rays at i; returns the flags of
 // their materials.
 template <uint32_t kBits>
@@ -77,8 +97,9 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const IntTag di;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f);
-  if constexpr ((kBits & kTextured) != 0)
-    block.diffuse.any[slot] = block.specular.any[slot] = false;
+  if constexpr ((kBits & kTextured) != 0) {
+    block.diffuse.any[slot] = block.specular.any[slot] = block.emission.any[slot] = false;
+  }
   if constexpr ((kBits & kNormalMapped) != 0) block.normal.any[slot] = false;
   const VU hit = hn::Load(du, hits.triangle + i);
   const MF valid = hn::RebindMask(d, hn::Ne(hit, hn::Set(du, kMiss)));
@@ -144,19 +165,32 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   Store3(Scale3(ns, flip), surfels.nsX, surfels.nsY, surfels.nsZ, i);
   const VF sum = hn::Add(hn::Add(magnitude.x, magnitude.y), magnitude.z);
   hn::Store(hn::Mul(sum, hn::Set(d, 0x1p-19f)), d, surfels.offset + i);
-  Store3({diffuse.x, diffuse.y, diffuse.z}, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
-         i);
+  const V4 lobe = material.Columns4(12);
+  Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
+  const bool coloured = (effects.bits() & kColoured) != 0;
+  V3 scattered{diffuse.x, diffuse.y, diffuse.z};
+  if (coloured) {
+    tints = FindTints(VertexColour(tables, triangle, u, v), lobe.z);
+    scattered = Mul3(scattered, tints.diffuse);
+  }
+  Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+  if (surfels.emissionR) {
+    Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
+    if constexpr ((kBits & kTextured) != 0) {
+      QueueMap(tables, lobe.w, valid, texU, texV, slot, block.emission);
+    }
+  }
   const VU materialOrMiss =
       hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
   hn::Store(materialOrMiss, du, surfels.material + i);
-  const V4 lobe = material.Columns4(12);
   if ((effects.bits() & kGlossy) != 0) {
     const V4 specular = material.Columns4(4);
     if constexpr ((kBits & kTextured) != 0) {
       QueueMap(tables, specular.w, valid, texU, texV, slot, block.specular);
     }
-    Store3({specular.x, specular.y, specular.z}, surfels.specularR, surfels.specularG,
-           surfels.specularB, i);
+    V3 f0{specular.x, specular.y, specular.z};
+    if (coloured) f0 = Mul3(f0, tints.specular);
+    Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.x, d, surfels.alpha + i);
   }
   if ((effects.bits() & kTransmission) != 0) StoreMedia(tables, rays, lobe.y, entering, i, surfels);
@@ -169,6 +203,10 @@ HWY_INLINE void ApplyTextures(const ShadingTables& tables, EffectSet effects,
                               const BlockTextures& block, size_t slot, const SurfelColumns& surfels,
                               size_t i) {
   if constexpr ((kBits & kTextured) != 0) {
+    if (surfels.emissionR) {
+      ApplyColour(tables, block.emission, slot, surfels.emissionR, surfels.emissionG,
+                  surfels.emissionB, i);
+    }
     ApplyColour(tables, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
                 i);
     if ((effects.bits() & kGlossy) != 0) {

@@ -27,6 +27,7 @@ struct CameraRays {
   float sampleX = 0.5f, sampleY = 0.5f;
   std::uint32_t sampleNumber = 0;  // the sample's place in the pattern
   std::uint32_t media = 0;         // CameraFrame's
+  bool orthographic = false;
 };
 
 // Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =

@@ -40,7 +40,7 @@ HWY_INLINE TangentFrame FindTangentFrame(const TriangleLanes& t, const V3& edge1
 
 // What waits for texels, of one block of rays.
 struct BlockTextures {
-  TexelQueue diffuse, specular, normal;
+  TexelQueue diffuse, specular, emission, normal;
   HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
 };
 

@@ -53,13 +53,26 @@ struct CornerNormals {
   V3 n0, n1, n2;
 };
 
-HWY_INLINE CornerNormals LoadNormals(const ShadingTables& tables, VI triangle) {
-  const Records records =
-      RecordsAt(tables.normals, static_cast<size_t>(tables.normalStride), triangle);
+// Nine floats, three a corner.
+HWY_INLINE CornerNormals LoadCorners(const void* table, int stride, VI triangle) {
+  const Records records = RecordsAt(table, static_cast<size_t>(stride), triangle);
   // The last fetch starts at 5, not 8: a record ends after nine floats.
   const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
   const V4 c = LoadColumns4(records, 5);
   return {{a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}};
+}
+
+HWY_INLINE CornerNormals LoadNormals(const ShadingTables& tables, VI triangle) {
+  return LoadCorners(tables.normals, tables.normalStride, triangle);
+}
+
+// Of the vertices: the first corner's and what the others add to it, so that one colour at all
+// corners is that colour exactly.
+HWY_INLINE V3 VertexColour(const ShadingTables& tables, VI triangle, VF u, VF v) {
+  const auto [c0, c1, c2] = LoadCorners(tables.colours, tables.colourStride, triangle);
+  const V3 there = MulAdd3(Sub3(c2, c0), v, MulAdd3(Sub3(c1, c0), u, c0));
+  const VF zero = hn::Zero(FloatTag());
+  return {hn::Max(there.x, zero), hn::Max(there.y, zero), hn::Max(there.z, zero)};
 }
 
 HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,

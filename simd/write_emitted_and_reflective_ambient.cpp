@@ -34,7 +34,11 @@ void WriteEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet eff
       const TableReader reader(tables.materials.data(), kMaterialStride, hn::BitCast(di, material),
                                hit);
       const V4 emitted = reader.Columns4(8);
-      result = Add3(result, {emitted.x, emitted.y, emitted.z});
+      V3 own{emitted.x, emitted.y, emitted.z};
+      if (surfels.emissionR) {
+        own = Mul3(own, Load3(surfels.emissionR, surfels.emissionG, surfels.emissionB, i));
+      }
+      result = Add3(result, own);
     }
     if (hidden) {
       const VU flags = hn::Load(du, surfels.flags + i);

@@ -17,9 +17,9 @@ constexpr float kControlWidth = 11;  // in heights of the font
 
 // Options that are no knobs (where the camera is, what happens to the picture afterwards), that the
 // viewer sets itself, or that have a place of their own in the panel.
-constexpr std::array kElsewhere{"size",    "camera",  "eye",      "at",      "up",
-                                "fov",     "crop",    "threads",  "simd",    "mode",
-                                "quality", "disable", "exposure", "tonemap", "strict"};
+constexpr std::array kElsewhere{"size",    "camera",   "eye",     "at",    "up",   "fov",
+                                "ortho",   "crop",     "threads", "simd",  "mode", "quality",
+                                "disable", "exposure", "tonemap", "strict"};
 
 bool isElsewhere(const std::string& name) {
   return std::find(kElsewhere.begin(), kElsewhere.end(), name) != kElsewhere.end();

@@ -36,8 +36,9 @@ struct FrameRequest {
 // Whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return a.camera.eye == b.camera.eye && a.camera.at == b.camera.at && a.camera.up == b.camera.up &&
-         a.camera.fov == b.camera.fov && a.options == b.options && a.spp == b.spp &&
-         a.view == b.view && a.withReference == b.withReference &&
+         a.camera.fov == b.camera.fov &&
+         a.camera.orthographicHeight == b.camera.orthographicHeight && a.options == b.options &&
+         a.spp == b.spp && a.view == b.view && a.withReference == b.withReference &&
          a.measureKnobs == b.measureKnobs && a.reloads == b.reloads && a.edits == b.edits;
 }
 

@@ -1,5 +1,6 @@
 #include "viewer/view_files.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -62,6 +63,9 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   options.at = frame.request.camera.at;
   options.up = frame.request.camera.up;
   options.fov = frame.request.camera.fov;
+  // Also where it is 0, if the camera that is changed by these options has another.
+  const float height = frame.request.camera.orthographicHeight;
+  if (height != frame.scene->scene.cameras.front().orthographicHeight) options.ortho = height;
   std::string text = "whit render " + quoted(scene);
   for (const auto& [name, value] : pictureOptions(options)) {
     if (name == "strict") {
@@ -88,7 +92,8 @@ void writeCamera(const std::string& file, const Camera& camera, const std::strin
   Json json{{"eye", vectorJson(camera.eye)},
             {"at", vectorJson(camera.at)},
             {"up", vectorJson(camera.up)},
-            {"fov", camera.fov}};
+            {"fov", camera.fov},
+            {"orthographicHeight", camera.orthographicHeight}};
   if (!command.empty()) json["command"] = command;
   const cli::WriteScope scope;
   writeTextFile(file, json.dump(2) + "\n");
@@ -108,6 +113,13 @@ Camera readCamera(const std::string& file) {
   camera.fov = fov->get<float>();
   if (!(camera.fov >= kLeastFov && camera.fov <= kLargestFov)) {
     throwBadScene(file + "#/fov", "expected degrees from 0.01 to 179");
+  }
+  const auto height = json.find("orthographicHeight");
+  if (height != json.end()) {
+    const bool sensible =
+        height->is_number() && height->get<float>() >= 0 && std::isfinite(height->get<float>());
+    if (!sensible) throwBadScene(file + "#/orthographicHeight", "expected a number, 0 or more");
+    camera.orthographicHeight = height->get<float>();
   }
   if (camera.eye == camera.at) throwBadScene(file + "#/at", "expected eye and at to differ");
   return camera;

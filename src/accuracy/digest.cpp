@@ -60,6 +60,8 @@ constexpr bool kPlain<TriangleRecord> = sizeof(TriangleRecord) == 16 * sizeof(fl
 template <>
 constexpr bool kPlain<NormalRecord> = sizeof(NormalRecord) == 9 * sizeof(float);
 template <>
+constexpr bool kPlain<ColourRecord> = sizeof(ColourRecord) == 9 * sizeof(float);
+template <>
 constexpr bool kPlain<ImageSize> = sizeof(ImageSize) == 2 * sizeof(int);
 template <>
 constexpr bool kPlain<Crop> = sizeof(Crop) == 4 * sizeof(int);
@@ -82,8 +84,8 @@ void add(Digester& d, const std::optional<T>& value) {
 
 // The bindings below name every member: one that is added does not compile before it is here.
 void add(Digester& d, const Camera& camera) {
-  const auto& [name, eye, at, up, fov] = camera;
-  add(d, eye), add(d, at), add(d, up), add(d, fov);
+  const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
+  add(d, eye), add(d, at), add(d, up), add(d, fov), add(d, orthographicHeight);
 }
 void add(Digester& d, const Light& light) {
   const auto& [name, position, intensity, radius, kind, direction, inner, outer, pointer] = light;
@@ -100,12 +102,13 @@ void add(Digester& d, const InstanceRecord& instance) {
 }
 void add(Digester& d, const Material& material) {
   const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, glossyReflection,
-               emission, normalMap, alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior,
-               absorption, priority, castsShadow, pointer] = material;
+               emission, emissionMap, normalMap, alphaMap, alphaCutoff, mirror, mirrorGrazing,
+               transmission, ior, absorption, priority, vertexTint, castsShadow, pointer] =
+      material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
-  add(d, glossyReflection);
-  add(d, emission), add(d, normalMap), add(d, alphaMap), add(d, alphaCutoff), add(d, mirror);
-  add(d, mirrorGrazing), add(d, transmission), add(d, ior), add(d, absorption), add(d, priority);
+  add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
+  add(d, alphaMap), add(d, alphaCutoff), add(d, mirror), add(d, mirrorGrazing);
+  add(d, transmission), add(d, ior), add(d, absorption), add(d, priority), add(d, vertexTint);
   add(d, castsShadow);
 }
 
@@ -145,12 +148,13 @@ void add(Digester& d, const Sky& sky) {
 
 std::string digestOf(const Scene& scene) {
   const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
-               mediumOfMaterial, media, textures, geometries, instances, triangles, normals, lower,
-               upper, instancedTriangles, effects, reasons] = scene;
+               mediumOfMaterial, media, textures, geometries, instances, triangles, normals,
+               colours, lower, upper, instancedTriangles, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
+  addTable(d, colours);
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

@@ -60,6 +60,7 @@ std::string ReferenceCache::digest(const RenderOptions& options) const {
   RenderOptions settled = options;
   settled.camera.clear();
   settled.eye.reset(), settled.at.reset(), settled.up.reset(), settled.fov.reset();
+  settled.ortho.reset();
   const Film film = makeFilm(scene_, options);
   settled.size = ImageSize{film.image.width, film.image.height};
   settled.crop = film.image.window;

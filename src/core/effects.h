@@ -19,6 +19,8 @@ namespace whit {
   X(glossy, "glossy lobe")                                     \
   X(glossyReflection, "sampled reflections of rough surfaces") \
   X(emission, "emitting surfaces")                             \
+  X(emissionMaps, "textures of emission")                      \
+  X(vertexColours, "vertex colours")                           \
   X(sky, "sky that is not black")                              \
   X(skyImage, "sky from an image")                             \
   X(ambient, "ambient light")                                  \

@@ -84,6 +84,7 @@ OptionSpec renderOptionSpec(const std::string& name, const std::string& placehol
   limit("light-cutoff", 0, 1e6);
   limit("threads", 0, kThreadLimit);
   limit("fov", 0.001, 179);
+  limit("ortho", 0, 1e18);
   limit("exposure", -64, 64);
   limit("tile", 1, 4096);
   limit("queue", 0, 1 << 24);

@@ -43,7 +43,7 @@ struct RenderOptions {
   std::optional<ImageSize> size;
   std::string camera;
   std::optional<Vec3f> eye, at, up;
-  std::optional<float> fov;
+  std::optional<float> fov, ortho;
   std::optional<Crop> crop;
   int spp = 1;
   bool adaptive = false;
@@ -89,6 +89,8 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("at", "x,y,z", "point looked at", o.at);
   visit("up", "x,y,z", "direction that is up in the image", o.up);
   visit("fov", "DEG", "vertical field of view", o.fov);
+  visit("ortho", "HEIGHT", "parallel rays; height of the picture in the scene (0: perspective)",
+        o.ortho);
   visit("crop", "x0,y0,x1,y1", "pixels traced; the EXR's data window", o.crop);
   visit("spp", "N", "samples per pixel", o.spp);
   visit("adaptive", "on|off",

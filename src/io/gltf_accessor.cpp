@@ -208,6 +208,19 @@ std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor) {
   return elements;
 }
 
+GltfColours readColours(const GltfDocument& document, std::size_t accessor) {
+  const bool alpha = document.model().accessors[accessor].type == TINYGLTF_TYPE_VEC4;
+  const Reader reader(document, accessor, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+                      "VEC3 or VEC4");
+  GltfColours result{makeElements<Rgb>(document, reader), false};
+  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
+    result.colours[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1),
+                         reader.componentAt(from, 2)};
+    if (alpha) result.translucent = result.translucent || reader.componentAt(from, 3) < 1;
+  });
+  return result;
+}
+
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor) {
   const Reader reader(document, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
   if (!isIndexType(reader.componentType())) {

@@ -15,6 +15,12 @@ namespace whit {
 // or reaches beyond its buffer view, limit where its elements do not fit into memory.
 std::vector<Vec3f> readVectors(const GltfDocument& document, std::size_t accessor);
 std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor);
+// VEC3 or VEC4; tells whether some alpha is below 1.
+struct GltfColours {
+  std::vector<Rgb> colours;
+  bool translucent = false;
+};
+GltfColours readColours(const GltfDocument& document, std::size_t accessor);
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor);
 
 }  // namespace whit

@@ -220,15 +220,24 @@ float meanOfFirstChannel(const RawImage& raw) {
   return static_cast<float>(sum / (static_cast<double>(raw.width) * raw.height));
 }
 
+Texture colourTexture(const GltfMaterial& material, const GltfTexture& map, const RawImage& raw) {
+  Texture texture = makeTexture(material.name, raw, TexelFormat::colour);
+  texture.wrapU = map.wrapU;
+  texture.wrapV = map.wrapV;
+  return texture;
+}
+
+bool emits(const GltfMaterial& m) { return m.emissiveMap.exists() && maxComponent(m.emission) > 0; }
+
 // All that the maps and their means depend on.
 std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
   for (const GltfTexture* map :
-       {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.transmissionMap}) {
+       {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.transmissionMap}) {
     key << map->image << ' ' << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
-      << (m.transmission > 0) << ' ' << m.metallic << ' ';
+      << (m.transmission > 0) << emits(m) << m.unlit << ' ' << m.metallic << ' ';
   if (m.mixesMetal()) {
     for (int i = 0; i < 3; ++i) key << m.f0[i] << ' ' << m.base[i] << ' ';
   }
@@ -264,7 +273,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
           const auto rawBase = decode(base), rawMetal = decode(metal);
           return Baker(m, rawBase.get(), rawMetal.get(), textures.limits()).bake(*means);
         });
-    if (Baker::wants(m, kDiffuse)) maps.diffuse = slots[kDiffuse];
+    if (Baker::wants(m, kDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kDiffuse];
     if (Baker::wants(m, kSpecular)) maps.specular = slots[kSpecular];
     if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kAlpha];
   }
@@ -273,6 +282,14 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       const auto raw = decode(normal);
       Images made(1);
       if (raw) made[0] = normalTexture(m, *raw);
+      return made;
+    })[0];
+  }
+  if (emits(m)) {
+    maps.emission = textures.add(1, [=, emissive = image(m.emissiveMap)] {
+      const auto raw = decode(emissive);
+      Images made(1);
+      if (raw) made[0] = colourTexture(m, m.emissiveMap, *raw);
       return made;
     })[0];
   }

@@ -17,7 +17,7 @@ namespace whit {
 class GltfImage;
 
 struct GltfMaps {
-  std::int32_t diffuse = kNoTexture, specular = kNoTexture;
+  std::int32_t diffuse = kNoTexture, specular = kNoTexture, emission = kNoTexture;
   std::int32_t normal = kNoTexture, alpha = kNoTexture;
   std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
 };

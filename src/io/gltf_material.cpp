@@ -40,10 +40,7 @@ class GltfMaterialReader {
     factors();
     maps();
     extensions();
-    if (!(m_.emission == Rgb()) && source_.emissiveTexture.index >= 0) {
-      warn("emission by a texture left out");
-      m_.emission = Rgb();
-    }
+    countMapsLeftOut();
     return std::move(m_);
   }
 
@@ -78,10 +75,18 @@ class GltfMaterialReader {
   void maps() {
     const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
     m_.baseMap = texture(pbr.baseColorTexture);
+    m_.unlit = find(source_.extensions, "KHR_materials_unlit") != nullptr;
+    if (m_.unlit) {
+      m_.metallic = 0;
+      m_.emission = Rgb();
+      return;
+    }
     m_.metallicRoughnessMap = texture(pbr.metallicRoughnessTexture);
     m_.normalMap = texture(source_.normalTexture);
     m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
-    for (const GltfTexture* map : {&m_.baseMap, &m_.metallicRoughnessMap, &m_.normalMap}) {
+    m_.emissiveMap = texture(source_.emissiveTexture);
+    for (const GltfTexture* map :
+         {&m_.baseMap, &m_.metallicRoughnessMap, &m_.normalMap, &m_.emissiveMap}) {
       if (map->exists() && !(map->uv == m_.uv())) {
         warn("textures of one material with different coordinates: those of the first taken");
       }
@@ -152,8 +157,25 @@ class GltfMaterialReader {
       m_.clearcoat = unit(numberOf(*e, "clearcoatFactor", 0));
       m_.clearcoatRoughness = unit(numberOf(*e, "clearcoatRoughnessFactor", 0));
     }
-    m_.unlit = find(source_.extensions, "KHR_materials_unlit") != nullptr;
-    if (m_.unlit && m_.baseMap.exists()) warn("unlit material with a texture, lit nevertheless");
+  }
+
+  void countMapsLeftOut() {
+    constexpr struct {
+      const char *extension, *map, *warning;
+    } kMaps[] = {
+        {"KHR_materials_specular", "specularTexture", "specular strength by a texture left out"},
+        {"KHR_materials_specular", "specularColorTexture", "specular colour by a texture left out"},
+        {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoat by a texture left out"},
+        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture",
+         "roughness of a clearcoat by a texture left out"},
+        {"KHR_materials_clearcoat", "clearcoatNormalTexture", "normal map of a clearcoat left out"},
+        {"KHR_materials_volume", "thicknessTexture",
+         "thickness of a volume by a texture left out: what the mesh encloses counts"},
+    };
+    for (const auto& [extension, map, warning] : kMaps) {
+      const Value* e = find(source_.extensions, extension);
+      if (e && e->Has(map)) warn(warning);
+    }
   }
 
   void ior(double x) {
@@ -200,12 +222,23 @@ Material invisible(Material m) {
   return m;
 }
 
+// Emits its colour, and lets the rest straight through.
+Material unlit(Material m, const Rgb& base, float coverage) {
+  m.diffuse = Rgb(0.0f);
+  m.emission = base * coverage;
+  m.vertexTint = VertexTint::emission;
+  m.transmission = Rgb(1 - coverage);
+  if (coverage < 1) m.ior = 1;
+  m.castsShadow = !m.hasTransmission();
+  return m;
+}
+
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
 }  // namespace
 
 GltfUvMap GltfMaterial::uv() const {
-  for (const GltfTexture* map : {&baseMap, &metallicRoughnessMap, &normalMap}) {
+  for (const GltfTexture* map : {&baseMap, &metallicRoughnessMap, &normalMap, &emissiveMap}) {
     if (map->exists()) return map->uv;
   }
   return {};
@@ -236,16 +269,13 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) {
     return invisible(std::move(m));
   }
-  if (g.unlit) {
-    m.diffuse = g.baseMap.exists() ? g.base : Rgb(0.0f);
-    if (!g.baseMap.exists()) m.emission = g.base;
-    return m;
-  }
+  const bool blends = g.alphaMode == GltfMaterial::Alpha::blend;
+  const float coverage = blends ? g.alpha * means.alpha : 1.0f;
+  if (g.unlit) return unlit(std::move(m), g.base, coverage);
   const Rgb base = g.base * means.base;
   const float metal = g.metallic * means.metallic;
   const float clear = g.transmission * means.transmission;
-  const bool blends = g.alphaMode == GltfMaterial::Alpha::blend;
-  const float coverage = blends ? g.alpha * means.alpha : 1.0f;
+  if (metal >= 0.5f) m.vertexTint = VertexTint::diffuseAndSpecular;
   m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear) * coverage);
   m.specular = (g.mixesMetal() ? Rgb(1.0f) : mix(g.f0, g.base, metal)) * coverage;
   const float through = clear * (1 - metal);

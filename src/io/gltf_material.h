@@ -44,7 +44,7 @@ struct GltfMaterial {
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false;
-  GltfTexture baseMap, metallicRoughnessMap, normalMap, transmissionMap;
+  GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, transmissionMap;
   float normalScale = 1;
 
   // Of all maps: that of the first there is.
@@ -82,7 +82,9 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - blending lets 1 - alpha straight through, by the mean of a map that has mostly intermediate
 //   values; other maps cut at 1/2.
 // - a smooth clearcoat adds a mirror of 0.04 at normal incidence.
-// - unlit colours are emitted; with a texture they are lit nevertheless.
+// - unlit colours are emitted, and nothing else is.
+// - vertex colours multiply the base colour: diffuse, of what is mostly metal specular as well, but
+//   no mirror; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 
 }  // namespace whit

@@ -21,6 +21,7 @@ class PrimitiveReader {
     const bool named = primitive.material >= 0;
     material_ = named ? static_cast<std::size_t>(primitive.material) : materials.size() - 1;
     uv_ = materials[material_].uv();
+    opaque_ = materials[material_].alphaMode == GltfMaterial::Alpha::opaque;
   }
 
   // False: nothing to be seen.
@@ -37,9 +38,9 @@ class PrimitiveReader {
     mesh.positions = readVectors(document_, static_cast<std::size_t>(position));
     readNormals(mesh);
     readTextureCoordinates(mesh);
+    readVertexColours(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (attribute("COLOR_0") >= 0) warn("vertex colours left out");
     if (!primitive_.targets.empty()) warn("morph targets left out");
     return !mesh.triangles.empty();
   }
@@ -74,6 +75,15 @@ class PrimitiveReader {
     if (normal < 0) return;
     mesh.normals = readVectors(document_, static_cast<std::size_t>(normal));
     checkLength(mesh.normals, mesh, "NORMAL");
+  }
+
+  void readVertexColours(Mesh& mesh) {
+    const int colour = attribute("COLOR_0");
+    if (colour < 0) return;
+    GltfColours read = readColours(document_, static_cast<std::size_t>(colour));
+    mesh.colours = std::move(read.colours);
+    checkLength(mesh.colours, mesh, "COLOR_0");
+    if (read.translucent && !opaque_) warn("alpha of vertex colours left out");
   }
 
   void readTextureCoordinates(Mesh& mesh) const {
@@ -126,6 +136,7 @@ class PrimitiveReader {
   std::string where_;
   std::size_t material_ = 0;
   GltfUvMap uv_;
+  bool opaque_ = true;
 };
 
 }  // namespace

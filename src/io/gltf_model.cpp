@@ -18,6 +18,7 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   };
   member("diffuse", &Material::diffuse);
   member("specular", &Material::specular);
+  member("emission", &Material::emission);
   member("roughness", &Material::roughness);
   member("glossyReflection", &Material::glossyReflection);
   member("mirror", &Material::mirror);
@@ -25,6 +26,7 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   member("transmission", &Material::transmission);
   member("ior", &Material::ior);
   member("absorption", &Material::absorption);
+  member("vertexTint", &Material::vertexTint);
   member("castsShadow", &Material::castsShadow);
 }
 
@@ -44,6 +46,7 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
   const GltfMaps maps = maps_.ask(sources_[i], textures);
   if (!given.contains("diffuseMap")) material.diffuseMap = maps.diffuse;
   if (!given.contains("specularMap")) material.specularMap = maps.specular;
+  if (!given.contains("emissionMap")) material.emissionMap = maps.emission;
   if (!given.contains("normalMap")) material.normalMap = maps.normal;
   if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;
   const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {

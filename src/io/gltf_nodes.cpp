@@ -11,6 +11,7 @@
 namespace whit {
 namespace {
 
+constexpr double kLargestHeight = 1e9;  // of what an orthographic camera shows
 constexpr char kLightsExtension[] = "KHR_lights_punctual";
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
@@ -119,8 +120,11 @@ class TreeReader {
     const tinygltf::Node& node = model_.nodes[index];
     const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
     const double fov = source.perspective.yfov * 180 / std::numbers::pi;
-    if (source.type != "perspective" || !(fov > 0 && fov < 180)) {
-      return warn("camera that is not a perspective one left out", index);
+    const double xmag = std::abs(source.orthographic.xmag);
+    const double ymag = std::abs(source.orthographic.ymag);
+    const bool orthographic = source.type == "orthographic" && ymag > 0 && ymag < kLargestHeight;
+    if (!orthographic && (source.type != "perspective" || !(fov > 0 && fov < 180))) {
+      return warn("camera of an unknown type or without an extent left out", index);
     }
     Camera camera;
     camera.name = !node.name.empty() ? node.name : source.name.empty() ? "camera" : source.name;
@@ -128,8 +132,14 @@ class TreeReader {
     // Far enough for the direction to survive the rounding of eye and at.
     camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
     camera.up = Vec3f(normalized(map.y));
-    camera.fov = static_cast<float>(fov);
-    if (stage_.cameras.empty()) stage_.aspect = source.perspective.aspectRatio;
+    if (orthographic) {
+      camera.orthographicHeight = static_cast<float>(2 * ymag);
+    } else {
+      camera.fov = static_cast<float>(fov);
+    }
+    if (stage_.cameras.empty()) {
+      stage_.aspect = orthographic ? xmag / ymag : source.perspective.aspectRatio;
+    }
     stage_.cameras.push_back(camera);
   }
 

@@ -32,7 +32,7 @@ struct GltfStage {
 };
 
 // Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
-// what they hold; orthographic cameras and the ranges of lights are left out; skins are not
+// what they hold; the ranges of lights are left out; skins are not
 // applied: each is counted in the document's warnings. Throws badScene "file#/nodes/i" where the
 // nodes are no tree or deeper than kGltfDepthLimit.
 GltfStage readGltfNodes(const GltfDocument& document);

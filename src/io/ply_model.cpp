@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "io/ply_data.h"
 #include "io/ply_header.h"
 #include "io/polygon.h"
@@ -14,16 +15,25 @@ namespace whit {
 namespace {
 
 // Which component of a vertex a property is.
-enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kComponents };
+enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kComponents };
 
 Component componentOf(const std::string& name) {
   static const std::pair<const char*, Component> names[] = {
-      {"x", kX}, {"y", kY}, {"z", kZ}, {"nx", kNx}, {"ny", kNy},       {"nz", kNz},
-      {"u", kU}, {"v", kV}, {"s", kU}, {"t", kV},   {"texture_u", kU}, {"texture_v", kV}};
+      {"x", kX},         {"y", kY},         {"z", kZ},   {"nx", kNx},   {"ny", kNy},
+      {"nz", kNz},       {"u", kU},         {"v", kV},   {"s", kU},     {"t", kV},
+      {"texture_u", kU}, {"texture_v", kV}, {"red", kR}, {"green", kG}, {"blue", kB}};
   for (const auto& [known, component] : names) {
     if (name == known) return component;
   }
   return kComponents;
+}
+
+double linearColour(double value, PlyType type) {
+  const double largest = type == PlyType::uint8 || type == PlyType::int8     ? 255
+                         : type == PlyType::uint16 || type == PlyType::int16 ? 65535
+                         : type == PlyType::uint32 || type == PlyType::int32 ? 4294967295.0
+                                                                             : 0;
+  return largest > 0 ? srgbToLinear(value / largest) : value;
 }
 
 class PlyReader {
@@ -67,27 +77,28 @@ class PlyReader {
     if (!has[kX] || !has[kY] || !has[kZ] || !mesh_.positions.empty()) {
       throwBadScene(file_, "expected one element \"vertex\" with x, y and z");
     }
-    if (element.find("red") < components.size()) {
-      warnings_.add("vertex colours left out", file_);
-    }
     const bool normals = has[kNx] && has[kNy] && has[kNz], uvs = has[kU] && has[kV];
-    reserve(element.count, normals, uvs);
+    const bool colours = has[kR] && has[kG] && has[kB];
+    if (has[kR] && !colours) warnings_.add("vertex colours that lack a channel left out", file_);
+    reserve(element.count, normals, uvs, colours);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       const std::array<float, kComponents> v = readVertex(element, components);
       mesh_.positions.push_back({v[kX], v[kY], v[kZ]});
       if (normals) mesh_.normals.push_back({v[kNx], v[kNy], v[kNz]});
       if (uvs) mesh_.uvs.push_back({v[kU], v[kV]});
+      if (colours) mesh_.colours.push_back({v[kR], v[kG], v[kB]});
     }
   }
 
-  void reserve(std::uint64_t count, bool normals, bool uvs) {
+  void reserve(std::uint64_t count, bool normals, bool uvs, bool colours) {
     if (count > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(file_ + " has more than 2^32 - 1 vertices");
     }
-    budget_.charge(count, 2 * sizeof(Vec3f) + sizeof(Vec2f), file_);
+    budget_.charge(count, 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colours ? sizeof(Rgb) : 0), file_);
     mesh_.positions.reserve(count);
     if (normals) mesh_.normals.reserve(count);
     if (uvs) mesh_.uvs.reserve(count);
+    if (colours) mesh_.colours.reserve(count);
   }
 
   std::array<float, kComponents> readVertex(const PlyElement& element,
@@ -97,7 +108,8 @@ class PlyReader {
       const PlyProperty& property = element.properties[p];
       const std::uint64_t count = property.isList ? data_.listLength(property) : 1;
       for (std::uint64_t i = 0; i < count; ++i) {
-        const double value = data_.number(property.type);
+        double value = data_.number(property.type);
+        if (components[p] >= kR) value = linearColour(value, property.type);
         if (components[p] != kComponents) values[components[p]] = static_cast<float>(value);
       }
     }
@@ -175,6 +187,7 @@ PlyModel::PlyModel(const std::filesystem::path& path, const PathRules&, MemoryBu
   budget.charge(text.size(), 1, file_);
   Mesh mesh = PlyReader(text, file_, budget, warnings).read();
   if (mesh.triangles.empty()) return;
+  if (!mesh.colours.empty()) materials_[0].diffuse = Rgb(1.0f);
   mesh.name = path.stem().string();
   mesh.materials = {0};
   meshes_.push_back(std::move(mesh));

@@ -175,6 +175,7 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   readMap(object, "specularMap", TextureUse::colour, m.specularMap);
   m.roughness = object.number("roughness", m.roughness, 0, 1);
   m.emission = object.colour("emission", m.emission);
+  readMap(object, "emissionMap", TextureUse::colour, m.emissionMap);
   readMap(object, "normalMap", TextureUse::data, m.normalMap);
   readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
   m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);

@@ -17,6 +17,7 @@ void readCamera(JsonObject& object, Camera& camera) {
   camera.at = object.vector("at", camera.at);
   camera.up = object.vector("up", camera.up);
   camera.fov = object.number("fov", camera.fov, kLeastFov, kLargestFov);
+  camera.orthographicHeight = object.number("orthographicHeight", camera.orthographicHeight, 0);
   const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
   if (forward == Vec3d()) object.value().fail("eye and at to differ");
   const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));

@@ -8,7 +8,8 @@
 
 namespace whit {
 
-// "size", "cameras" and "path".
+// "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
+// degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
 void readCameras(JsonObject& file, SceneDescription& scene);
 // "lights": of each, "type" is "point" (default), "spot" or "directional", "name" is free. Point
 // and spot lights have "position", "intensity" (W/sr) and "radius"; spot lights also "direction"

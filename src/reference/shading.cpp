@@ -31,7 +31,9 @@ RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
 
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
   RgbD radiance;
-  if (effects.has(Effect::emission)) radiance = RgbD(scene.materials[surfel.material].emission);
+  if (effects.has(Effect::emission)) {
+    radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
+  }
   if (effects.has(Effect::ambient)) {
     const RgbD up(scene.ambient.up), down(scene.ambient.down);
     radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));

@@ -86,8 +86,27 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
   }
 }
 
-void findColours(const Scene& scene, EffectSet effects, const TriangleRecord& triangle,
+// Of the vertices: the first corner's and what the others add to it, so that one colour at all
+// corners is that colour exactly.
+RgbD vertexColour(const ColourRecord& record, const TriangleHit& hit) {
+  const RgbD c0 = triple(record.colour);
+  const RgbD there =
+      c0 + (triple(record.colour + 3) - c0) * hit.u + (triple(record.colour + 6) - c0) * hit.v;
+  return max(there, RgbD(0.0));
+}
+
+void tint(const RgbD& colour, VertexTint what, Surfel& s) {
+  if (what == VertexTint::emission) {
+    s.emission = s.emission * colour;
+    return;
+  }
+  s.diffuse = s.diffuse * colour;
+  if (what == VertexTint::diffuseAndSpecular) s.specular = s.specular * colour;
+}
+
+void findColours(const Scene& scene, EffectSet effects, std::uint32_t number,
                  const TriangleHit& hit, TextureFilter filter, Surfel& s) {
+  const TriangleRecord& triangle = scene.triangles[number];
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
   const TexturePoint at = texturePoint(triangle, hit);
@@ -98,6 +117,10 @@ void findColours(const Scene& scene, EffectSet effects, const TriangleRecord& tr
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
+  if (effects.has(Effect::emissionMaps)) s.emission = textured(Rgb(1.0f), material.emissionMap);
+  if (effects.has(Effect::vertexColours) && !scene.colours.empty()) {
+    tint(vertexColour(scene.colours[number], hit), material.vertexTint, s);
+  }
   const double roughness = std::max(material.roughness, kMinRoughness);
   s.alpha = roughness * roughness;
 }
@@ -155,7 +178,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
     s.shadingNormal = -s.shadingNormal;
   }
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
-  findColours(scene, effects, triangle, hit, filter, s);
+  findColours(scene, effects, candidate.triangle, hit, filter, s);
   return s;
 }
 

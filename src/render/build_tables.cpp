@@ -22,6 +22,8 @@ std::uint32_t flagsOf(const Material& m, EffectSet effects) {
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
+  if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
+  if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
   return flags;
 }
 
@@ -33,6 +35,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   copy3(m.specular, r.specular);
   r.specularMap = textured && m.hasGlossy() ? m.specularMap : kNoTexture;
   copy3(m.emission, r.emission);
+  r.emissionMap = effects.has(Effect::emissionMaps) ? m.emissionMap : kNoTexture;
   r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
@@ -74,6 +77,7 @@ void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   for (const MaterialRecord& m : tables.materials) {
     use(m.diffuseMap);
     use(m.specularMap);
+    use(m.emissionMap);
     use(m.normalMap);
   }
   std::size_t total = 0;
@@ -140,10 +144,13 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects) {
   // What rays that miss read, masked; a scene may be empty.
   static const TriangleRecord nowhere{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}, 0};
   static const NormalRecord flat{};
+  static const ColourRecord white{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
   ShadingTables tables;
   tables.triangles = scene.triangles.empty() ? &nowhere : scene.triangles.data();
   tables.normals = scene.normals.empty() ? &flat : scene.normals.data();
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
+  tables.colours = scene.colours.empty() ? &white : scene.colours.data();
+  tables.colourStride = scene.colours.empty() ? 0 : sizeof(ColourRecord) / sizeof(float);
   addMaterials(scene, effects, tables);
   addTextures(scene, effects, tables);
   addInstances(scene, tables);
@@ -161,7 +168,7 @@ void refreshShading(const Scene& scene, EffectSet effects, ShadingTables& tables
       std::equal(before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
                  [](const MaterialRecord& a, const MaterialRecord& b) {
                    return a.diffuseMap == b.diffuseMap && a.specularMap == b.specularMap &&
-                          a.normalMap == b.normalMap;
+                          a.emissionMap == b.emissionMap && a.normalMap == b.normalMap;
                  });
   if (!sameTextures) {
     tables = buildTables(scene, effects);

@@ -26,7 +26,8 @@ constexpr double kOutliers = 0.005;  // share of the pixels that a scale may lea
 
 EffectSet effectsOf(const Material& m) {
   EffectSet e;
-  if (m.diffuseMap != kNoTexture || m.specularMap != kNoTexture) e = e.with(Effect::textures);
+  if (m.diffuseMap != kNoTexture || m.specularMap != kNoTexture || m.emissionMap != kNoTexture)
+    e = e.with(Effect::textures);
   if (m.normalMap != kNoTexture) e = e.with(Effect::normalMaps);
   if (m.alphaMap != kNoTexture) e = e.with(Effect::alphaMasks);
   if (m.hasGlossy()) e = e.with(Effect::glossy);

@@ -17,6 +17,7 @@ Camera aimed(Camera camera, const RenderOptions& options) {
   camera.at = options.at.value_or(camera.at);
   camera.up = options.up.value_or(camera.up);
   camera.fov = options.fov.value_or(camera.fov);
+  camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
   return camera;
 }
 

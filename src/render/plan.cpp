@@ -17,6 +17,7 @@ EffectSet consistent(EffectSet e, int glossySamples) {
     e = e.without(Effect::spotLights).without(Effect::directionalLights);
     if (!e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
   }
+  if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;
@@ -47,6 +48,9 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
   const bool impulses = plan.traceReflections || plan.traceRefractions || plan.glossySamples > 0;
   plan.depth = impulses ? options.depth : 0;
   plan.groups.glossy = plan.effects.has(Effect::glossy);
+  plan.groups.emission =
+      plan.effects.has(Effect::emissionMaps) ||
+      (plan.effects.has(Effect::emission) && plan.effects.has(Effect::vertexColours));
   plan.groups.transmission = plan.traceRefractions;
   // Where no vertex normal differs from its triangle's there is nothing to lift.
   plan.groups.lift =

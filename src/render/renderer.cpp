@@ -60,6 +60,7 @@ void takeOverFrame(const RenderOptions& from, RenderOptions& to) {
   to.at = from.at;
   to.up = from.up;
   to.fov = from.fov;
+  to.ortho = from.ortho;
   to.mode = from.mode;
   to.quality = from.quality;
   to.strict = from.strict;

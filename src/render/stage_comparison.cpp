@@ -139,6 +139,8 @@ class StageComparer : public StageObserver {
       const double x = (c.pixels[c.first + i] & 0xFFFFu) + static_cast<double>(c.sample.x);
       const double y = (c.pixels[c.first + i] >> 16) + static_cast<double>(c.sample.y);
       const reference::Ray ray = reference::generateRay(job_.camera, x, y);
+      compare(Stage::generateRays, "origin", originOf(c.rays, i), ray.origin,
+              maxComponent(abs(job_.camera.eye)), kPositionLimit, c, i);
       compare(Stage::generateRays, "dir", directionOf(c.rays, i), ray.direction, 1, kDirectionLimit,
               c, i);
     }
@@ -168,6 +170,9 @@ class StageComparer : public StageObserver {
       compare(stage, "diffuse", got.diffuse, twin.diffuse, 1, kTexturedLimit, c, i);
       if (plan_.groups.lift) {
         compare(stage, "lift", got.lift, twin.lift, magnitude, kLiftLimit, c, i);
+      }
+      if (plan_.groups.emission) {
+        compare(stage, "emission", got.emission, twin.emission, 1, kTexturedLimit, c, i);
       }
       if (plan_.groups.glossy) {
         compare(stage, "specular", got.specular, twin.specular, 1, kTexturedLimit, c, i);

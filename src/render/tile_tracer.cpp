@@ -47,7 +47,8 @@ simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample, std::uint32
           sample.x,
           sample.y,
           sampleNumber,
-          camera.media};
+          camera.media,
+          camera.orthographic};
 }
 
 }  // namespace

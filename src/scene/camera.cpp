@@ -47,7 +47,11 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   camera.eye = along(&Camera::eye);
   camera.at = along(&Camera::at);
   camera.up = Vec3f(Vec3d(a.camera.up) * (1 - s) + Vec3d(b.camera.up) * s);
-  camera.fov = static_cast<float>(a.camera.fov * (1 - s) + b.camera.fov * s);
+  const auto between = [&](float Camera::*value) {
+    return static_cast<float>(a.camera.*value * (1 - s) + b.camera.*value * s);
+  };
+  camera.fov = between(&Camera::fov);
+  camera.orthographicHeight = between(&Camera::orthographicHeight);
   return camera;
 }
 
@@ -61,8 +65,12 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
   const double asked = camera.fov;
   const double fov = asked > kSmallestFov ? std::min(asked, kLargestFov) : kSmallestFov;
-  const double pixel = 2 * std::tan(fov * (std::numbers::pi / 360)) / height;
-  return {eye, forward, right * pixel, cross(right, forward) * pixel, width, height, 0};
+  const bool orthographic = camera.orthographicHeight > 0;
+  const double pixel =
+      (orthographic ? camera.orthographicHeight : 2 * std::tan(fov * (std::numbers::pi / 360))) /
+      height;
+  return {eye,    forward, right * pixel, cross(right, forward) * pixel, width,
+          height, 0,       orthographic};
 }
 
 }  // namespace whit

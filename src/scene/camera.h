@@ -1,4 +1,4 @@
-// Pinhole cameras and camera paths.
+// Pinhole and orthographic cameras, and camera paths.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,9 @@ struct Camera {
   Vec3f at{0, 0, 0};
   Vec3f up{0, 1, 0};
   float fov = 45;  // vertical, degrees
+  // Above 0: rays are parallel and start in the plane through the eye, of which the picture shows
+  // this height; there is no fov.
+  float orthographicHeight = 0;
 };
 
 struct Keyframe {
@@ -22,20 +25,22 @@ struct Keyframe {
   Camera camera;
 };
 
-// Where the camera is at `time`: Catmull-Rom through eye and at, linear in fov. Clamped to the
-// ends. Needs at least one keyframe, in order of time.
+// Where the camera is at `time`: Catmull-Rom through eye and at, linear in fov and height. Clamped
+// to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
 // What the ray generator needs, worked out once a frame in double: the direction through image
 // position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
 // normalised. Directions never come from a difference of world positions, so a camera far from the
-// origin loses nothing (numerics: H75).
+// origin loses nothing (numerics: H75). Orthographic rays have the direction forward and start as
+// far aside of the eye.
 struct CameraFrame {
   Vec3d eye, forward, right, up;
   int width = 0, height = 0;
   // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
   // renders looks for them (reference/eye_media.h).
   std::uint32_t media = 0;
+  bool orthographic = false;
 };
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 

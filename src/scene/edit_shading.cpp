@@ -26,6 +26,7 @@ bool sameKindOfLight(const Light& a, const Light& b) {
 void keepBaked(const Material& from, Material& to) {
   to.diffuseMap = from.diffuseMap;
   to.specularMap = from.specularMap;
+  to.emissionMap = from.emissionMap;
   to.normalMap = from.normalMap;
   to.alphaMap = from.alphaMap;
   to.alphaCutoff = from.alphaCutoff;
@@ -40,7 +41,7 @@ void checkAndMend(const Scene& scene, std::vector<Material>& materials,
   d.lights = lights;
   d.materials = materials;
   for (Material& m : d.materials) {  // maps were judged with the textures that they name
-    m.diffuseMap = m.specularMap = m.normalMap = m.alphaMap = kNoTexture;
+    m.diffuseMap = m.specularMap = m.emissionMap = m.normalMap = m.alphaMap = kNoTexture;
   }
   Warnings warnings(false);
   validate(d, warnings);

@@ -1,5 +1,6 @@
 // The rules that turn effects on. Each says why, on or off, in words for `whit info`.
 #include <algorithm>
+#include <iterator>
 
 #include "scene/finalize_steps.h"
 #include "scene/triangle_record.h"
@@ -81,8 +82,11 @@ class Gatherer {
 void Gatherer::materials() {
   byMaterial(Effect::textures, "with a colour texture", [](const Material& m) {
     return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
-           (m.specularMap != kNoTexture && m.hasGlossy());
+           (m.specularMap != kNoTexture && m.hasGlossy()) ||
+           (m.emissionMap != kNoTexture && !isBlack(m.emission));
   });
+  byMaterial(Effect::emissionMaps, "with a texture of emission",
+             [](const Material& m) { return m.emissionMap != kNoTexture && !isBlack(m.emission); });
   byMaterial(Effect::normalMaps, "with a normal map",
              [](const Material& m) { return m.normalMap != kNoTexture; });
   byMaterial(Effect::alphaMasks, "with an alpha mask",
@@ -110,6 +114,8 @@ void Gatherer::geometry() {
   set(Effect::smoothNormals, hasSmoothNormals(scene_),
       "some vertex normals differ from their triangle's",
       "no vertex normal differs from its triangle's");
+  set(Effect::vertexColours, !scene_.colours.empty(), "some vertices are not white",
+      "no vertex has a colour");
   set(Effect::instances, !scene_.instances.empty(),
       counted(scene_.instances.size(), "instance") + " of " +
           counted(scene_.geometries.size() - 1, "object"),
@@ -166,6 +172,13 @@ bool hasSmoothNormals(const Scene& scene) {
     }
   }
   return false;
+}
+
+bool hasVertexColours(const Scene& scene) {
+  return std::any_of(scene.colours.begin(), scene.colours.end(), [](const ColourRecord& record) {
+    return std::any_of(std::begin(record.colour), std::end(record.colour),
+                       [](float x) { return x != 1; });
+  });
 }
 
 void gatherEffects(Scene& scene) { Gatherer(scene).run(); }

@@ -69,6 +69,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.textures = std::move(d.textures);
   bakeGeometry(d, scene, warnings, progress);
   if (!hasSmoothNormals(scene)) scene.normals = {};
+  if (!hasVertexColours(scene)) scene.colours = {};
   numberMedia(scene);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
@@ -79,8 +80,9 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
 }
 
 std::uint64_t Scene::memoryBytes() const {
-  std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(instances) +
-                        bytesOf(sky.image.r) + bytesOf(sky.image.g) + bytesOf(sky.image.b);
+  std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colours) +
+                        bytesOf(instances) + bytesOf(sky.image.r) + bytesOf(sky.image.g) +
+                        bytesOf(sky.image.b);
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += bytesOf(t.texels);
   return bytes;

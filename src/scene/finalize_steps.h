@@ -27,4 +27,7 @@ std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
 // Whether some corner's normal differs from its triangle's by more than rounding.
 bool hasSmoothNormals(const Scene& scene);
 
+// Whether some corner's colour is not white.
+bool hasVertexColours(const Scene& scene);
+
 }  // namespace whit

@@ -7,7 +7,8 @@ namespace {
 constexpr Rgb kBlack{0, 0, 0};
 
 void leaveOutOfMaterial(Material& m, EffectSet effects) {
-  if (effects.has(Effect::textures)) m.diffuseMap = m.specularMap = kNoTexture;
+  if (effects.has(Effect::textures)) m.diffuseMap = m.specularMap = m.emissionMap = kNoTexture;
+  if (effects.has(Effect::emissionMaps)) m.emissionMap = kNoTexture;
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;
   if (effects.has(Effect::alphaMasks)) m.alphaMap = kNoTexture;
   if (effects.has(Effect::glossy)) m.specular = kBlack;
@@ -26,7 +27,8 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
 void dropUnusedTexels(SceneDescription& d) {
   std::vector<bool> used(d.textures.size(), false);
   for (const Material& m : d.materials) {
-    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.normalMap, m.alphaMap}) {
+    for (const std::int32_t map :
+         {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap, m.alphaMap}) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }
@@ -72,14 +74,18 @@ void keepFirstUses(SceneDescription& d) {
 
 void leaveOut(SceneDescription& d, EffectSet effects) {
   for (Material& m : d.materials) leaveOutOfMaterial(m, effects);
-  if (effects.has(Effect::textures) || effects.has(Effect::normalMaps)) dropUnusedTexels(d);
+  const bool fewerMaps = effects.has(Effect::textures) || effects.has(Effect::normalMaps) ||
+                         effects.has(Effect::emissionMaps);
+  if (fewerMaps) dropUnusedTexels(d);
   leaveOutOfSky(d.sky, effects);
   if (effects.has(Effect::ambient)) d.ambient = Ambient();
   leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::instances)) keepFirstUses(d);
-  if (!effects.has(Effect::smoothNormals)) return;
   for (Object& object : d.objects) {
-    for (Mesh& mesh : object.meshes) mesh.normals.clear();
+    for (Mesh& mesh : object.meshes) {
+      if (effects.has(Effect::smoothNormals)) mesh.normals.clear();
+      if (effects.has(Effect::vertexColours)) mesh.colours.clear();
+    }
   }
 }
 

@@ -2,8 +2,9 @@
 // does not have is a zero, and a surface may have several at once (a diffuse floor with a mirror
 // coat, glass that both reflects and refracts).
 //
-// Radiance leaving towards the viewer, with n the shading normal (Whitted 1980, with physical
-// units):
+// Diffuse, specular and emission are multiplied by their maps and, as `vertexTint` says, by the
+// colours of the mesh's vertices. Radiance leaving towards the viewer, with n the shading normal
+// (Whitted 1980, with physical units):
 //   emission
 //   + diffuse * ambient(n)
 //   + sum over lights of (diffuse / pi + glossy lobe) * biradiance * max(0, n.l)
@@ -23,6 +24,9 @@ inline constexpr std::int32_t kNoTexture = -1;
 
 inline constexpr float kLargestIor = 10;  // that a file can ask for
 
+// What the colours of vertices multiply: the base colour, wherever that went.
+enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
+
 struct Material {
   std::string name;
 
@@ -34,9 +38,10 @@ struct Material {
   // Whether the lobe reflects the scene, not only lights: for surfaces whose reflection is not
   // already a mirrored impulse. Frames take --glossy samples of it.
   bool glossyReflection = true;
-  Rgb emission{0, 0, 0};                // radiance, both sides
-  std::int32_t normalMap = kNoTexture;  // data, tangent space, +y up
-  std::int32_t alphaMap = kNoTexture;   // data, channel r; cut where below alphaCutoff
+  Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
+  std::int32_t emissionMap = kNoTexture;  // colour
+  std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
+  std::int32_t alphaMap = kNoTexture;     // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
 
   // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at
@@ -51,6 +56,7 @@ struct Material {
   Rgb absorption{0, 0, 0};  // per unit length, inside
   int priority = 0;         // of nested dielectrics: the highest wins where they overlap
 
+  VertexTint vertexTint = VertexTint::diffuse;
   bool castsShadow = true;  // false: light passes, as if the surface were not there
 
   // Where a scene's description has or can have these members (JSON pointer, RFC 6901); empty:

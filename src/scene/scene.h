@@ -54,6 +54,10 @@ struct NormalRecord {
   float normal[9];  // unit, one a corner; all three equal the face's where the mesh has none
 };
 
+struct ColourRecord {
+  float colour[9];  // linear RGB, one a corner
+};
+
 // One object's triangles as Embree wants them. `index` refers to `position`; triangles are sorted
 // by class (stable), class c occupying [classBegin[c], classBegin[c + 1]). The triangle i of a
 // geometry is number firstTriangle + i in Scene::triangles. `position` has the capacity for one
@@ -108,6 +112,7 @@ class Scene {
   HugeVector<TriangleRecord> triangles;  // all geometries, one after the other
   // Same length, or empty when no mesh has normals other than its triangles'.
   HugeVector<NormalRecord> normals;
+  HugeVector<ColourRecord> colours;  // same length, or empty when every vertex is white
 
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;

@@ -32,8 +32,8 @@ MaterialUse useOf(const Material& material, const std::vector<Texture>& textures
   use.triangleClass = static_cast<std::uint8_t>((material.castsShadow ? 0 : kNoShadowBit) |
                                                 (masked ? kMaskedBit : 0));
   bool textured = false, u = true, v = true;
-  for (const std::int32_t map :
-       {material.diffuseMap, material.specularMap, material.normalMap, material.alphaMap}) {
+  for (const std::int32_t map : {material.diffuseMap, material.specularMap, material.emissionMap,
+                                 material.normalMap, material.alphaMap}) {
     if (map == kNoTexture) continue;
     const Texture& texture = textures[static_cast<std::size_t>(map)];
     textured = true;
@@ -86,6 +86,19 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
     std::copy_n(&n.x, 3, result.normal + 3 * i);
   }
   return result;
+}
+
+ColourRecord makeColourRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& mended) {
+  ColourRecord record;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rgb given = mesh.colours.empty() ? Rgb(1.0f) : mesh.colours[mesh.triangles[triangle][i]];
+    for (int channel = 0; channel < 3; ++channel) {
+      const float x = given[channel], inRange = x > 0 ? std::min(x, 1.0f) : 0.0f;
+      mended += !(x == inRange);
+      record.colour[3 * i + static_cast<std::size_t>(channel)] = inRange;
+    }
+  }
+  return record;
 }
 
 }  // namespace whit

@@ -39,4 +39,8 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
                               std::uint64_t& mended);
 
+// White where the mesh has no colours. What is not in [0, 1] is clamped, or 0 if it is no number,
+// and added to `mended`.
+ColourRecord makeColourRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& mended);
+
 }  // namespace whit

@@ -28,6 +28,9 @@ void checkSize(const SceneDescription& d) {
 }
 
 void checkCamera(const Camera& c, const std::string& where) {
+  if (!(c.orthographicHeight >= 0 && std::isfinite(c.orthographicHeight))) {
+    throwBadScene(where, "expected a finite height of an orthographic camera, or 0");
+  }
   if (!isFinite(c.eye) || !isFinite(c.at) || !isFinite(c.up) || !std::isfinite(c.fov)) {
     throwBadScene(where, "expected finite eye, at, up and fov");
   }
@@ -163,6 +166,7 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
     const std::string where = place(d.name, "material", i, m.name);
     checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::colour);
     checkMap(d, where, "specularMap", m.specularMap, TexelFormat::colour);
+    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::colour);
     checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
     checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
     if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {
@@ -191,6 +195,7 @@ void checkObjects(const SceneDescription& d) {
       };
       if (!mesh.normals.empty()) expect("normals", mesh.normals.size(), mesh.positions.size());
       if (!mesh.uvs.empty()) expect("uvs", mesh.uvs.size(), mesh.positions.size());
+      if (!mesh.colours.empty()) expect("colours", mesh.colours.size(), mesh.positions.size());
       if (mesh.materials.size() != 1 && !mesh.triangles.empty()) {
         expect("materials", mesh.materials.size(), mesh.triangles.size());
       }

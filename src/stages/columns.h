@@ -18,16 +18,17 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 }
 
 // Why a column exists: needed by every frame, or only by frames with some effect or choice.
-enum class Group : std::uint8_t { always, glossy, transmission, instances, lift, paths };
+enum class Group : std::uint8_t { always, glossy, transmission, instances, emission, lift, paths };
 
 struct Groups {
-  bool glossy = true, transmission = true, instances = true;
+  bool glossy = true, transmission = true, instances = true, emission = true;
   bool lift = false, paths = false;  // by choice, whatever the effects
   bool operator==(const Groups&) const = default;
   constexpr bool has(Group g) const {
     return g == Group::always || (g == Group::glossy && glossy) ||
            (g == Group::transmission && transmission) || (g == Group::instances && instances) ||
-           (g == Group::lift && lift) || (g == Group::paths && paths);
+           (g == Group::emission && emission) || (g == Group::lift && lift) ||
+           (g == Group::paths && paths);
   }
 };
 
@@ -74,7 +75,8 @@ struct Groups {
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
 // must start (numerics H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
-// refracted child; `lift` is added to the position where shadow rays start.
+// refracted child; the material's emission is multiplied by `emission`; `lift` is added to the
+// position where shadow rays start.
 #define WHIT_SURFEL_COLUMNS(X)          \
   X(float, posX, always)                \
   X(float, posY, always)                \
@@ -94,6 +96,9 @@ struct Groups {
   X(float, specularG, glossy)           \
   X(float, specularB, glossy)           \
   X(float, alpha, glossy)               \
+  X(float, emissionR, emission)         \
+  X(float, emissionG, emission)         \
+  X(float, emissionB, emission)         \
   X(float, liftX, lift)                 \
   X(float, liftY, lift)                 \
   X(float, liftZ, lift)                 \

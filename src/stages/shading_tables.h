@@ -22,7 +22,7 @@ struct alignas(64) MaterialRecord {
   float alpha;  // GGX width, roughness squared and bounded below
   std::uint32_t medium;
   std::uint32_t flags;
-  float spare0;
+  std::int32_t emissionMap;
   // impulses
   float mirror[3];
   float spare1;
@@ -34,7 +34,8 @@ struct alignas(64) MaterialRecord {
 static_assert(sizeof(MaterialRecord) == 128);
 inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
-                               kMaterialGlossy = 8, kMaterialScatters = 16;
+                               kMaterialGlossy = 8, kMaterialScatters = 16,
+                               kMaterialTintsSpecular = 32, kMaterialTintsEmission = 64;
 
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
@@ -73,7 +74,10 @@ struct ShadingTables {
   // One record a triangle, or with a stride of 0 a single one of zeros, which stands for flat
   // faces.
   const NormalRecord* normals = nullptr;
-  int normalStride = 0;                      // floats
+  int normalStride = 0;  // floats
+  // Likewise, of ones: white.
+  const ColourRecord* colours = nullptr;
+  int colourStride = 0;                      // floats
   std::vector<MaterialRecord> materials;     // at least one
   std::vector<TextureRecord> textures;       // at least one
   HugeVector<std::uint32_t> texels;          // all textures of the frame's effects

@@ -200,16 +200,19 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
   const SceneDescription scene = loadText(triangleText(
       "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5235987755982988,"
       "\"znear\":0.1,\"aspectRatio\":2}},{\"type\":\"orthographic\",\"orthographic\":"
-      "{\"xmag\":1,\"ymag\":1,\"zfar\":9,\"znear\":1}}],"
+      "{\"xmag\":1,\"ymag\":1.5,\"zfar\":9,\"znear\":1}},{\"type\":\"orthographic\","
+      "\"orthographic\":{\"xmag\":1,\"ymag\":0,\"zfar\":9,\"znear\":1}}],"
       "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"name\":\"lamp\","
       "\"intensity\":1366,\"color\":[1,0.5,0],\"range\":9},{\"type\":\"laser\"}]}},"
       "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"name\":\"eye\",\"translation\":[0,0,3],\"rotation\":"
-      "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},"
+      "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},{\"camera\":2},"
       "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}}]"));
-  ASSERT_EQ(scene.cameras.size(), 1u);
+  ASSERT_EQ(scene.cameras.size(), 2u);
   const Camera& camera = scene.cameras[0];
   EXPECT_EQ(camera.name, "eye");
+  EXPECT_EQ(camera.orthographicHeight, 0);
+  EXPECT_EQ(scene.cameras[1].orthographicHeight, 3);  // twice ymag
   EXPECT_NEAR(camera.fov, 30, 1e-4);
   // Looking along -z, turned a quarter about +y: along -x.
   expectNear(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
@@ -221,7 +224,7 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
   expectNear(Vec3d(scene.lights[0].intensity), {2, 1, 0});  // 1366 cd at 683 lm/W
   EXPECT_EQ(warned("light of an unknown type left out"), 1u);
   EXPECT_EQ(warned("light's range left out, it shines on"), 1u);
-  EXPECT_EQ(warned("camera that is not a perspective one left out"), 1u);
+  EXPECT_EQ(warned("camera of an unknown type or without an extent left out"), 1u);
 }
 
 // Along the node's -z; angles in radians, from the axis.

@@ -1,108 +1,8 @@
 // Materials of glTF files: pictures of a square, their colours worked out by hand.
-#include <cmath>
-
-#include "core/srgb.h"
-#include "gltf_files.h"
-#include "io/image_file.h"
-#include "render/renderer.h"
+#include "gltf_pictures.h"
 
 namespace whit {
 namespace {
-
-// Some roundings of float, and of texels to 10 bits of their square roots.
-constexpr double kClose = 2e-3;
-constexpr double kPi = 3.14159265358979323846;
-
-// [-1, 1]^2 at `z`, facing +z, its texture upright and not mirrored as seen from there.
-struct Square {
-  double z = 0;
-  std::string material;  // JSON
-  double size = 1;
-};
-
-// Seen from (0, 0, 3) by a camera that holds exactly [-1, 1]^2 of the plane z = 0.
-class GltfMaterials : public GltfTest {
- protected:
-  std::string sceneText(const std::vector<Square>& squares) {
-    GltfBuilder b;
-    const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));
-    const std::string indices = std::to_string(b.indices({0, 1, 2, 0, 2, 3}));
-    std::string meshes, nodes, roots, materials;
-    for (std::size_t i = 0; i < squares.size(); ++i) {
-      const auto z = static_cast<float>(squares[i].z), s = static_cast<float>(squares[i].size);
-      const std::string position =
-          std::to_string(b.positions({-s, -s, z, s, -s, z, s, s, z, -s, s, z}));
-      const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
-      materials += comma + squares[i].material;
-      meshes += comma + "{\"primitives\":[{\"material\":" + number + ",\"indices\":" + indices +
-                ",\"attributes\":{\"POSITION\":" + position + ",\"TEXCOORD_0\":" + uv + "}}]}";
-      nodes += "{\"mesh\":" + number + "},";
-      roots += number + ",";
-    }
-    const std::string n = std::to_string(squares.size());
-    const double cd = 683 * candela_;
-    return b.json("\"materials\":[" + materials + "],\"meshes\":[" + meshes + "],\"nodes\":[" +
-                  nodes + "{\"camera\":0,\"translation\":[0,0,3]},{\"translation\":[" + light_ +
-                  "],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"scenes\":"
-                  "[{\"nodes\":[" +
-                  roots + n + "," + std::to_string(squares.size() + 1) +
-                  "]}],"
-                  "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"znear\":1,\"yfov\":" +
-                  std::to_string(2 * std::atan(1.0 / 3)) +
-                  "}}],\"extensions\":"
-                  "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":" +
-                  std::to_string(cd) + "}]}}" + images_);
-  }
-
-  // n x n pixels, row by row from the top.
-  std::vector<Rgb> picture(const std::vector<Square>& squares, int n) {
-    const Scene scene = Scene::finalize(loadText(sceneText(squares)), warnings_);
-    RenderOptions options;
-    options.size = ImageSize{n, n};
-    options.threads = 1;
-    Renderer renderer(scene, options);
-    Film film = makeFilm(scene, options);
-    renderer.render(scene.cameras[0], film);
-    return film.image.pixels;
-  }
-  Rgb pixel(const std::string& material) { return picture({{0, material, 1}}, 1)[0]; }
-
-  // Textures 0, 1, ...: images beside the scene, by their own samplers.
-  void useImages(const std::vector<std::string>& files, const std::string& sampler = "") {
-    std::string images, textures;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      const std::string comma = i > 0 ? "," : "";
-      images += comma + "{\"uri\":\"" + files[i] + "\"}";
-      textures += comma + "{\"source\":" + std::to_string(i) +
-                  (sampler.empty() ? "" : ",\"sampler\":0") + "}";
-    }
-    images_ = ",\"images\":[" + images + "],\"textures\":[" + textures + "]" +
-              (sampler.empty() ? "" : ",\"samplers\":[{" + sampler + "}]");
-  }
-
-  // Of what is no metal, without a highlight.
-  static std::string matte(const std::string& pbr, const std::string& rest = "") {
-    return "{\"pbrMetallicRoughness\":{\"metallicFactor\":0" + (pbr.empty() ? "" : "," + pbr) +
-           "},\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}" +
-           (rest.empty() ? "" : "," + rest) + "}";
-  }
-  static std::string glowing(const std::string& colour) {
-    return matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":" + colour);
-  }
-
-  // Lit from the eye, a white Lambertian square is seen as this at (x, y) of its plane: as 1 in the
-  // middle.
-  static double lit(double x, double y) {
-    const double d = std::sqrt(x * x + y * y + 9);
-    return 27 / (d * d * d);
-  }
-  static void expectColour(const Rgb& got, const Rgb& wanted, double tolerance = kClose) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
-  }
-
-  double candela_ = 9 * kPi;  // at 683 lm/W
-  std::string light_ = "0,0,3", images_;
-};
 
 TEST_F(GltfMaterials, LambertianBaseColour) {
   expectColour(pixel(matte("\"baseColorFactor\":[0.5,0.25,1,1]")), {0.5f, 0.25f, 1});
@@ -361,16 +261,6 @@ TEST_F(GltfMaterials, NormalMaps) {
   const double half = (0.3 + 0.8) / std::sqrt(2 * (0.09 + 0.64));
   expectColour(show("3,0,3", "right.tga", ",\"scale\":0.5"),
                Rgb(static_cast<float>(arriving * half)), kCode);
-}
-
-TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
-  save("t.tga", tga(1, 1, {{255, 255, 255}}));
-  useImages({"t.tga", "missing.png"}, "\"magFilter\":9728");
-  loadText(sceneText({{0, "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0}}", 1},
-                      {1, matte("\"baseColorTexture\":{\"index\":1}"), 1}}));
-  EXPECT_EQ(warned("emission by a texture left out"), 1u);
-  EXPECT_EQ(warned("texture left out"), 1u);
-  EXPECT_EQ(warned("texture to be looked up at its nearest texel, interpolated instead"), 1u);
 }
 
 }  // namespace

@@ -58,6 +58,37 @@ TEST(Analytic, lightFallsOffOverAPlane) {
   EXPECT_LE(worst, kBound);
 }
 
+// Straight down on a floor that emits in the square [0, 1] x [-1, 0] only: the picture is a map. As
+// in the reference, whatever the eye's distance.
+TEST(Analytic, anOrthographicCameraDrawsAMap) {
+  SceneBuilder builder;
+  Material glowing = blackMaterial();
+  glowing.emission = Rgb(1.0f);
+  builder.add(quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(glowing)));
+  const Scene scene = builder.build();
+  for (const float distance : {1.0f, 1000.0f}) {
+    Camera camera = lookingDown();
+    camera.eye.y = distance;
+    camera.orthographicHeight = 4;
+    RenderOptions o = smallOptions();
+    o.size = ImageSize{60, 40};  // ten pixels a unit
+    Renderer renderer(scene, o);
+    Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+    renderer.render(camera, packets);
+    renderer.renderReference(camera, reference);
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const bool inside = x >= 30 && x < 40 && y >= 10 && y < 20;
+        ASSERT_EQ(packets.image.at(x, y), Rgb(inside ? 1.0f : 0.0f)) << x << "," << y;
+        ASSERT_EQ(reference.image.at(x, y), packets.image.at(x, y)) << x << "," << y;
+      }
+    }
+    for (const StageDifference& row : compareStages(renderer, camera, packets)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp) << row.column;
+    }
+  }
+}
+
 // Not even a material: the tables of the kernels must not be empty for that.
 TEST(Analytic, nothingShowsTheSky) {
   SceneBuilder builder;

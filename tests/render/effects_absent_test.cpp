@@ -22,6 +22,9 @@ EffectSet withDependents(Effect effect) {
   switch (effect) {
     case Effect::lights:
       return set.with(Effect::shadows).with(Effect::spotLights).with(Effect::directionalLights);
+    case Effect::textures:
+    case Effect::emission:
+      return set.with(Effect::emissionMaps);
     case Effect::sky:
       return set.with(Effect::skyImage);
     case Effect::transmission:

@@ -21,6 +21,8 @@ const char* sceneWith(Effect effect) {
       return "landscape?triangles=20000";
     case Effect::skyImage:
     case Effect::glossyReflection:
+    case Effect::emissionMaps:
+    case Effect::vertexColours:
     case Effect::spotLights:
     case Effect::directionalLights:
       return "effects";

@@ -31,6 +31,24 @@ TEST(Bake, OneUseIsBakedIntoTheWorld) {
   EXPECT_EQ(scene.instancedTriangles, 2u);
 }
 
+TEST(Bake, VertexColoursAreClampedAndWhiteWhereThereAreNone) {
+  Mesh coloured = square();
+  for (Vec3f& p : coloured.positions) p.z = 1;
+  coloured.colours = {{1, 0.5f, 0}, {2, -1, std::nanf("")}, {0, 0, 1}, {1, 1, 1}};
+  SceneDescription d = sceneOf(square());
+  d.objects[0].meshes.push_back(coloured);
+  Warnings warnings;
+  const Scene scene = Scene::finalize(std::move(d), warnings);
+  ASSERT_EQ(scene.colours.size(), scene.triangles.size());
+  for (const float channel : scene.colours[0].colour) EXPECT_EQ(channel, 1);
+  const float wanted[] = {1, 0.5f, 0, 1, 0, 0, 0, 0, 1};
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(scene.colours[2].colour[i], wanted[i]) << i;
+  EXPECT_EQ(test::warned(warnings, "vertex colour out of range clamped"), 3u);
+  SceneDescription white = sceneOf(square());
+  white.objects[0].meshes[0].colours.assign(4, Rgb(1.0f));
+  EXPECT_TRUE(finalized(std::move(white)).colours.empty());
+}
+
 TEST(Bake, RecordsAgreeWithTheGeometry) {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(square());

@@ -57,6 +57,17 @@ TEST(CameraFrame, VerticalFovFromTheNarrowestToTheWidest) {
   }
 }
 
+TEST(CameraFrame, OrthographicPixelsAreShareOfTheHeight) {
+  Camera camera;
+  camera.orthographicHeight = 3;
+  const CameraFrame f = makeCameraFrame(camera, 64, 48);
+  EXPECT_TRUE(f.orthographic);
+  EXPECT_EQ(length(f.right), 3.0 / 48);
+  EXPECT_EQ(length(f.up), 3.0 / 48);
+  EXPECT_EQ(length(f.forward), 1);
+  EXPECT_FALSE(makeCameraFrame(Camera(), 64, 48).orthographic);
+}
+
 TEST(CameraFrame, FovBeyondTheLimitsIsClamped) {
   const auto pixel = [](float fov) {
     Camera camera;

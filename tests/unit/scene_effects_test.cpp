@@ -77,6 +77,19 @@ const std::vector<Rule>& rules() {
        },
        "1 material with emission, 2 triangles use it",
        {}},
+      {Effect::emissionMaps,
+       [](auto& d) {
+         first(d).emission = {0, 0, 1};
+         first(d).emissionMap = addTexture(d, TexelFormat::colour);
+       },
+       "1 material with a texture of emission, 2 triangles use it",
+       EffectSet().with(Effect::emission).with(Effect::textures)},
+      {Effect::vertexColours,
+       [](auto& d) {
+         d.objects[0].meshes[0].colours = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.5f, 1}};
+       },
+       "some vertices are not white",
+       {}},
       {Effect::sky, [](auto& d) { useSky(d, Sky::Kind::colour); }, "the sky is not black", {}},
       {Effect::skyImage, [](auto& d) { useSky(d, Sky::Kind::image); }, "the sky is an image",
        EffectSet().with(Effect::sky)},

@@ -1,0 +1,64 @@
+// Emission by textures, unlit materials, vertex colours, and what is counted because it is left
+// out.
+#include "gltf_pictures.h"
+
+namespace whit {
+namespace {
+
+// The factor times the texture, in light: code 188 is 0.5029.
+TEST_F(GltfMaterials, EmissionByATexture) {
+  candela_ = 0;
+  save("t.tga", tga(1, 1, {{255, 188, 0}}));
+  useImages({"t.tga"});
+  const auto half = static_cast<float>(srgbToLinear(188 / 255.0));
+  expectColour(pixel(matte("", "\"emissiveFactor\":[0.5,1,1],\"emissiveTexture\":{\"index\":0}")),
+               {0.5f, half, 0});
+}
+
+// Not lit, and not reflecting what a metal would.
+TEST_F(GltfMaterials, UnlitTexture) {
+  save("t.tga", tga(1, 1, {{255, 188, 0}}));
+  useImages({"t.tga"});
+  const auto half = static_cast<float>(srgbToLinear(188 / 255.0));
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,1,1],"
+                     "\"roughnessFactor\":0,\"baseColorTexture\":{\"index\":0}},"
+                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+               {0.5f, half, 0});
+}
+
+// Between the corners as between any attributes; in the middle of the first triangle's edge, half
+// of each end.
+TEST_F(GltfMaterials, VertexColours) {
+  colours_ = {1, 0, 0, 0, 1, 0, 1, 0.5f, 1, 0, 0, 1};
+  expectColour(pixel(matte("\"baseColorFactor\":[0.5,0.5,1,1]")), {0.5f, 0.125f, 0.5f});
+  candela_ = 0;
+  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,1,1]},"
+                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+               {0.5f, 0.125f, 0.5f});
+  expectColour(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base colour
+}
+
+TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
+  save("t.tga", tga(1, 1, {{255, 255, 255}}));
+  useImages({"t.tga", "missing.png"}, "\"magFilter\":9728");
+  const std::string slot = "\":{\"index\":0}";
+  loadText(sceneText(
+      {{0,
+        "{\"extensions\":{\"KHR_materials_specular\":{\"specularTexture" + slot +
+            ",\"specularColorTexture" + slot + "},\"KHR_materials_clearcoat\":{\"clearcoatTexture" +
+            slot + ",\"clearcoatRoughnessTexture" + slot +
+            "},\"KHR_materials_volume\":{\"thicknessTexture" + slot + "}}}",
+        1},
+       {1, matte("\"baseColorTexture\":{\"index\":1}"), 1}}));
+  EXPECT_EQ(warned("specular strength by a texture left out"), 1u);
+  EXPECT_EQ(warned("specular colour by a texture left out"), 1u);
+  EXPECT_EQ(warned("clearcoat by a texture left out"), 1u);
+  EXPECT_EQ(warned("roughness of a clearcoat by a texture left out"), 1u);
+  EXPECT_EQ(warned("thickness of a volume by a texture left out: what the mesh encloses counts"),
+            1u);
+  EXPECT_EQ(warned("texture left out"), 1u);
+  EXPECT_EQ(warned("texture to be looked up at its nearest texel, interpolated instead"), 1u);
+}
+
+}  // namespace
+}  // namespace whit

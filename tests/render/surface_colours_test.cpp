@@ -1,0 +1,170 @@
+// Vertex colours and textures of emission: in the reference against closed forms, in the vector
+// pipeline against the reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/small_scenes.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of the formulas in double
+
+// The square [0, 1]^2 of the floor y = 0, seen from above; u and -z run from its first corner.
+Mesh colouredFloor(std::uint32_t material) {
+  Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
+  mesh.colours = {{1, 0.5f, 0.25f}, {0, 0.5f, 0.75f}, {0.5f, 1, 0}, {0.25f, 0.25f, 1}};
+  return mesh;
+}
+
+RgbD seenAt(const Scene& scene, double u, double v, EffectSet effects = EffectSet::all()) {
+  reference::Settings settings = uncut();
+  settings.effects = effects;
+  return radianceAlong(scene, {u, 1, -v}, {0, -1, 0}, settings);
+}
+
+void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRounding) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
+}
+
+// Ambient light 1 shows the diffuse colour.
+Scene ambientScene(const Material& material) {
+  SceneBuilder builder;
+  builder.add(colouredFloor(builder.add(material)));
+  builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+  return builder.build();
+}
+
+TEST(VertexColours, AreInterpolatedAndMultiplyTheDiffuseColour) {
+  const Scene scene = ambientScene(diffuseMaterial(0.5f));
+  // In the first triangle, corners 0, 1, 2: weights 1 - u, u - v, v.
+  const double u = 0.75, v = 0.25;
+  expectNear(seenAt(scene, u, v),
+             RgbD{0.25 + 0.5 * 0.25, 0.125 + 0.25 + 0.25, 0.0625 + 0.375} * 0.5);
+  expectNear(seenAt(scene, u, v, EffectSet::all().without(Effect::vertexColours)), RgbD(0.5));
+}
+
+TEST(VertexColours, OfWhatIsUnlitMultiplyTheEmissionAlone) {
+  Material m = diffuseMaterial(0.5f);
+  m.emission = Rgb(2.0f);
+  m.vertexTint = VertexTint::emission;
+  const RgbD colour{0.25 + 0.5 * 0.25, 0.125 + 0.25 + 0.25, 0.0625 + 0.375};
+  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(0.5) + colour * 2.0);
+  m.vertexTint = VertexTint::diffuse;
+  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(2.0) + colour * 0.5);
+}
+
+TEST(VertexColours, OfMetalMultiplyTheHighlight) {
+  Material m = blackMaterial();
+  m.specular = Rgb(0.5f);
+  const auto highlight = [&](VertexTint tint, bool coloured) {
+    m.vertexTint = tint;
+    SceneBuilder builder;
+    Mesh mesh = colouredFloor(builder.add(m));
+    // Above 4 % of reflectance nothing else depends on the colour at normal incidence.
+    mesh.colours.assign(coloured ? 4 : 0, {1, 0.5f, 0.25f});
+    builder.add(std::move(mesh));
+    builder.description.lights = {lightAt({0.75f, 2, -0.25f}, 1)};
+    return seenAt(builder.build(), 0.75, 0.25);
+  };
+  const RgbD white = highlight(VertexTint::diffuse, false);
+  EXPECT_GT(white.x, 0);
+  expectNear(highlight(VertexTint::diffuse, true), white);
+  expectNear(highlight(VertexTint::diffuseAndSpecular, true), white * RgbD{1, 0.5, 0.25}, 1e-6);
+}
+
+// Two texels, red and dark grey, side by side; (code / 1023)^2 is the light.
+TEST(EmissionMap, MultipliesTheEmission) {
+  SceneBuilder builder;
+  Material m = blackMaterial();
+  m.emission = {4, 8, 8};
+  m.emissionMap =
+      builder.add(makeTexture(TexelFormat::colour, 2, 1, {1023u, 341u | 341u << 10 | 341u << 20}));
+  builder.add(quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m)));
+  const Scene scene = builder.build();
+  expectNear(seenAt(scene, 0.25, 0.5), {4, 0, 0});
+  expectNear(seenAt(scene, 0.75, 0.5), RgbD{4, 8, 8} / 9.0);
+  expectNear(seenAt(scene, 0.25, 0.5, EffectSet::all().without(Effect::emissionMaps)), {4, 8, 8});
+  expectNear(seenAt(scene, 0.25, 0.5, EffectSet::all().without(Effect::emission)), {});
+}
+
+// All at once: textures of both kinds, tints of all kinds, with and without instances.
+Scene everything() {
+  SceneBuilder builder;
+  const std::int32_t map = builder.add(makeTexture(
+      TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+  Object tiles;
+  for (int i = 0; i < 6; ++i) {
+    Material m = diffuseMaterial(0.5f);
+    m.vertexTint = static_cast<VertexTint>(i % 3);
+    if (i >= 3) m.emissionMap = map;
+    if (i != 4) m.emission = {0.5f, 0.25f, 1};
+    if (i % 2) m.diffuseMap = map;
+    m.specular = Rgb(i == 2 ? 0.0f : 0.4f);
+    m.roughness = 0.4f;
+    Mesh mesh = colouredFloor(builder.add(m));
+    if (i == 5) mesh.colours.clear();
+    for (Vec3f& p : mesh.positions)
+      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centres
+    tiles.meshes.push_back(std::move(mesh));
+  }
+  builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
+  builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
+  builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
+  Camera camera;
+  camera.eye = {0, 5, 1};
+  camera.at = {0, 0, 0.25f};
+  camera.up = {0, 0, -1};
+  builder.description.cameras = {camera};
+  return builder.build();
+}
+
+constexpr std::size_t kAtEdges = 7;  // pixels, 0.1 % of the picture: another surface is hit
+
+std::size_t differences(const Image& a, const Image& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    count += !(maxComponent(abs(a.pixels[i] - b.pixels[i])) < 1e-3f);
+  }
+  return count;
+}
+
+TEST(SurfaceColours, agreeWithTheReferenceOnEveryTarget) {
+  const Scene scene = everything();
+  for (const std::string& target : simd::availableTargets()) {
+    RenderOptions o = smallOptions();
+    o.simd = target;
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column;
+    }
+    Film reference = makeFilm(scene, o);
+    renderer.render(chooseCamera(scene, o), film);
+    renderer.renderReference(chooseCamera(scene, o), reference);
+    EXPECT_LE(differences(film.image, reference.image), kAtEdges) << target;
+  }
+  simd::chooseTarget("auto");
+}
+
+TEST(SurfaceColours, eachEffectLeftOutIsGoneAsInTheReference) {
+  const Scene scene = everything();
+  for (const Effect effect :
+       {Effect::vertexColours, Effect::emissionMaps, Effect::textures, Effect::emission}) {
+    RenderOptions o = smallOptions();
+    o.disable = EffectSet().with(effect);
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
+    renderer.render(chooseCamera(scene, o), film);
+    renderer.renderReference(chooseCamera(scene, o), reference);
+    EXPECT_LE(differences(film.image, reference.image), kAtEdges)
+        << kEffectNames[static_cast<std::size_t>(effect)].name;
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
