@@ -119,6 +119,7 @@ TEST(Options, EveryChoiceGoesBothWays) {
   options.eye = Vec3f{0.1f, -1e-30f, 3e20f};
   options.at = options.up = Vec3f{0, 1, 0};
   options.fov = 1.0f / 3;
+  options.ortho = 2.5f;
   options.crop = Crop{1, 2, 3, 4};
   options.disable = EffectSet::all();
   for (const Quality quality :
