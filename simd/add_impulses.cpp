@@ -83,6 +83,7 @@ struct Child {
   V3 origin, direction, weight;
   VU media, path;
   VF largest;  // of the weight, for the cutoff
+  VF cone;
 };
 
 HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayColumns& rays,
@@ -101,6 +102,7 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
   compactor.Store(throughput, children.throughput + at);
   if (children.media) compactor.Store(child.media, children.media + at);
   if (children.path) compactor.Store(child.path, children.path + at);
+  if (children.cone) compactor.Store(child.cone, children.cone + at);
   compactor.Store(hn::Iota(du, static_cast<uint32_t>(i)), children.parent + at);
   return compactor.Count();
 }
@@ -112,6 +114,12 @@ HWY_INLINE VU PathsAt(const RayColumns& rays, size_t i) {
 }
 HWY_INLINE VU ChildPathsAt(const RayColumns& rays, size_t i, uint32_t branch) {
   return rays.path ? ChildPath(PathsAt(rays, i), branch) : hn::Zero(UintTag());
+}
+
+// Where there are cones, the children's begin as wide as their parents' end.
+HWY_INLINE VF ConesAt(const SurfelColumns& surfels, size_t i) {
+  const FloatTag d;
+  return surfels.cone ? hn::Load(d, surfels.cone + i) : hn::Zero(d);
 }
 
 // A reflected direction, lifted where a bent normal would send it below the surface (numerics H32).
@@ -162,7 +170,8 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
                       weight,
                       media,
                       ChildPathsAt(rays, i, kMirroredBranch),
-                      MaxComponent(weight)};
+                      MaxComponent(weight),
+                      ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }
   return count - first;
@@ -187,6 +196,7 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
     const V3 origin = ChildOrigin(tables, surfels, lanes, i, 1.0f);
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
     const VU path = PathsAt(rays, i);
+    const VF cone = ConesAt(surfels, i);
     // A smooth lobe is one impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
       const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, lobes.rough);
@@ -199,7 +209,8 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
                         Scale3(sample.weight, counts),
                         media,
                         ChildPath(path, kFirstGlossyBranch + k),
-                        MaxComponent(sample.weight)};
+                        MaxComponent(sample.weight),
+                        cone};
       count += Append(child, live, cutoff, rays, i, children, count);
     }
   }
@@ -241,7 +252,8 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
                       weight,
                       hn::Load(du, surfels.mediaBehind + i),
                       ChildPathsAt(rays, i, kRefractedBranch),
-                      MaxComponent(weight)};
+                      MaxComponent(weight),
+                      ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }
   return count - first;

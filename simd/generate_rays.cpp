@@ -37,6 +37,7 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, static_cast<uint32_t>(i)), du, rays.parent + i);
     if (rays.media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
+    if (rays.cone) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
     if (rays.path) hn::Store(PathOfPixel(packed, camera.sampleNumber), du, rays.path + i);
   }
 }

@@ -92,15 +92,17 @@ HWY_INLINE Tints FindTints(const V3& colour, VF flagBits) {
 template <uint32_t kBits>
 HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
                                 const RayColumns& rays, const HitColumns& hits, size_t i,
-                                size_t slot, BlockTextures& block, const SurfelColumns& surfels) {
+                                size_t slot, float coneSpread, BlockTextures& block,
+                                const SurfelColumns& surfels) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f);
   if constexpr ((kBits & kTextured) != 0) {
-    block.diffuse.any[slot] = block.specular.any[slot] = block.emission.any[slot] = false;
+    block.diffuse.level.any[slot] = block.specular.level.any[slot] = false;
+    block.emission.level.any[slot] = false;
   }
-  if constexpr ((kBits & kNormalMapped) != 0) block.normal.any[slot] = false;
+  if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
   const VU hit = hn::Load(du, hits.triangle + i);
   const MF valid = hn::RebindMask(d, hn::Ne(hit, hn::Set(du, kMiss)));
   if ((effects.bits() & kAbsorption) != 0) Absorb(tables, rays, hits, valid, i);
@@ -144,19 +146,26 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   }
   const TableReader material(tables.materials.data(), kMaterialStride, t.material, valid);
   const V4 diffuse = material.Columns4(0);
-  const VF texU = Interpolate(w, t.u0, t.u1, t.u2), texV = Interpolate(w, t.v0, t.v1, t.v2);
+  TexturePoints at{Interpolate(w, t.u0, t.u1, t.u2), Interpolate(w, t.v0, t.v1, t.v2), hn::Zero(d)};
   const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-  const MF entering = hn::Lt(Dot(direction, ng), hn::Zero(d));
+  const VF cosine = Dot(direction, ng);
+  if (surfels.cone) {
+    const VF width =
+        hn::MulAdd(hn::Set(d, coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
+    hn::Store(width, d, surfels.cone + i);
+    at.footprint = TextureFootprint(t, edge1, edge2, width, cosine);
+  }
+  const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = hn::IfThenElse(entering, one, hn::Set(d, -1.0f));
   if constexpr ((kBits & kTextured) != 0) {
-    QueueMap(tables, diffuse.w, valid, texU, texV, slot, block.diffuse);
+    QueueMap(tables, diffuse.w, valid, at, slot, block.diffuse);
   }
   if constexpr ((kBits & kNormalMapped) != 0) {
     const VF map = material.Columns4(8).w;
     const MF mapped = hn::And(valid, hn::RebindMask(d, NonNegative(hn::BitCast(di, map))));
     if (!hn::AllFalse(d, mapped)) {
       const TangentFrame frame = FindTangentFrame(t, edge1, edge2, ns, handedness);
-      QueueMap(tables, map, hn::And(mapped, frame.good), texU, texV, slot, block.normal);
+      QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
       StoreFrame(frame, flip, slot, block);
     }
   }
@@ -177,7 +186,7 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   if (surfels.emissionR) {
     Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
     if constexpr ((kBits & kTextured) != 0) {
-      QueueMap(tables, lobe.w, valid, texU, texV, slot, block.emission);
+      QueueMap(tables, lobe.w, valid, at, slot, block.emission);
     }
   }
   const VU materialOrMiss =
@@ -186,7 +195,7 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   if ((effects.bits() & kGlossy) != 0) {
     const V4 specular = material.Columns4(4);
     if constexpr ((kBits & kTextured) != 0) {
-      QueueMap(tables, specular.w, valid, texU, texV, slot, block.specular);
+      QueueMap(tables, specular.w, valid, at, slot, block.specular);
     }
     V3 f0{specular.x, specular.y, specular.z};
     if (coloured) f0 = Mul3(f0, tints.specular);
@@ -236,7 +245,8 @@ HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns&
 template <uint32_t kBits>
 HWY_NOINLINE uint32_t InterpolateSurfelsVariant(const ShadingTables& tables, EffectSet effects,
                                                 const RayColumns& rays, const HitColumns& hits,
-                                                size_t n, const SurfelColumns& surfels) {
+                                                size_t n, const SurfelColumns& surfels,
+                                                float coneSpread) {
   const UintTag du;
   const size_t lanes = hn::Lanes(du);
   VU flags = hn::Zero(du);
@@ -246,7 +256,7 @@ HWY_NOINLINE uint32_t InterpolateSurfelsVariant(const ShadingTables& tables, Eff
     PrefetchTriangles<kBits>(tables, hits, begin, end);
     for (size_t i = begin; i < end; i += lanes) {
       flags = hn::Or(flags, InterpolateVector<kBits>(tables, effects, rays, hits, i, i - begin,
-                                                     block, surfels));
+                                                     coneSpread, block, surfels));
     }
     if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
       for (size_t i = begin; i < end; i += lanes) {
@@ -262,11 +272,12 @@ HWY_NOINLINE uint32_t InterpolateSurfelsVariant(const ShadingTables& tables, Eff
 }
 
 uint32_t InterpolateSurfels(const ShadingTables& tables, EffectSet effects, const RayColumns& rays,
-                            const HitColumns& hits, size_t n, const SurfelColumns& surfels) {
+                            const HitColumns& hits, size_t n, const SurfelColumns& surfels,
+                            float coneSpread) {
   static constexpr auto kVariants = variantTable<kInterpolateSurfels>(
       []<uint32_t kBits>() { return &InterpolateSurfelsVariant<kBits>; });
-  return kVariants[kInterpolateSurfels.variantFor(effects)](tables, effects, rays, hits, n,
-                                                            surfels);
+  return kVariants[kInterpolateSurfels.variantFor(effects)](tables, effects, rays, hits, n, surfels,
+                                                            coneSpread);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE
@@ -277,8 +288,9 @@ namespace whit::simd {
 HWY_EXPORT(InterpolateSurfels);
 std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
                                  const RayColumns& rays, const HitColumns& hits, std::size_t n,
-                                 const SurfelColumns& surfels) noexcept {
-  return HWY_DYNAMIC_DISPATCH(InterpolateSurfels)(tables, effects, rays, hits, n, surfels);
+                                 const SurfelColumns& surfels, float coneSpread) noexcept {
+  return HWY_DYNAMIC_DISPATCH(InterpolateSurfels)(tables, effects, rays, hits, n, surfels,
+                                                  coneSpread);
 }
 }  // namespace whit::simd
 #endif

@@ -28,6 +28,7 @@ struct CameraRays {
   std::uint32_t sampleNumber = 0;  // the sample's place in the pattern
   std::uint32_t media = 0;         // CameraFrame's
   bool orthographic = false;
+  float coneWidth = 0;  // RayCone's, where there are cones
 };
 
 // Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =
@@ -37,10 +38,11 @@ void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::si
 
 // Second half of findIntersections: surfels from hits. Absorption in the medium that a ray came
 // through is multiplied into its weight and throughput. Returns the kMaterial flags that the
-// material of some surfel has: what none has, the stages that follow can leave out.
+// material of some surfel has: what none has, the stages that follow can leave out. Where there are
+// cones, `coneSpread` is that of all rays.
 std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
                                  const RayColumns& rays, const HitColumns& hits, std::size_t n,
-                                 const SurfelColumns& surfels) noexcept;
+                                 const SurfelColumns& surfels, float coneSpread = 0) noexcept;
 
 // Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
 // the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).

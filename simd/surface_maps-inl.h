@@ -6,6 +6,7 @@
 #define WHIT_SIMD_SURFACE_MAPS_INL_H_
 #endif
 
+#include "hwy/contrib/math/math-inl.h"
 #include "simd/texture-inl.h"
 #include "simd/triangle-inl.h"
 
@@ -38,9 +39,30 @@ HWY_INLINE TangentFrame FindTangentFrame(const TriangleLanes& t, const V3& edge1
   return {tangent, bitangent, good};
 }
 
+// The area of texture space, of which a repeat is 1, that a cone of this width covers (the scalar
+// twin, with its source: reference/surfel.h). Lengths are brought to the order of the edges by a
+// power of two first, as for GeometricNormal.
+HWY_INLINE VF TextureFootprint(const TriangleLanes& t, const V3& edge1, const V3& edge2,
+                               VF coneWidth, VF cosine) {
+  const VF inTexture = hn::Abs(DifferenceOfProducts(hn::Sub(t.u1, t.u0), hn::Sub(t.v2, t.v0),
+                                                    hn::Sub(t.u2, t.u0), hn::Sub(t.v1, t.v0)));
+  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF scale = InverseExponent(largest);
+  const V3 area = Cross(Scale3(edge1, scale), Scale3(edge2, scale));
+  const VF inWorld = hn::Sqrt(Dot(area, area));
+  const VF across = hn::Div(hn::Mul(coneWidth, scale), hn::Abs(cosine));
+  return hn::Mul(hn::Div(inTexture, inWorld), hn::Mul(across, across));
+}
+
+// Where a block looks a map up; in mip maps also at the level above, which counts for `between`.
+struct MapQueue {
+  TexelQueue level, above;
+  HWY_ALIGN float between[TexelQueue::kRays];
+};
+
 // What waits for texels, of one block of rays.
 struct BlockTextures {
-  TexelQueue diffuse, specular, emission, normal;
+  MapQueue diffuse, specular, emission, normal;
   HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
 };
 
@@ -50,39 +72,95 @@ HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, Bloc
   Store3(b, block.tangent[3], block.tangent[4], block.tangent[5], slot);
 }
 
-HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, VF u, VF v, size_t slot,
-                         TexelQueue& queue) {
+// Where a vector of rays meets its textures: coordinates, and the footprint where levels are mixed.
+struct TexturePoints {
+  VF u, v, footprint;
+};
+
+// The level at which a texel is as large as so many of the full texture; 0 where that is no number.
+HWY_INLINE VF MipLevel(VF texels) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const VF area = hn::IfThenElse(hn::Gt(texels, one), texels, one);
+  const VF held = hn::Min(area, hn::Set(d, kLargestArea));
+  const VF level = hn::Mul(hn::Log2(d, held), hn::Set(d, 0.5f));
+  return hn::Min(hn::Max(level, hn::Zero(d)), hn::Set(d, kMipLevels - 1));
+}
+
+// Not inlined: frames that do not mix levels shall not carry this along.
+HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live, const TexturePoints& at,
+                              size_t slot, MapQueue& queue) {
+  const FloatTag d;
+  const IntTag di;
+  queue.level.any[slot] = !hn::AllFalse(d, live);
+  if (!queue.level.any[slot]) return;
+  const void* records = tables.mipLevels.data();
+  const VI full =
+      hn::IfThenElseZero(hn::RebindMask(di, live), hn::Mul(map, hn::Set(di, kMipStride)));
+  const V4 record = TableReader(records, kTextureStride, full, live).Columns4(0);
+  const VF width = hn::ConvertTo(d, hn::BitCast(di, record.y));
+  const VF height = hn::ConvertTo(d, hn::BitCast(di, record.z));
+  const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), height));
+  const VF whole = hn::Floor(level);
+  const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
+  const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
+    QueueTexels(TextureFilter::bilinear, records, tables.texels.data(), index, live, at.u, at.v,
+                slot, to);
+  };
+  queueAt(lower, queue.level);
+  queueAt(hn::Add(lower, hn::Set(di, 1)), queue.above);
+  hn::Store(hn::Sub(level, whole), d, queue.between + slot);
+}
+
+HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, const TexturePoints& at,
+                         size_t slot, MapQueue& queue) {
   const VI map = hn::BitCast(IntTag(), mapBits);
   const MF mapped = hn::And(live, hn::RebindMask(FloatTag(), NonNegative(map)));
+  if (HWY_UNLIKELY(tables.shading.textureFilter == TextureFilter::trilinear)) {
+    QueueLevels(tables, map, mapped, at, slot, queue);
+    return;
+  }
   QueueTexels(tables.shading.textureFilter, tables.textures.data(), tables.texels.data(), map,
-              mapped, u, v, slot, queue);
+              mapped, at.u, at.v, slot, queue.level);
+}
+
+// What waits at `slot`, filtered: `filter` makes a value of a footprint.
+template <class Filter>
+HWY_INLINE V3 FilterMap(const ShadingTables& tables, const MapQueue& queue, size_t slot,
+                        const Filter& filter) {
+  const TextureFilter choice = tables.shading.textureFilter;
+  const uint32_t* texels = tables.texels.data();
+  const V3 value = filter(FetchTexels(choice, texels, queue.level, slot));
+  if (HWY_LIKELY(choice != TextureFilter::trilinear)) return value;
+  const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));
+  return MulAdd3(Sub3(above, value), hn::Load(FloatTag(), queue.between + slot), value);
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColour(const ShadingTables& tables, const TexelQueue& queue, size_t slot,
+HWY_INLINE void ApplyColour(const ShadingTables& tables, const MapQueue& queue, size_t slot,
                             float* r, float* g, float* b, size_t i) {
-  if (!queue.any[slot]) return;
+  if (!queue.level.any[slot]) return;
   const V3 colour = Load3(r, g, b, i);
   const V3 texture =
-      FilterColour(FetchTexels(tables.shading.textureFilter, tables.texels.data(), queue, slot));
-  Store3(Select3(QueuedLanes(queue, slot), Mul3(colour, texture), colour), r, g, b, i);
+      FilterMap(tables, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColour(f); });
+  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(colour, texture), colour), r, g, b, i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.
 HWY_INLINE void ApplyNormalMap(const ShadingTables& tables, const BlockTextures& block, size_t slot,
                                const SurfelColumns& surfels, size_t i) {
-  if (!block.normal.any[slot]) return;
+  if (!block.normal.level.any[slot]) return;
   const FloatTag d;
   const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
-  const V3 code = FilterData3(
-      FetchTexels(tables.shading.textureFilter, tables.texels.data(), block.normal, slot));
+  const V3 code = FilterMap(tables, block.normal, slot,
+                            [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
   const V3 m{hn::MulSub(code.x, two, one), hn::MulSub(code.y, two, one),
              hn::MulSub(code.z, two, one)};
   const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
   const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
   const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
   const V3 bent = MulAdd3(tangent, m.x, MulAdd3(bitangent, m.y, Scale3(ns, m.z)));
-  Store3(Select3(QueuedLanes(block.normal, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
+  Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
          surfels.nsY, surfels.nsZ, i);
 }
 

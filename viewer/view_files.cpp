@@ -65,6 +65,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   options.fov = frame.request.camera.fov;
   // Also where it is 0, if the camera that is changed by these options has another.
   const float height = frame.request.camera.orthographicHeight;
+  options.ortho.reset();
   if (height != frame.scene->scene.cameras.front().orthographicHeight) options.ortho = height;
   std::string text = "whit render " + quoted(scene);
   for (const auto& [name, value] : pictureOptions(options)) {

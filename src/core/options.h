@@ -115,7 +115,8 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("fresnel", "exact|schlick",
         "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
         o.shading.fresnel);
-  visit("texture-filter", "nearest|bilinear", "how textures are looked up; alpha masks: bilinear",
+  visit("texture-filter", "nearest|bilinear|trilinear",
+        "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
         o.shading.textureFilter);
   visit("offset", "bound|fixed|wachter-binder",
         "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and more",

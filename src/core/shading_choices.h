@@ -9,8 +9,12 @@ namespace whit {
 // rendering"). Where reflection is total, both are 1.
 enum class FresnelModel { exact, schlick };
 
-// Of colours, reflectances and normal maps; alpha masks are always bilinear.
-enum class TextureFilter { nearest, bilinear };
+// Of colours, reflectances and normal maps; alpha masks are always bilinear. Trilinear: between the
+// two mip levels whose texels come closest to the pixel's footprint, which follows from a cone
+// about the ray (Akenine-Moeller et al. 2019, "Texture level of detail strategies for real-time ray
+// tracing", Ray Tracing Gems, chapter 20). Mirrors and glass hand the cone's spread on as it is,
+// whatever their curvature, and so do samples of glossy lobes.
+enum class TextureFilter { nearest, bilinear, trilinear };
 
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {

@@ -11,11 +11,11 @@ inline Ray generateRay(const CameraFrame& camera, double x, double y) {
   if (camera.orthographic) {
     const Vec3d aside =
         camera.right * (x - camera.width / 2.0) - camera.up * (y - camera.height / 2.0);
-    return {camera.eye + aside, camera.forward};
+    return {camera.eye + aside, camera.forward, pixelCone(camera)};
   }
   const Vec3d through = camera.forward + camera.right * (x - camera.width / 2.0) -
                         camera.up * (y - camera.height / 2.0);
-  return {camera.eye, normalized(through, camera.forward)};
+  return {camera.eye, normalized(through, camera.forward), pixelCone(camera)};
 }
 
 }  // namespace whit::reference

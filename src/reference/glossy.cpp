@@ -67,7 +67,7 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const Vec3d r =
       choices.bend ? lifted(mirrored, s.geometricNormal, std::min(0.9 * nl, 0.01)) : mirrored;
-  return {fresnel * passes, {rayOrigin(choices.offset, s, 1), r}, stack};
+  return {fresnel * passes, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 
 }  // namespace whit::reference

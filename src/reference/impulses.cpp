@@ -12,22 +12,22 @@ namespace {
 Ray reflectedRay(const Surfel& s, const ShadingChoices& choices) {
   const Vec3d mirrored = reflect(-s.view, s.shadingNormal),
               origin = rayOrigin(choices.offset, s, 1);
-  if (!choices.bend) return {origin, mirrored};
-  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s))};
+  if (!choices.bend) return {origin, mirrored, s.cone};
+  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
 }
 
 Ray refractedRay(const Surfel& s, const Interface& interface, double c,
                  const ShadingChoices& choices) {
   const Vec3d d = -s.view, origin = rayOrigin(choices.offset, s, -1);
-  if (interface.k == 0) return {origin, d};
+  if (interface.k == 0) return {origin, d, s.cone};
   const Vec3d bent = refract(interface, d, s.shadingNormal, c);
-  if (!choices.bend) return {origin, bent};
+  if (!choices.bend) return {origin, bent, s.cone};
   // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
   // change nothing.
   const double facing = dot(s.view, s.geometricNormal);
   const double g2 = interface.k + facing * facing;
   const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
-  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01))};
+  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
 }
 
 // The mirror coat's reflectance.
@@ -51,8 +51,9 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
                       const Crossing& crossing, MediaStack stack, const ShadingChoices& choices) {
   Impulses result;
   if (crossing.hidden) {
-    result.refracted = {
-        RgbD(1.0), {rayOrigin(choices.offset, surfel, -1), -surfel.view}, crossing.stackBehind};
+    result.refracted = {RgbD(1.0),
+                        {rayOrigin(choices.offset, surfel, -1), -surfel.view, surfel.cone},
+                        crossing.stackBehind};
     return result;
   }
   const Material& material = scene.materials[surfel.material];

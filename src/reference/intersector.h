@@ -5,11 +5,13 @@
 #include <cstdint>
 
 #include "core/vec3.h"
+#include "scene/camera.h"
 
 namespace whit::reference {
 
 struct Ray {
   Vec3d origin, direction;
+  RayCone cone{};  // for texture lookups
 };
 
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/image.h"
@@ -11,6 +12,7 @@
 #include "core/progress.h"
 #include "reference/intersector.h"
 #include "scene/light_shares.h"
+#include "scene/mip_maps.h"
 #include "scene/pixel_edges.h"
 #include "scene/scene.h"
 
@@ -89,6 +91,7 @@ class Tracer {
   const Intersector& intersector_;
   Settings settings_;
   std::vector<Vec2f> samples_;
+  std::optional<MipMaps> maps_;  // where lookups are trilinear
 };
 
 // All pixels of image.window; rows shared among settings.threads threads.

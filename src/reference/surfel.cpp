@@ -1,6 +1,7 @@
 #include "reference/surfel.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/texture_sampling.h"
 
@@ -43,10 +44,43 @@ double magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* 
   return carried.x + carried.y + carried.z;
 }
 
+// The textures at a hit.
+class Lookups {
+ public:
+  Lookups(const Scene& scene, const TextureLookup& how, const TexturePoint& at, double footprint)
+      : scene_(scene), how_(how), at_(at), footprint_(footprint) {}
+
+  RgbD colour(std::int32_t map) const {
+    if (how_.filter != TextureFilter::trilinear) {
+      return sampleColour(textureOf(map), at_.u, at_.v, how_.filter);
+    }
+    return sampleColour(*how_.maps, static_cast<std::size_t>(map), at_.u, at_.v, levelOf(map));
+  }
+  DataSample data(std::int32_t map) const {
+    if (how_.filter != TextureFilter::trilinear) {
+      return sampleData(textureOf(map), at_.u, at_.v, how_.filter);
+    }
+    return sampleData(*how_.maps, static_cast<std::size_t>(map), at_.u, at_.v, levelOf(map));
+  }
+
+ private:
+  const Texture& textureOf(std::int32_t map) const {
+    return scene_.textures[static_cast<std::size_t>(map)];
+  }
+  double levelOf(std::int32_t map) const {
+    return mipLevel(footprint_ * textureOf(map).width * textureOf(map).height);
+  }
+
+  const Scene& scene_;
+  const TextureLookup& how_;
+  TexturePoint at_;
+  double footprint_;
+};
+
 // `normal` bent by a tangent-space normal map: x along growing u, y along growing v. Unchanged
 // where texture space has collapsed.
-Vec3d bentNormal(const Texture& map, TextureFilter filter, const TriangleRecord& triangle,
-                 const TriangleHit& hit, const Affine* toWorld, const Vec3d& normal) {
+Vec3d bentNormal(const DataSample& m, const TriangleRecord& triangle, const Affine* toWorld,
+                 const Vec3d& normal) {
   const Edges e = edgesOf(triangle);
   const double determinant = e.du1 * e.dv2 - e.du2 * e.dv1;
   if (determinant == 0) return normal;
@@ -61,15 +95,13 @@ Vec3d bentNormal(const Texture& map, TextureFilter filter, const TriangleRecord&
   tangent = normalized(tangent - normal * dot(normal, tangent));
   if (tangent == Vec3d{}) return normal;
   const Vec3d bitangent = cross(normal, tangent) * handedness;
-  const TexturePoint at = texturePoint(triangle, hit);
-  const DataSample m = sampleData(map, at.u, at.v, filter);
   return normalized(tangent * (2 * m.r - 1) + bitangent * (2 * m.g - 1) + normal * (2 * m.b - 1),
                     normal);
 }
 
-// Both normals as modelled, on the outside of the surface.
+// Both normals as modelled, on the outside of the surface, without normal maps.
 void findNormals(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                 const TriangleHit& hit, const Affine* toWorld, TextureFilter filter, Surfel& s) {
+                 const TriangleHit& hit, const Affine* toWorld, Surfel& s) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
   const auto carried = [&](const Vec3d& n) { return toWorld ? toWorld->normal(n) : n; };
   const Edges e = edgesOf(triangle);
@@ -78,11 +110,6 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
   if (effects.has(Effect::smoothNormals) && !scene.normals.empty()) {
     const Vec3d n = interpolate(scene.normals[candidate.triangle].normal, hit);
     s.shadingNormal = normalized(carried(n), s.geometricNormal);
-  }
-  const std::int32_t map = scene.materials[triangle.material].normalMap;
-  if (effects.has(Effect::normalMaps) && map != kNoTexture) {
-    s.shadingNormal = bentNormal(scene.textures[static_cast<std::size_t>(map)], filter, triangle,
-                                 hit, toWorld, s.shadingNormal);
   }
 }
 
@@ -105,15 +132,13 @@ void tint(const RgbD& colour, VertexTint what, Surfel& s) {
 }
 
 void findColours(const Scene& scene, EffectSet effects, std::uint32_t number,
-                 const TriangleHit& hit, TextureFilter filter, Surfel& s) {
+                 const TriangleHit& hit, const Lookups& lookups, Surfel& s) {
   const TriangleRecord& triangle = scene.triangles[number];
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
-  const TexturePoint at = texturePoint(triangle, hit);
   const auto textured = [&](const Rgb& factor, std::int32_t map) {
     if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
-    return RgbD(factor) *
-           sampleColour(scene.textures[static_cast<std::size_t>(map)], at.u, at.v, filter);
+    return RgbD(factor) * lookups.colour(map);
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
@@ -131,6 +156,16 @@ TexturePoint texturePoint(const TriangleRecord& triangle, const TriangleHit& hit
   const double w = 1 - hit.u - hit.v;
   const float* uv = triangle.uv;
   return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
+}
+
+double textureFootprint(const TriangleRecord& triangle, const Affine* toWorld, double coneWidth,
+                        double cosine) {
+  const Edges e = edgesOf(triangle);
+  const auto carried = [&](const Vec3d& v) { return toWorld ? toWorld->vector(v) : v; };
+  const double inTexture = std::abs(e.du1 * e.dv2 - e.du2 * e.dv1);
+  const double inWorld = length(cross(carried(e.e1), carried(e.e2)));
+  const double across = coneWidth / std::abs(cosine);
+  return inTexture / inWorld * across * across;
 }
 
 bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
@@ -162,7 +197,7 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
 }
 
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction, TextureFilter filter) {
+                  const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
   const Affine* toWorld =
       candidate.instance == kNoHit ? nullptr : &scene.instances[candidate.instance].toWorld;
@@ -171,14 +206,25 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   s.position = interpolate(triangle.position, hit);
   if (toWorld) s.position = toWorld->point(s.position);
   s.offset = 32 * kUnitRoundOff * magnitude(triangle, hit, toWorld);
-  findNormals(scene, effects, candidate, hit, toWorld, filter, s);
+  s.cone = lookup.cone;
+  findNormals(scene, effects, candidate, hit, toWorld, s);
+  double footprint = 0;
+  if (lookup.filter == TextureFilter::trilinear) {
+    const double cosine = dot(direction, s.geometricNormal);
+    footprint = textureFootprint(triangle, toWorld, lookup.cone.width, cosine);
+  }
+  const Lookups lookups(scene, lookup, texturePoint(triangle, hit), footprint);
+  const std::int32_t normalMap = scene.materials[triangle.material].normalMap;
+  if (effects.has(Effect::normalMaps) && normalMap != kNoTexture) {
+    s.shadingNormal = bentNormal(lookups.data(normalMap), triangle, toWorld, s.shadingNormal);
+  }
   s.entering = dot(direction, s.geometricNormal) < 0;
   if (!s.entering) {
     s.geometricNormal = -s.geometricNormal;
     s.shadingNormal = -s.shadingNormal;
   }
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
-  findColours(scene, effects, candidate.triangle, hit, filter, s);
+  findColours(scene, effects, candidate.triangle, hit, lookups, s);
   return s;
 }
 

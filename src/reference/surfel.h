@@ -5,6 +5,7 @@
 #include "core/shading_choices.h"
 #include "reference/intersector.h"
 #include "reference/triangle.h"
+#include "scene/mip_maps.h"
 #include "scene/scene.h"
 
 namespace whit::reference {
@@ -23,6 +24,14 @@ struct Surfel {
   RgbD diffuse, specular;  // textures and vertex colours applied
   RgbD emission{1, 1, 1};  // what they multiply the material's by
   double alpha = 1;        // width of the glossy lobe (GGX), roughness squared
+  RayCone cone;            // of rays that go on from here
+};
+
+// How makeSurfel looks textures up.
+struct TextureLookup {
+  TextureFilter filter = TextureFilter::bilinear;
+  const MipMaps* maps = nullptr;  // of the scene, if trilinear
+  RayCone cone{};                 // at the hit: what a ray starts with that goes on from there
 };
 
 // `hit` must lie on the candidate's triangle (refineHit); `direction` is the ray's, unit length.
@@ -35,8 +44,14 @@ struct Surfel {
 // 32 * 2^-24 times the sum of the magnitudes that go into it (numerics: H1-H4; after the error
 // bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction,
-                  TextureFilter filter = TextureFilter::bilinear);
+                  const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup = {});
+
+// The area of texture space, of which a repeat is 1, that a cone of this width covers about the
+// hit, if it does so alike in all directions: its section by the triangle's plane is that much
+// longer than wide, and counts as if it were as wide (Akenine-Moeller et al. 2019, section
+// 20.3.4). `cosine` is that between ray and plane's normal.
+double textureFootprint(const TriangleRecord& triangle, const Affine* toWorld, double coneWidth,
+                        double cosine);
 
 // How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
 // are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow

@@ -77,4 +77,26 @@ DataSample sampleData(const Texture& texture, double u, double v, TextureFilter 
   return {channel(0), channel(8), channel(16), channel(24)};
 }
 
+double mipLevel(double area) {
+  return area > 1 ? 0.5 * std::log2(std::min(area, double{kLargestArea})) : 0;
+}
+
+RgbD sampleColour(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
+  const int lower = static_cast<int>(level);
+  const double between = level - lower;
+  const RgbD a = sampleColour(maps.level(texture, lower), u, v),
+             b = sampleColour(maps.level(texture, lower + 1), u, v);
+  return a + (b - a) * between;
+}
+
+DataSample sampleData(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
+  const int lower = static_cast<int>(level);
+  const double between = level - lower;
+  const DataSample a = sampleData(maps.level(texture, lower), u, v),
+                   b = sampleData(maps.level(texture, lower + 1), u, v);
+  const auto mixed = [&](double DataSample::*c) { return a.*c + (b.*c - a.*c) * between; };
+  return {mixed(&DataSample::r), mixed(&DataSample::g), mixed(&DataSample::b),
+          mixed(&DataSample::a)};
+}
+
 }  // namespace whit::reference

@@ -1,8 +1,8 @@
-// Texture lookups in double precision.
+// Texture lookups in double precision. None of these mixes mip levels but those that take MipMaps.
 #pragma once
 
 #include "core/shading_choices.h"
-#include "scene/texture.h"
+#include "scene/mip_maps.h"
 
 namespace whit::reference {
 
@@ -18,5 +18,13 @@ struct DataSample {
 // Channels in [0, 1], of a texture in TexelFormat::data.
 DataSample sampleData(const Texture& texture, double u, double v,
                       TextureFilter filter = TextureFilter::bilinear);
+
+// The mip level at which a texel is as large as the `area` of the full texture, in texels: 0 up to
+// one texel, and one more each time that the area's sides double. 0 where the area is no number.
+double mipLevel(double area);
+
+// Bilinear lookups in the levels below and above `level`, mixed by its fraction.
+RgbD sampleColour(const MipMaps& maps, std::size_t texture, double u, double v, double level);
+DataSample sampleData(const MipMaps& maps, std::size_t texture, double u, double v, double level);
 
 }  // namespace whit::reference

@@ -73,7 +73,11 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
     : scene_(scene),
       intersector_(intersector),
       settings_(settings),
-      samples_(samplePattern(settings.spp)) {}
+      samples_(samplePattern(settings.spp)) {
+  if (settings.shading.textureFilter == TextureFilter::trilinear) {
+    maps_.emplace(scene, settings.threads);
+  }
+}
 
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                           RayCounts& counts, PrimaryShare* share, Path path) const {
@@ -87,8 +91,11 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
 
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  const Surfel surfel = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction,
-                                   settings_.shading.textureFilter);
+  const TextureLookup lookup{settings_.shading.textureFilter,
+                             maps_ ? &*maps_ : nullptr,
+                             {ray.cone.widthAt(hit.t), ray.cone.spread}};
+  const Surfel surfel =
+      makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction, lookup);
   if (share) share->meet(surfaceOf(surfel, candidate));
   const Crossing crossing =
       crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);

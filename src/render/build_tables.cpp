@@ -68,38 +68,55 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
   }
 }
 
-void addTextures(const Scene& scene, EffectSet effects, ShadingTables& tables) {
-  const bool needed = effects.has(Effect::textures) || effects.has(Effect::normalMaps);
+// One flag a texture of the scene.
+std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const ShadingTables& tables) {
   std::vector<bool> used(scene.textures.size(), false);
-  const auto use = [&](std::int32_t texture) {
-    if (texture != kNoTexture) used[static_cast<std::size_t>(texture)] = true;
-  };
+  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps)) return used;
   for (const MaterialRecord& m : tables.materials) {
-    use(m.diffuseMap);
-    use(m.specularMap);
-    use(m.emissionMap);
-    use(m.normalMap);
+    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap}) {
+      if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
+    }
   }
+  return used;
+}
+
+TextureRecord addTexels(const Texture& t, ShadingTables& tables) {
+  const TextureRecord record{
+      static_cast<std::uint32_t>(tables.texels.size()), t.width, t.height,
+      static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
+  tables.texels.insert(tables.texels.end(), t.texels.begin(), t.texels.end());
+  return record;
+}
+
+void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& tables) {
+  TextureRecord record = tables.textures[texture];
+  for (int level = 0; level < kMipStride; ++level) {
+    if (level > 0 && level < maps.levels(texture)) {
+      record = addTexels(maps.level(texture, level), tables);
+    }
+    tables.mipLevels.push_back(record);
+  }
+}
+
+void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
+  constexpr TextureRecord kUnused{0, 1, 1, 0};
+  const std::vector<bool> used = usedTextures(scene, effects, tables);
+  const bool trilinear = tables.shading.textureFilter == TextureFilter::trilinear;
+  const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
   std::size_t total = 0;
-  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    if (needed && used[i]) total += scene.textures[i].texels.size();
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
+      total += maps.level(i, level).texels.size();
+    }
   }
   if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
   tables.texels.reserve(total + 1);
-  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    const Texture& t = scene.textures[i];
-    TextureRecord record{static_cast<std::uint32_t>(tables.texels.size()), t.width, t.height,
-                         static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV)
-                                                                   << 8};
-    if (needed && used[i]) {
-      tables.texels.insert(tables.texels.end(), t.texels.begin(), t.texels.end());
-    } else {
-      record = {0, 1, 1, 0};
-    }
-    tables.textures.push_back(record);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    tables.textures.push_back(used[i] ? addTexels(scene.textures[i], tables) : kUnused);
+    if (trilinear) addMipLevels(maps, i, tables);
   }
   if (tables.texels.empty()) tables.texels.push_back(0);
-  if (tables.textures.empty()) tables.textures.push_back({0, 1, 1, 0});
+  if (tables.textures.empty()) tables.textures.push_back(kUnused);
 }
 
 void addInstances(const Scene& scene, ShadingTables& tables) {
@@ -140,7 +157,8 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
 
 }  // namespace
 
-ShadingTables buildTables(const Scene& scene, EffectSet effects) {
+ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
+                          int threads) {
   // What rays that miss read, masked; a scene may be empty.
   static const TriangleRecord nowhere{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}, 0};
   static const NormalRecord flat{};
@@ -151,8 +169,9 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects) {
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
   tables.colours = scene.colours.empty() ? &white : scene.colours.data();
   tables.colourStride = scene.colours.empty() ? 0 : sizeof(ColourRecord) / sizeof(float);
+  tables.shading = shading;
   addMaterials(scene, effects, tables);
-  addTextures(scene, effects, tables);
+  addTextures(scene, effects, threads, tables);
   addInstances(scene, tables);
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
@@ -161,7 +180,7 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects) {
   return tables;
 }
 
-void refreshShading(const Scene& scene, EffectSet effects, ShadingTables& tables) {
+void refreshShading(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
   const std::vector<MaterialRecord> before = tables.materials;
   addMaterials(scene, effects, tables);
   const bool sameTextures =
@@ -171,7 +190,7 @@ void refreshShading(const Scene& scene, EffectSet effects, ShadingTables& tables
                           a.emissionMap == b.emissionMap && a.normalMap == b.normalMap;
                  });
   if (!sameTextures) {
-    tables = buildTables(scene, effects);
+    tables = buildTables(scene, effects, tables.shading, threads);
     return;
   }
   addMedia(scene, tables);

@@ -5,12 +5,14 @@
 
 namespace whit {
 
-// Only what `effects` need is copied. The scene must outlive the tables. Throws Error(limit) when
-// textures hold more texels than a 31-bit index reaches.
-ShadingTables buildTables(const Scene& scene, EffectSet effects);
+// Only what `effects` and choices need is copied or, of mip maps, made, by `threads` together. The
+// scene must outlive the tables. Throws Error(limit) when textures hold more texels than a 31-bit
+// index reaches.
+ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
+                          int threads = 1);
 
-// After materials or lights of the scene have changed, the effects being the same: texels and
-// geometry, which take long to copy, stay where they are, unless other textures are needed now.
-void refreshShading(const Scene& scene, EffectSet effects, ShadingTables& tables);
+// After materials or lights of the scene have changed, effects and choices being the same: texels
+// and geometry, which take long to copy, stay where they are, unless other textures are needed now.
+void refreshShading(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables);
 
 }  // namespace whit

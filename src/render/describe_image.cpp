@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
   resolved.at = camera.at;
   resolved.up = camera.up;
   resolved.fov = camera.fov;
-  if (camera.orthographicHeight > 0) resolved.ortho = camera.orthographicHeight;
+  if (camera.orthographicHeight > 0 || resolved.ortho) resolved.ortho = camera.orthographicHeight;
   if (options.mode == Mode::packets) {
     resolved.packet = renderer.machine().packet;
     resolved.simd = renderer.machine().simd;

@@ -56,6 +56,8 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
   plan.groups.lift =
       options.shading.terminator && plan.traceShadows && plan.effects.has(Effect::smoothNormals);
   plan.groups.paths = plan.glossySamples > 0;
+  plan.groups.cones = options.shading.textureFilter == TextureFilter::trilinear &&
+                      (plan.effects.has(Effect::textures) || plan.effects.has(Effect::normalMaps));
   plan.groups.instances = plan.effects.has(Effect::instances);
   plan.stages = {Stage::generateRays, Stage::findIntersections,
                  Stage::writeEmittedAndReflectiveAmbient};

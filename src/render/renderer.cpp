@@ -98,8 +98,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
   p.accel->setEnclosed(options.robust && options.retry && isEnclosed(scene, *p.accel));
-  p.tables = buildTables(scene, p.plan.effects);
-  p.tables.shading = options.shading;
+  p.tables = buildTables(scene, p.plan.effects, options.shading, p.machine.threads);
   p.pool.emplace(p.machine.threads);
   p.machine.simd = simd::chosenTarget();
   p.machine.embree = p.accel->description();
@@ -163,6 +162,7 @@ FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& 
   job.camera = makeCameraFrame(camera, film.image.width, film.image.height);
   job.camera.media =
       reference::mediaAround(scene, plan.effects, EmbreeIntersector(*accel), job.camera.eye);
+  job.coneSpread = static_cast<float>(pixelCone(job.camera).spread);
   job.samples = samplePattern(options.spp);
   job.cutoff = options.cutoff;
   job.exposureScale = std::exp2(options.exposure);
@@ -247,11 +247,10 @@ void Renderer::shadingChanged() {
   Parts& p = *parts_;
   const Plan plan = makePlan(p.scene, p.options);
   if (plan.effects == p.plan.effects) {
-    refreshShading(p.scene, plan.effects, p.tables);
+    refreshShading(p.scene, plan.effects, p.machine.threads, p.tables);
   } else {
-    p.tables = buildTables(p.scene, plan.effects);
+    p.tables = buildTables(p.scene, plan.effects, p.options.shading, p.machine.threads);
   }
-  p.tables.shading = p.options.shading;
   p.replan(plan);
 }
 
@@ -263,7 +262,10 @@ void Renderer::setOptions(const RenderOptions& options) {
         "alpha masks and instances are part of the acceleration structure: it has to be built "
         "anew");
   }
-  if (plan.effects != p.plan.effects) p.tables = buildTables(p.scene, plan.effects);
+  const bool lacksMips = plan.groups.cones && p.tables.mipLevels.empty();
+  if (plan.effects != p.plan.effects || lacksMips) {
+    p.tables = buildTables(p.scene, plan.effects, options.shading, p.machine.threads);
+  }
   p.tables.shading = options.shading;
   p.replan(plan);
   takeOver(options, p.options);

@@ -1,6 +1,7 @@
 // whit compare --stages: each vector stage against its scalar twin, on the very same input.
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/display.h"
 #include "reference/generate_ray.h"
@@ -12,6 +13,7 @@
 #include "reference/triangle.h"
 #include "render/pixel_tracker.h"
 #include "render/renderer_parts.h"
+#include "render/stage_limits.h"
 #include "render/widen.h"
 
 namespace whit {
@@ -20,34 +22,12 @@ namespace {
 
 constexpr std::size_t kSlotsPerStage = 200000;  // a sample of the frame is plenty, and much faster
 
-// Limits, in ulps of the largest component, with the reasons for their sizes.
-constexpr double kDirectionLimit = 4;  // a normalised sum of three products
-constexpr double kPositionLimit = 4;   // three products, against the largest corner
-constexpr double kLiftLimit = 8;       // three products of two positions' difference
-constexpr double kNormalLimit = 4;     // cross product by differences of products, normalised
-// An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
-// the contrast between two of them it is a visible number of ulps of the colour (numerics H68).
-constexpr double kTexturedLimit = 4096;
-constexpr double kSkyLimit = 512;      // likewise, for azimuth and elevation
-constexpr double kRadianceLimit = 32;  // a dozen factors, some of them squared
-constexpr double kWeightLimit = 4096;  // Fresnel's root at the critical angle: 4e-4 (H37)
-constexpr double kChildLimit = 512;    // the refracted direction there: 3e-5 (H37)
-constexpr double kSumLimit = 1;        // one addition
-constexpr double kExact = 0;
-
-double ulpOf(double magnitude) {
-  const float m = static_cast<float>(std::fabs(magnitude));
-  // Far below anything visible, and far enough above the least normal float for its ulp to be one
-  // too: workers flush what is smaller to zero.
-  constexpr float least = 1e-25f;
-  const float at = std::max(m, least);
-  return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
-}
-
 class StageComparer : public StageObserver {
  public:
   StageComparer(const Scene& scene, const Plan& plan, const FrameJob& job)
-      : scene_(scene), plan_(plan), shading_(job.tables->shading), job_(job) {}
+      : scene_(scene), plan_(plan), shading_(job.tables->shading), job_(job) {
+    if (plan.groups.cones) maps_.emplace(scene);
+  }
 
   void after(Stage stage, const ChunkView& chunk) override {
     tracker_.follow(stage, chunk);
@@ -152,30 +132,41 @@ class StageComparer : public StageObserver {
       if (c.hits.triangle[i] == kMiss) continue;
       const reference::Candidate candidate = candidateOf(c.hits, i);
       const reference::TriangleHit hit{static_cast<double>(c.hits.t[i]), candidate.u, candidate.v};
-      const reference::Surfel twin = reference::makeSurfel(
-          scene_, plan_.effects, candidate, hit, directionOf(c.rays, i), shading_.textureFilter);
       const reference::Surfel got = surfelOf(c, i);
+      const reference::TextureLookup lookup{shading_.textureFilter, maps_ ? &*maps_ : nullptr,
+                                            got.cone};
+      const reference::Surfel twin = reference::makeSurfel(scene_, plan_.effects, candidate, hit,
+                                                           directionOf(c.rays, i), lookup);
       // The offset is 32 units in the last place of all that went into the position.
       const double magnitude = twin.offset * 0x1p19;
       constexpr Stage stage = Stage::findIntersections;
       compare(stage, "position", got.position, twin.position, magnitude, kPositionLimit, c, i);
       // A surface seen edge on may be entered in one precision and left in the other.
-      if (std::fabs(dot(twin.geometricNormal, twin.view)) < 1e-5) continue;
+      const double cosine = std::fabs(dot(twin.geometricNormal, twin.view));
+      if (cosine < 1e-5) continue;
       const double sliver = sliverFactor(candidate);
       compare(stage, "geometricNormal", got.geometricNormal, twin.geometricNormal, sliver,
               kNormalLimit, c, i);
       const bool mapped = plan_.effects.has(Effect::normalMaps);
       compare(stage, "shadingNormal", got.shadingNormal, twin.shadingNormal, sliver,
               mapped ? kTexturedLimit : kNormalLimit, c, i);
-      compare(stage, "diffuse", got.diffuse, twin.diffuse, 1, kTexturedLimit, c, i);
+      // The footprint is as uncertain as area and cosine, which it is divided by.
+      const double footprint = maps_ ? kFootprintLimit / kTexturedLimit * sliver / cosine : 0;
+      const double colour = std::max(1.0, footprint);
+      compare(stage, "diffuse", got.diffuse, twin.diffuse, colour, kTexturedLimit, c, i);
+      if (maps_) {
+        const RayCone cone{static_cast<double>(c.rays.cone[i]), job_.coneSpread};
+        compare(stage, "cone", Vec3d(got.cone.width), Vec3d(cone.widthAt(hit.t)), 0, kConeLimit, c,
+                i);
+      }
       if (plan_.groups.lift) {
         compare(stage, "lift", got.lift, twin.lift, magnitude, kLiftLimit, c, i);
       }
       if (plan_.groups.emission) {
-        compare(stage, "emission", got.emission, twin.emission, 1, kTexturedLimit, c, i);
+        compare(stage, "emission", got.emission, twin.emission, colour, kTexturedLimit, c, i);
       }
       if (plan_.groups.glossy) {
-        compare(stage, "specular", got.specular, twin.specular, 1, kTexturedLimit, c, i);
+        compare(stage, "specular", got.specular, twin.specular, colour, kTexturedLimit, c, i);
       }
     }
   }
@@ -296,6 +287,10 @@ class StageComparer : public StageObserver {
       compare(stage, "direction", directionOf(c.children, k), twin.ray.direction, 1, kChildLimit, c,
               i);
       compare(stage, "origin", originOf(c.children, k), twin.ray.origin, 0, kPositionLimit, c, i);
+      if (c.children.cone) {
+        note(stage, "cone", c.children.cone[k] == c.surfels.cone[i] ? 0 : 1, kExact,
+             tracker_.pixel(c, i), c.depth);
+      }
       if (c.children.media) {
         note(stage, "media", c.children.media[k] == twin.media ? 0 : 1, kExact,
              tracker_.pixel(c, i), c.depth);
@@ -327,6 +322,7 @@ class StageComparer : public StageObserver {
   const Plan& plan_;
   const ShadingChoices& shading_;
   const FrameJob& job_;
+  std::optional<MipMaps> maps_;  // where lookups are trilinear
   PixelTracker tracker_;
   std::vector<RgbD> before_;
 };

@@ -48,7 +48,8 @@ simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample, std::uint32
           sample.y,
           sampleNumber,
           camera.media,
-          camera.orthographic};
+          camera.orthographic,
+          static_cast<float>(pixelCone(camera).width)};
 }
 
 }  // namespace
@@ -152,7 +153,7 @@ void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColum
   pass.stats.embreeWorkerMs += meter.embreeMs;
   std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
   materialFlags_ = simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_,
-                                            level.chunk, *surfels_);
+                                            level.chunk, *surfels_, pass.job.coneSpread);
   if (plan_.groups.lift) {
     simd::liftShadowOrigins(*pass.job.tables, plan_.effects, *hits_, level.chunk, *surfels_);
   }

@@ -58,6 +58,7 @@ struct FrameJob {
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
   CameraFrame camera;
+  float coneSpread = 0;  // pixelCone(camera)'s
   std::vector<Vec2f> samples;
   float cutoff = 0, exposureScale = 1;
   ToneCurve toneCurve = ToneCurve::none;

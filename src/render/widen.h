@@ -39,6 +39,7 @@ inline reference::Surfel widenSurfel(const SurfelColumns& c, const Vec3d& direct
   s.material = c.material[i];
   s.diffuse = {c.diffuseR[i], c.diffuseG[i], c.diffuseB[i]};
   if (c.emissionR) s.emission = {c.emissionR[i], c.emissionG[i], c.emissionB[i]};
+  if (c.cone) s.cone.width = static_cast<double>(c.cone[i]);
   if (c.liftX) s.lift = {c.liftX[i], c.liftY[i], c.liftZ[i]};
   if (c.specularR) {
     s.specular = {c.specularR[i], c.specularG[i], c.specularB[i]};

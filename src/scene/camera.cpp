@@ -73,4 +73,9 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
           height, 0,       orthographic};
 }
 
+RayCone pixelCone(const CameraFrame& camera) {
+  const double pixel = length(camera.up);
+  return camera.orthographic ? RayCone{pixel, 0} : RayCone{0, pixel};
+}
+
 }  // namespace whit

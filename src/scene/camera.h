@@ -44,4 +44,12 @@ struct CameraFrame {
 };
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 
+// The footprint of a pixel: how wide it is where its ray starts, and how much wider with each unit
+// of the way.
+struct RayCone {
+  double width = 0, spread = 0;
+  double widthAt(double way) const { return width + spread * way; }
+};
+RayCone pixelCone(const CameraFrame& camera);
+
 }  // namespace whit

@@ -18,17 +18,26 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 }
 
 // Why a column exists: needed by every frame, or only by frames with some effect or choice.
-enum class Group : std::uint8_t { always, glossy, transmission, instances, emission, lift, paths };
+enum class Group : std::uint8_t {
+  always,
+  glossy,
+  transmission,
+  instances,
+  emission,
+  lift,
+  paths,
+  cones
+};
 
 struct Groups {
   bool glossy = true, transmission = true, instances = true, emission = true;
-  bool lift = false, paths = false;  // by choice, whatever the effects
+  bool lift = false, paths = false, cones = false;  // by choice, whatever the effects
   bool operator==(const Groups&) const = default;
   constexpr bool has(Group g) const {
     return g == Group::always || (g == Group::glossy && glossy) ||
            (g == Group::transmission && transmission) || (g == Group::instances && instances) ||
            (g == Group::emission && emission) || (g == Group::lift && lift) ||
-           (g == Group::paths && paths);
+           (g == Group::paths && paths) || (g == Group::cones && cones);
   }
 };
 
@@ -47,7 +56,8 @@ struct Groups {
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
 // each, the one entered last in the low byte; `path` is its number (core/path_numbers.h), where
-// lobes are sampled.
+// lobes are sampled; `cone` is the width of its cone (RayCone) where it starts, for mip levels: the
+// spread is that of the camera's pixels at every depth.
 #define WHIT_RAY_COLUMNS(X)             \
   X(float, orgX, always)                \
   X(float, orgY, always)                \
@@ -61,7 +71,8 @@ struct Groups {
   X(float, throughput, always)          \
   X(std::uint32_t, parent, always)      \
   X(std::uint32_t, media, transmission) \
-  X(std::uint32_t, path, paths)
+  X(std::uint32_t, path, paths)         \
+  X(float, cone, cones)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
 // `instance` indexes Scene::instances, kMiss in the world.
@@ -76,7 +87,8 @@ struct Groups {
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
 // must start (numerics H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
 // refracted child; the material's emission is multiplied by `emission`; `lift` is added to the
-// position where shadow rays start.
+// position where shadow rays start; `cone` is the width that the ray's cone has reached, and its
+// children's start with.
 #define WHIT_SURFEL_COLUMNS(X)          \
   X(float, posX, always)                \
   X(float, posY, always)                \
@@ -102,6 +114,7 @@ struct Groups {
   X(float, liftX, lift)                 \
   X(float, liftY, lift)                 \
   X(float, liftZ, lift)                 \
+  X(float, cone, cones)                 \
   X(std::uint32_t, flags, transmission) \
   X(std::uint32_t, mediaBehind, transmission)
 

@@ -7,6 +7,7 @@
 
 #include "core/effects.h"
 #include "core/shading_choices.h"
+#include "scene/mip_maps.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -43,6 +44,9 @@ struct TextureRecord {
   std::uint32_t wrap;  // wrapU | wrapV << 8 (Wrap's values)
 };
 inline constexpr int kTextureStride = sizeof(TextureRecord) / sizeof(std::uint32_t);
+// Records of a texture's mip levels. The last level fills what it leaves empty, so that every level
+// has one above it.
+inline constexpr int kMipStride = kMipLevels + 1;
 
 // Object to world; `normal` holds the cofactors (Affine::normal).
 struct alignas(64) InstanceTransform {
@@ -77,9 +81,11 @@ struct ShadingTables {
   int normalStride = 0;  // floats
   // Likewise, of ones: white.
   const ColourRecord* colours = nullptr;
-  int colourStride = 0;                      // floats
-  std::vector<MaterialRecord> materials;     // at least one
-  std::vector<TextureRecord> textures;       // at least one
+  int colourStride = 0;                   // floats
+  std::vector<MaterialRecord> materials;  // at least one
+  std::vector<TextureRecord> textures;    // at least one
+  // kMipStride a texture, from the full one on; none unless lookups are trilinear.
+  std::vector<TextureRecord> mipLevels;
   HugeVector<std::uint32_t> texels;          // all textures of the frame's effects
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum

@@ -81,7 +81,11 @@ class RandomScene {
       m.specularMap = map(TexelFormat::colour);
     }
     m.roughness = unit();
-    if (one(4)) m.emission = colour(amount());
+    if (one(4)) {
+      m.emission = colour(amount());
+      m.emissionMap = map(TexelFormat::colour);
+    }
+    m.vertexTint = static_cast<VertexTint>(below(3));
     if (one(4)) {
       m.alphaMap = map(TexelFormat::data);
       m.alphaCutoff = unit();
@@ -128,6 +132,7 @@ class RandomScene {
       mesh.normals.push_back(one(3) ? Vec3f{number(), number(), number()}
                                     : Vec3f(numbers_.direction()));
       mesh.uvs.push_back(one(3) ? Vec2f{number(), number()} : Vec2f{unit(), unit()});
+      mesh.colours.push_back(one(3) ? Rgb{number(), number(), number()} : colour());
     }
     for (int i = 0; i < 40; ++i) {
       const auto index = [&] { return static_cast<std::uint32_t>(below(31)); };
@@ -155,6 +160,10 @@ class RandomScene {
     light.position = Vec3f(place());
     light.intensity = colour(amount());
     light.radius = static_cast<float>(std::max(1e-6, 0.01 * size()));
+    light.kind = static_cast<Light::Kind>(below(3));
+    light.direction = Vec3f(numbers_.direction());
+    light.outerConeAngle = static_cast<float>(numbers_.in(0.5, 90));
+    light.innerConeAngle = 0.99f * light.outerConeAngle * unit();
     return light;
   }
   Sky sky() {
@@ -170,6 +179,7 @@ class RandomScene {
     camera.eye = Vec3f(place());
     camera.at = one(8) ? camera.eye : Vec3f(place());
     camera.up = one(8) ? camera.at - camera.eye : Vec3f(numbers_.direction());
+    if (one(4)) camera.orthographicHeight = static_cast<float>(size());
     camera.fov = one(4) ? static_cast<float>(numbers_.in(0.01, 179)) : 60;
     return camera;
   }
@@ -199,6 +209,7 @@ Finding randomScenes(const Setup& setup) {
     RenderOptions options = optionsOf(setup);
     options.size = ImageSize{8, 6};
     options.depth = 5;
+    if (seed % 2 == 0) options.shading.textureFilter = TextureFilter::trilinear;
     Renderer renderer(*scene, options);
     Film film = makeFilm(*scene, options);
     const auto look = [&](const char* mode) {

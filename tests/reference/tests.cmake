@@ -1,5 +1,6 @@
 whit_test(reference_triangle whit_reference)
 whit_test(reference_texture whit_reference)
+whit_test(reference_cones whit_reference)
 whit_test(reference_fresnel whit_reference)
 whit_test(reference_media whit_reference)
 whit_test(reference_surfel whit_reference)

@@ -1,0 +1,217 @@
+// Ray cones and the mip levels that follow from them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/generate_ray.h"
+#include "reference/small_scenes.h"
+#include "reference/texture_sampling.h"
+
+namespace whit::reference {
+namespace {
+
+using namespace test;
+
+constexpr double kRounding = 1e-12;  // of the formulas in double
+// Rays that go on start off the surface, by less than 1e-3 of the ways here, which is as much of a
+// level.
+constexpr double kOffset = 2e-3;
+constexpr int kTexels = 64;  // a side
+
+Texture noise() {
+  Numbers numbers(11);
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < kTexels * kTexels; ++i) {
+    texels.push_back(static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
+  }
+  return makeTexture(TexelFormat::colour, kTexels, kTexels, texels);
+}
+
+Material glowing(SceneBuilder& builder, Texture texture) {
+  Material m = blackMaterial();
+  m.emission = Rgb(1.0f);
+  m.emissionMap = builder.add(std::move(texture));
+  return m;
+}
+
+// A glowing floor of one texel a unit.
+Scene floorOf(Texture texture) {
+  SceneBuilder builder;
+  const Material m = glowing(builder, std::move(texture));
+  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  return builder.build();
+}
+
+RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
+  Settings settings = uncut(depth);
+  settings.shading.textureFilter = TextureFilter::trilinear;
+  const BruteForce bruteForce(scene);
+  RayCounts counts;
+  return Tracer(scene, bruteForce, settings).traceImpulse(ray, 0, 1, 0, counts);
+}
+
+// Of the floor at (x, z).
+RgbD floorColour(const Scene& scene, double x, double z, double level) {
+  const double half = kTexels / 2.0;
+  return sampleColour(MipMaps(scene), 0, (x + half) / kTexels, (half - z) / kTexels, level);
+}
+
+void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRounding) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
+}
+
+TEST(MipLevel, GrowsByOneAsTheSidesDouble) {
+  EXPECT_EQ(mipLevel(0), 0);
+  EXPECT_EQ(mipLevel(0.7), 0);
+  EXPECT_EQ(mipLevel(1), 0);
+  EXPECT_EQ(mipLevel(4), 1);
+  EXPECT_EQ(mipLevel(64), 3);
+  EXPECT_NEAR(mipLevel(9), std::log2(3), kRounding);
+}
+
+TEST(MipLevel, H70_ofSenselessFootprintsIsALevel) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(mipLevel(std::nan("")), 0);
+  EXPECT_EQ(mipLevel(-infinity), 0);
+  EXPECT_EQ(mipLevel(infinity), kMipLevels - 1);
+  const Scene scene = floorOf(noise());
+  const auto below = [&](double width, double spread) {
+    return seen(scene, {{3.3, 5, 2.1}, {0, -1, 0}, {width, spread}});
+  };
+  expectNear(below(0, 0), floorColour(scene, 3.3, 2.1, 0));
+  expectNear(below(-1e300, 0), floorColour(scene, 3.3, 2.1, kMipLevels - 1));
+  expectNear(below(infinity, 0), floorColour(scene, 3.3, 2.1, kMipLevels - 1));
+  expectNear(below(std::nan(""), 0), floorColour(scene, 3.3, 2.1, 0));
+}
+
+TEST(Trilinear, H70_aWholeLevelIsThatLevelBitForBit) {
+  const Scene scene = floorOf(noise());
+  const MipMaps maps(scene);
+  Numbers numbers(3);
+  for (int i = 0; i < 200; ++i) {
+    const double u = numbers.in(-2, 2), v = numbers.in(-2, 2);
+    const int level = i % kMipLevels;
+    EXPECT_EQ(sampleColour(maps, 0, u, v, level), sampleColour(maps.level(0, level), u, v));
+  }
+}
+
+TEST(Trilinear, MixesDataBetweenLevels) {
+  const std::vector<Texture> textures{
+      makeTexture(TexelFormat::data, 2, 1, {0x00c86450u, 0x00000000u})};
+  const MipMaps maps(textures, {true});
+  // At the first texel's centre: (80, 100, 200), and half of each in the level above.
+  const DataSample s = sampleData(maps, 0, 0.25, 0.5, 0.5);
+  EXPECT_NEAR(s.r * 255, 60, 1e-10);
+  EXPECT_NEAR(s.g * 255, 75, 1e-10);
+  EXPECT_NEAR(s.b * 255, 150, 1e-10);
+}
+
+TEST(RayCone, OfAPixelIsAsWideAsThePixel) {
+  Camera camera;
+  camera.eye = {0, 0, 5};
+  camera.at = {0, 0, 0};
+  camera.fov = 90;
+  const Ray ray = generateRay(makeCameraFrame(camera, 300, 200), 17, 33);
+  EXPECT_EQ(ray.cone.width, 0);
+  EXPECT_NEAR(ray.cone.spread, 2.0 / 200, kRounding);
+  EXPECT_NEAR(ray.cone.widthAt(7), 0.07, kRounding);
+  camera.orthographicHeight = 5;
+  const Ray parallel = generateRay(makeCameraFrame(camera, 300, 200), 17, 33);
+  EXPECT_NEAR(parallel.cone.width, 5.0 / 200, kRounding);
+  EXPECT_EQ(parallel.cone.spread, 0);
+}
+
+TEST(RayCone, LevelsFollowFromTheDistance) {
+  const Scene scene = floorOf(noise());
+  for (const double distance : {10.0, 64.0, 128.0, 192.0, 256.0, 1024.0, 1e6}) {
+    const double wanted = std::clamp(std::log2(distance / 64), 0.0, 6.0);
+    const RgbD colour = floorColour(scene, 3.3, 2.1, wanted);
+    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), colour, 1e-9);
+    // As sharp as it is looked up otherwise, only from near.
+    const RgbD full = floorColour(scene, 3.3, 2.1, 0);
+    EXPECT_EQ(distance <= 64, maxComponent(abs(full - colour)) < 1e-3) << distance;
+  }
+}
+
+TEST(RayCone, OfParallelRaysKeepsItsWidth) {
+  const Scene scene = floorOf(noise());
+  for (const double distance : {1.0, 1000.0}) {
+    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {4, 0}}),
+               floorColour(scene, 3.3, 2.1, 2));
+  }
+}
+
+// At 60 degrees to the normal the section is twice as long.
+TEST(RayCone, GrowsOnSurfacesSeenAtAnAngle) {
+  const Scene scene = floorOf(noise());
+  const Vec3d direction = steep(60);
+  const Vec3d at{3.3, 0, 2.1};
+  expectNear(seen(scene, {at - direction * 256, direction, {0, 1.0 / 64}}),
+             floorColour(scene, at.x, at.z, 3), 1e-9);
+}
+
+TEST(RayCone, GoesOnBehindAMirror) {
+  SceneBuilder builder;
+  const Material m = glowing(builder, noise());
+  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  builder.add(ceilingAt(100, kTexels / 2.0f, builder.add(mirrorMaterial(0.5f))));
+  const Scene scene = builder.build();
+  expectNear(seen(scene, {{3.3, 72, 2.1}, {0, 1, 0}, {0, 1.0 / 64}}),
+             floorColour(scene, 3.3, 2.1, 1) * 0.5, kOffset);  // 28 + 100 units of way
+}
+
+TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
+  SceneBuilder builder;
+  const Material m = glowing(builder, noise());
+  builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
+  addSlab(builder, 90, 30, builder.add(glassMaterial(1.5f)), kTexels / 2.0f);
+  const Scene scene = builder.build();
+  // Two surfaces of 4 % each; what they reflect to and fro needs more depth.
+  expectNear(seen(scene, {{3.3, 128, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}, 2),
+             floorColour(scene, 3.3, 2.1, 1) * (0.96 * 0.96), kOffset);
+}
+
+// Twice the size: twice as many units a texel, and one level less.
+TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
+  SceneBuilder builder;
+  const Material m = glowing(builder, noise());
+  Object floor;
+  floor.meshes = {floorAt(0, kTexels / 2.0f, builder.add(m))};
+  Affine twice;
+  twice.x *= 2, twice.y *= 2, twice.z *= 2;
+  builder.place(std::move(floor), {twice, Affine::translation({1000, 0, 0})});
+  const Scene scene = builder.build();
+  ASSERT_EQ(scene.instances.size(), 2u);
+  expectNear(seen(scene, {{3.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
+             floorColour(scene, 1.65, 1.05, 1), 1e-9);
+  expectNear(seen(scene, {{1003.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
+             floorColour(scene, 3.3, 2.1, 2), 1e-9);
+}
+
+TEST(Trilinear, OneColourStaysWhatItIs) {
+  const Scene scene = floorOf(makeTexture(
+      TexelFormat::colour, 5, 3, std::vector<std::uint32_t>(15, 300u | 17u << 10 | 1023u << 20)));
+  const auto light = [](double code) { return code * code / (1023.0 * 1023.0); };
+  for (const double distance : {1.0, 50.0, 777.0, 1e5}) {
+    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 0.01}}),
+               {light(300), light(17), 1});
+  }
+}
+
+TEST(Trilinear, ADistantChequerboardIsItsMean) {
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < kTexels * kTexels; ++i) {
+    texels.push_back((i / kTexels + i) % 2 == 0 ? 0x3fffffffu : 0u);
+  }
+  const Scene scene = floorOf(makeTexture(TexelFormat::colour, kTexels, kTexels, texels));
+  // Half the light, up to half a code of its root.
+  for (const double x : {3.3, 4.0, 4.5, 5.2}) {
+    expectNear(seen(scene, {{x, 200, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), RgbD(0.5),
+               0.5 / 1023 * 1.5);
+  }
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,193 @@
+// Mip levels in the vector pipeline: as in the reference, and laws of pictures that they keep.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "metrics/metrics.h"
+#include "reference/small_scenes.h"
+#include "render/renderer_parts.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+RenderOptions trilinear() {
+  RenderOptions o = smallOptions();
+  o.shading.textureFilter = TextureFilter::trilinear;
+  return o;
+}
+
+Texture noise(TexelFormat format, int width, int height) {
+  Numbers numbers(5);
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < width * height; ++i) {
+    // Normals lean a little this way and that.
+    const auto lean = [&] { return static_cast<float>(numbers.in(0.4, 0.6)); };
+    texels.push_back(format == TexelFormat::data
+                         ? encodeDataTexel(lean(), lean(), 1, 1)
+                         : static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
+  }
+  Texture t = makeTexture(format, width, height, texels);
+  t.wrapV = Wrap::mirror;
+  return t;
+}
+
+// Floor, walls of instances, a mirror and a glass pane, with every kind of map, to the horizon.
+SceneDescription textured() {
+  SceneBuilder builder;
+  Material m = diffuseMaterial(0.6f);
+  m.specular = m.emission = Rgb(0.3f);
+  m.diffuseMap = builder.add(noise(TexelFormat::colour, 33, 64));
+  m.specularMap = builder.add(noise(TexelFormat::colour, 16, 16));
+  m.emissionMap = builder.add(noise(TexelFormat::colour, 8, 1));
+  Material bumpy = diffuseMaterial(0.8f);
+  bumpy.normalMap = builder.add(noise(TexelFormat::data, 16, 50));
+  bumpy.mirror = bumpy.mirrorGrazing = Rgb(0.3f);
+  const std::uint32_t matt = builder.add(m), waves = builder.add(bumpy);
+  Mesh floor = floorAt(0, 60, matt);
+  for (Vec2f& uv : floor.uvs) uv = {uv.x * 40, uv.y * 40};
+  builder.add(floor);
+  builder.add(quad({-6, 0, -8}, {-1, 0, -9}, {-1, 4, -9}, {-6, 4, -8}, waves));
+  builder.add(box({1, 1, -3}, {2.5f, 2, -2.5f}, builder.add(glassMaterial(1.5f))));
+  Object sign;
+  sign.meshes = {quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, matt)};
+  Affine far = Affine::translation({3, 0, -20});
+  far.x *= 3, far.y *= 5;
+  builder.place(std::move(sign), {Affine::translation({-3, 0, -4}), far});
+  builder.description.lights.push_back(lightAt({2, 8, 3}, 300));
+  builder.sky(0.2f);
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0, 2, 4};
+  builder.description.cameras[0].at = {0, 1, -4};
+  return builder.describe();
+}
+
+Scene frozen(SceneDescription d) {
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+TEST(Trilinear, agreesWithTheReferenceOnEveryTarget) {
+  const Scene scene = frozen(textured());
+  RenderOptions o = trilinear();
+  Film reference = makeFilm(scene, o);
+  Renderer(scene, o).renderReference(chooseCamera(scene, o), reference);
+  for (const std::string& target : simd::availableTargets()) {
+    o.simd = target;
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
+          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
+    }
+    renderer.render(chooseCamera(scene, o), film);
+    // What else holds for pictures of the defaults.
+    EXPECT_LE(compareImages(film.image, reference.image).pixelsGe2CodesPct, 0.1) << target;
+  }
+  simd::chooseTarget("auto");
+}
+
+TEST(Trilinear, keepsItsBitsWhateverTheQueues) {
+  const Scene scene = frozen(textured());
+  const Image expected = render(scene, trilinear()).image;
+  const auto expectSame = [&](const char* what, auto&& change) {
+    RenderOptions o = trilinear();
+    change(o);
+    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
+  };
+  expectSame("threads", [](RenderOptions& o) { o.threads = 3; });
+  expectSame("tile", [](RenderOptions& o) { o.tile = 11; });
+  expectSame("queue", [](RenderOptions& o) { o.queue = 48; });
+  expectSame("batch", [](RenderOptions& o) { o.batch = Batch::frame; });
+  expectSame("packet", [](RenderOptions& o) { o.packet = 4; });
+  expectSame("effects", [](RenderOptions& o) { o.effects = EffectChoice::all; });
+}
+
+TEST(Trilinear, H61a_keepsItsBitsAtAnyPowerOfTwo) {
+  const Image expected = render(frozen(textured()), trilinear()).image;
+  for (const int k : {-20, 3, 20}) {
+    const float scale = std::ldexp(1.0f, k);
+    SceneDescription d = textured();
+    for (Object& object : d.objects) {
+      for (Mesh& mesh : object.meshes) {
+        for (Vec3f& p : mesh.positions) p = p * scale;
+      }
+    }
+    for (Instance& instance : d.instances) instance.toWorld.p *= double{scale};
+    d.lights[0].position = d.lights[0].position * scale;
+    d.lights[0].radius *= scale;
+    d.lights[0].intensity = d.lights[0].intensity * (scale * scale);
+    d.cameras[0].eye = d.cameras[0].eye * scale;
+    d.cameras[0].at = d.cameras[0].at * scale;
+    EXPECT_EQ(firstDifference(render(frozen(std::move(d)), trilinear()).image, expected), "")
+        << "2^" << k;
+  }
+}
+
+TEST(Trilinear, costsColumnsAndTexelsOnlyWhereItIsAskedFor) {
+  const Scene scene = frozen(textured()), plain = load("matte");
+  const auto parts = [](const Scene& s, const RenderOptions& o) {
+    Renderer renderer(s, o);
+    const auto& p = renderer.parts();
+    return std::tuple(p.plan.groups.cones, p.tables.texels.size(), p.tables.mipLevels.size());
+  };
+  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50.
+  constexpr std::size_t kFull = 33 * 64 + 16 * 16 + 8 + 16 * 50;
+  constexpr std::size_t kLevels = (16 * 32 + 8 * 16 + 4 * 8 + 2 * 4 + 1 * 2 + 1) +
+                                  (64 + 16 + 4 + 1) + (4 + 2 + 1) +
+                                  (8 * 25 + 4 * 12 + 2 * 6 + 1 * 3 + 1);
+  EXPECT_EQ(parts(scene, smallOptions()), std::tuple(false, kFull, std::size_t{0}));
+  EXPECT_EQ(parts(scene, trilinear()), std::tuple(true, kFull + kLevels, 4u * kMipStride));
+  EXPECT_FALSE(plain.effects.has(Effect::textures));
+  EXPECT_EQ(parts(plain, trilinear()), std::tuple(false, std::size_t{1}, std::size_t{0}));
+}
+
+TEST(Trilinear, canBeAskedForBetweenFrames) {
+  const Scene scene = frozen(textured());
+  const Image sharp = render(scene, smallOptions()).image;
+  const Image soft = render(scene, trilinear()).image;
+  EXPECT_NE(firstDifference(sharp, soft), "");
+  Renderer renderer(scene, smallOptions());
+  Film film = makeFilm(scene, smallOptions());
+  for (const bool mips : {false, true, false, true}) {
+    const RenderOptions o = mips ? trilinear() : smallOptions();
+    ASSERT_TRUE(renderer.canSetOptions(o));
+    renderer.setOptions(o);
+    renderer.render(chooseCamera(scene, o), film);
+    EXPECT_EQ(firstDifference(film.image, mips ? soft : sharp), "") << mips;
+  }
+}
+
+// A chequerboard to the horizon, of which distant squares are smaller than pixels: trilinear
+// lookups come closer to the mean of many samples than any one texel.
+TEST(Trilinear, isCloserToManySamples) {
+  SceneBuilder builder;
+  Material m = blackMaterial();
+  m.emission = Rgb(1.0f);
+  m.emissionMap =
+      builder.add(makeTexture(TexelFormat::colour, 2, 2, {0x3fffffffu, 0, 0, 0x3fffffffu}));
+  Mesh floor = floorAt(0, 500, builder.add(m));
+  for (Vec2f& uv : floor.uvs) uv = {uv.x * 500, uv.y * 500};
+  builder.add(floor);
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0.3f, 2, 0};
+  builder.description.cameras[0].at = {1.3f, 1.4f, -5};
+  const Scene scene = builder.build();
+  RenderOptions many = smallOptions();
+  many.spp = 256;
+  const Image wanted = render(scene, many).image;
+  const auto error = [&](TextureFilter filter) {
+    RenderOptions o = smallOptions();
+    o.shading.textureFilter = filter;
+    return compareImages(render(scene, o).image, wanted).rmse;
+  };
+  const double bilinear = error(TextureFilter::bilinear), mips = error(TextureFilter::trilinear);
+  std::printf("error of a distant chequerboard: bilinear %.4f, trilinear %.4f\n", bilinear, mips);
+  EXPECT_LT(mips, bilinear / 2);
+}
+
+}  // namespace
+}  // namespace whit::test

@@ -1,0 +1,138 @@
+// Mip levels: means of what they cover.
+#include "scene/mip_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stress/scene_builder.h"
+
+namespace whit::test {
+namespace {
+
+using stress::makeTexture;
+
+constexpr double kHalfCode = 0.5 / 1023;  // of a colour's square root
+
+std::uint32_t grey(std::uint32_t code) { return code | code << 10 | code << 20; }
+
+Texture noise(TexelFormat format, int width, int height) {
+  stress::Numbers numbers(7);
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < width * height; ++i) {
+    texels.push_back(static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
+  }
+  return makeTexture(format, width, height, texels);
+}
+
+// Light of one channel over the whole texture.
+double meanLight(const Texture& t, int shift) {
+  double sum = 0;
+  for (const std::uint32_t texel : t.texels) {
+    const double root = (texel >> shift & 1023u) / 1023.0;
+    sum += root * root;
+  }
+  return sum / static_cast<double>(t.texels.size());
+}
+
+TEST(Halved, ColoursAreMeansOfLight) {
+  // Three black texels and a white one in each channel: a quarter of the light, half the code.
+  const Texture t = makeTexture(TexelFormat::colour, 2, 2, {1023u, 0, 1023u << 20, 1023u << 10});
+  const Texture half = halved(t);
+  ASSERT_EQ(half.texels.size(), 1u);
+  // 511.5 goes to the even code.
+  EXPECT_EQ(half.texels[0], grey(512));
+}
+
+TEST(Halved, DataAreMeansOfCodes) {
+  const Texture t =
+      makeTexture(TexelFormat::data, 2, 2, {0x000000ffu, 0x80000201u, 0x80000201u, 0x000000ffu});
+  // 255, 1, 1, 255 in the first channel, 0, 2, 2, 0 and 0, 128, 128, 0 in the second and fourth.
+  EXPECT_EQ(halved(t).texels[0], 0x40000180u);
+}
+
+// 5 texels on 2: each covers 2.5 of them.
+TEST(Halved, OddSizesCutThroughTexels) {
+  const Texture t = makeTexture(TexelFormat::data, 5, 1, {100, 50, 20, 70, 90});
+  const Texture half = halved(t);
+  EXPECT_EQ(half.width, 2);
+  EXPECT_EQ(half.height, 1);
+  EXPECT_EQ(half.texels, (std::vector<std::uint32_t>{64, 68}));  // 160 / 2.5, 170 / 2.5
+}
+
+TEST(Halved, EqualTexelsStayWhatTheyAre) {
+  for (const auto& [width, height] :
+       {std::pair(8, 8), std::pair(7, 3), std::pair(1, 6), std::pair(5, 1)}) {
+    for (const std::uint32_t texel : {0u, grey(1), grey(511), grey(1023), 0x2a5c3f17u}) {
+      for (const TexelFormat format : {TexelFormat::colour, TexelFormat::data}) {
+        const Texture t = makeTexture(
+            format, width, height,
+            std::vector<std::uint32_t>(static_cast<std::size_t>(width * height), texel));
+        for (const std::uint32_t got : halved(t).texels) EXPECT_EQ(got, texel);
+      }
+    }
+  }
+}
+
+// Every level keeps the light of the whole, but for its rounding to codes, which has no bias: of
+// many texels it averages out.
+TEST(Halved, LightIsKeptFromLevelToLevel) {
+  for (const auto& [width, height] : {std::pair(256, 128), std::pair(97, 131)}) {
+    const Texture full = noise(TexelFormat::colour, width, height);
+    Texture t = full;
+    while (t.width > 8) {
+      t = halved(t);
+      for (const int shift : {0, 10, 20}) {
+        const double wanted = meanLight(full, shift);
+        EXPECT_NEAR(meanLight(t, shift), wanted, kHalfCode * std::sqrt(wanted)) << t.width;
+      }
+    }
+  }
+}
+
+TEST(MipMaps, ReachDownToOneTexel) {
+  const std::vector<Texture> textures{noise(TexelFormat::colour, 8, 3),
+                                      noise(TexelFormat::data, 4, 4)};
+  const MipMaps maps(textures, {true, false});
+  ASSERT_EQ(maps.levels(0), 4);
+  const int sizes[][2] = {{8, 3}, {4, 1}, {2, 1}, {1, 1}, {1, 1}, {1, 1}};
+  for (int level = 0; level < 6; ++level) {
+    EXPECT_EQ(maps.level(0, level).width, sizes[level][0]) << level;
+    EXPECT_EQ(maps.level(0, level).height, sizes[level][1]) << level;
+  }
+  EXPECT_EQ(&maps.level(0, 0), textures.data());
+  EXPECT_EQ(maps.levels(1), 1);
+  EXPECT_EQ(&maps.level(1, 3), &textures[1]);
+}
+
+TEST(MipMaps, AreTheSameForAnyNumberOfThreads) {
+  std::vector<Texture> textures;
+  for (int i = 1; i < 9; ++i) textures.push_back(noise(TexelFormat::colour, 16 * i, 9 * i));
+  const std::vector<bool> all(textures.size(), true);
+  const MipMaps one(textures, all, 1), many(textures, all, 5);
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    ASSERT_EQ(one.levels(i), many.levels(i));
+    for (int level = 0; level < one.levels(i); ++level) {
+      EXPECT_EQ(one.level(i, level).texels, many.level(i, level).texels);
+    }
+  }
+}
+
+TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
+  stress::SceneBuilder builder;
+  Material m = stress::diffuseMaterial(1);
+  for (std::int32_t* map :
+       {&m.diffuseMap, &m.alphaMap, &m.normalMap, &m.emissionMap, &m.specularMap}) {
+    const bool data = map == &m.alphaMap || map == &m.normalMap;
+    *map = builder.add(noise(data ? TexelFormat::data : TexelFormat::colour, 2, 2));
+  }
+  m.emission = m.specular = Rgb(0.5f);
+  builder.add(stress::floorAt(0, 1, builder.add(m)));
+  const Scene scene = builder.build();
+  const MipMaps maps(scene);
+  const int wanted[] = {2, 1, 2, 2, 2};  // alpha masks are looked up in full
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(maps.levels(i), wanted[i]) << i;
+}
+
+}  // namespace
+}  // namespace whit::test
