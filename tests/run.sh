@@ -2,7 +2,8 @@
 # Builds everything and runs every test. Exits non-zero when anything fails.
 #   tests/run.sh           formatting, Release with warnings as errors, sanitizers, fuzzing
 #   tests/run.sh --quick   Release only
-#   tests/run.sh --all     fuzzers of the readers, Embree 4 and MPI as well (a quarter of an hour)
+#   tests/run.sh --all     fuzzers of the readers, Embree 4, MPI, Clang, the Debian package in a clean
+#                          system and 64-bit ARM under emulation as well (half an hour and more)
 #   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
 set -uo pipefail
 
@@ -112,6 +113,7 @@ fuzzReaders() {
 
 groups=(build view)
 if ! $quick; then groups+=(check); fi
+if $all; then groups+=(wide); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 useCompilerCache
 if ! $quick; then
@@ -124,6 +126,9 @@ if $all; then
   step "fuzzing" fuzzReaders
   step "Embree 4" tests/embree4.sh
   step "MPI" checkRanks
+  step "Clang" tests/clang.sh
+  step "package" tests/package.sh
+  step "64-bit ARM" tests/aarch64.sh
 fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON

@@ -1,5 +1,7 @@
 #include "io/paths.h"
 
+#include <sys/auxv.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -31,14 +33,20 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
   return inFolder == folder.end() || inFolder->empty();
 }
 
+// The program that is running, as it was called where there is no /proc, as in many a chroot.
+fs::path programFile() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const auto* called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  return error && called ? realPath(called) : program;
+}
+
 std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
   std::vector<fs::path> folders;
   if (const char* variable = std::getenv("WHIT_SCENES"); variable && *variable) {
     folders.emplace_back(variable);
   }
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
+  if (const fs::path program = programFile(); !program.empty()) {
     folders.push_back(program.parent_path() / "scenes");
     folders.push_back(program.parent_path().parent_path() / "share/whit/scenes");
     folders.push_back(program.parent_path().parent_path() / "scenes");
