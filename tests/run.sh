@@ -57,12 +57,13 @@ checkTidy() {
     run-clang-tidy -quiet -p build-tidy '/(src|simd|viewer)/.*\.cpp$'
 }
 
-# buildAndTest PRESET CMAKE-ARGUMENTS...
+# buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
+# a process or the disk.
 buildAndTest() {
   local preset=$1
   shift
   cmake --preset "$preset" "$@" >/dev/null && cmake --build --preset "$preset" --parallel "$(nproc)" &&
-    ctest --preset "$preset"
+    ctest --preset "$preset" --parallel $((2 * $(nproc)))
 }
 
 # The worker pool, and the viewer's tracing thread with all that it runs. Embree and TBB are not

@@ -25,6 +25,18 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
   expectSameCodes("shown.png", "again.png");
 }
 
+TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
+  const cli::Outcome outcome =
+      play("key H\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+           {"--size", "240x160", "--ortho", "3"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_NE(lines[0].find("--ortho=3"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+  EXPECT_EQ(readCamera(folder_ / "tiny-0001.json").orthographicHeight, 3);
+}
+
 TEST_F(Viewer, SavesThePictureAndItsCamera) {
   const cli::Outcome outcome =
       play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
