@@ -16,7 +16,8 @@ else
   (cd "$root" && cmake --preset release >/dev/null)
 fi
 targets=(whit)
-if cmake --build "$build" --target help | grep -q 'whit-view\b'; then targets+=(whit-view); fi
+known=$(cmake --build "$build" --target help)  # in full: a pipe closed early counts as a failure
+if grep -q 'whit-view\b' <<<"$known"; then targets+=(whit-view); fi
 cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]}"
 
 mkdir -p "$out"

@@ -90,7 +90,7 @@ lacking() {
   esac
   case $1 in
     *scenes/farm/*) command -v parallel >/dev/null || echo "GNU parallel is not installed" ;;
-    *mpirun*) ldd "$whit" | grep -q libmpi || echo "this build is without MPI" ;;
+    *mpirun*) ldd "$whit" | grep libmpi >/dev/null || echo "this build is without MPI" ;;
     *whit-view*)
       [ -n "$view" ] || echo "the viewer was not built"
       command -v Xvfb >/dev/null || echo "Xvfb is not installed" ;;
