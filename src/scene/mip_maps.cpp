@@ -4,7 +4,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <thread>
+
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -100,7 +101,7 @@ Texture halved(const Texture& texture) {
 MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads)
     : textures_(&textures), smaller_(textures.size()) {
   std::atomic<std::size_t> next{0};
-  const auto work = [&] {
+  const auto work = [&](int) {
     for (std::size_t i = next++; i < textures.size(); i = next++) {
       if (!wanted[i]) continue;
       const Texture* last = &textures[i];
@@ -113,9 +114,7 @@ MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& 
     }
   };
   const auto count = static_cast<int>(std::count(wanted.begin(), wanted.end(), true));
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < std::min(threads, count); ++i) helpers.emplace_back(work);
-  work();
+  WorkerPool(std::clamp(threads, 1, std::max(1, count))).run(work);
 }
 
 MipMaps::MipMaps(const Scene& scene, int threads)

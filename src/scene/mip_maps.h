@@ -23,6 +23,7 @@ class MipMaps {
  public:
   MipMaps() = default;
   // Of those `wanted`; one flag a texture. The textures must outlive this. Shared among `threads`.
+  // Throws Error(limit) where the system has no room for so many.
   MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads = 1);
   // Of those that materials use as colours, reflectances and normal maps.
   explicit MipMaps(const Scene& scene, int threads = 1);
