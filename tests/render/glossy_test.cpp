@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "metrics/metrics.h"
-#include "render/shipped_scene.h"
-#include "simd/kernels.h"
+#include "render/pipeline_laws.h"
 
 namespace whit::test {
 namespace {
@@ -23,19 +22,10 @@ class Glossy : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Glossy, everyStageAgreesWithItsTwinOnEveryTarget) {
-  for (const std::string& target : simd::availableTargets()) {
-    RenderOptions o = options();
-    o.spp = 2;
-    o.depth = 3;
-    o.simd = target;
-    Renderer renderer(scene_, o);
-    const Film film = makeFilm(scene_, o);
-    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene_, o), film)) {
-      EXPECT_LE(row.worstUlp, row.limitUlp)
-          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
-          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
-    }
-  }
+  RenderOptions o = options();
+  o.spp = 2;
+  o.depth = 3;
+  expectStagesAgreeOnEveryTarget(scene_, o);
 }
 
 TEST_P(Glossy, pictureAgreesWithTheReference) {
@@ -54,20 +44,7 @@ TEST_P(Glossy, pictureAgreesWithTheReference) {
   EXPECT_EQ(d.nonFinite, 0u);
 }
 
-TEST_P(Glossy, bitsDependOnTheSceneAlone) {
-  const Image expected = render(scene_, options()).image;
-  const auto same = [&](const char* what, auto change) {
-    RenderOptions o = options();
-    change(o);
-    EXPECT_EQ(firstDifference(render(scene_, o).image, expected), "") << what;
-  };
-  same("1 thread", [](auto& o) { o.threads = 1; });
-  same("tiles of 8", [](auto& o) { o.tile = 8; });
-  same("queues of 48", [](auto& o) { o.queue = 48; });
-  same("whole frames", [](auto& o) { o.batch = Batch::frame; });
-  same("packets of 4", [](auto& o) { o.packet = 4; });
-  same("every effect", [](auto& o) { o.effects = EffectChoice::all; });
-}
+TEST_P(Glossy, bitsDependOnTheSceneAlone) { expectBitsWhateverTheQueues(scene_, options()); }
 
 TEST_P(Glossy, aCropShowsTheSameNoise) {
   RenderOptions o = options();

@@ -5,7 +5,7 @@
 
 #include "metrics/metrics.h"
 #include "reference/generate_ray.h"
-#include "render/shipped_scene.h"
+#include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 #include "stress/scene_builder.h"
 
@@ -89,17 +89,7 @@ TEST(LightKinds, aDirectionalLightIsEvenAndFacesTheSurface) {
 // Every stage against its twin, on every target, and the picture against the reference.
 TEST(LightKinds, agreeWithTheReference) {
   const Scene scene = load("effects");
-  for (const std::string& target : simd::availableTargets()) {
-    RenderOptions o = smallOptions();
-    o.simd = target;
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o);
-    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
-      EXPECT_LE(row.worstUlp, row.limitUlp)
-          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column;
-    }
-  }
-  simd::chooseTarget("auto");
+  expectStagesAgreeOnEveryTarget(scene, smallOptions());
   const RenderOptions o = smallOptions();
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);

@@ -6,8 +6,8 @@
 
 #include "metrics/metrics.h"
 #include "reference/small_scenes.h"
+#include "render/pipeline_laws.h"
 #include "render/renderer_parts.h"
-#include "render/shipped_scene.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -74,15 +74,11 @@ TEST(Trilinear, agreesWithTheReferenceOnEveryTarget) {
   RenderOptions o = trilinear();
   Film reference = makeFilm(scene, o);
   Renderer(scene, o).renderReference(chooseCamera(scene, o), reference);
+  expectStagesAgreeOnEveryTarget(scene, o);
   for (const std::string& target : simd::availableTargets()) {
     o.simd = target;
     Renderer renderer(scene, o);
     Film film = makeFilm(scene, o);
-    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
-      EXPECT_LE(row.worstUlp, row.limitUlp)
-          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
-          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
-    }
     renderer.render(chooseCamera(scene, o), film);
     // What else holds for pictures of the defaults.
     EXPECT_LE(compareImages(film.image, reference.image).pixelsGe2CodesPct, 0.1) << target;
@@ -91,19 +87,7 @@ TEST(Trilinear, agreesWithTheReferenceOnEveryTarget) {
 }
 
 TEST(Trilinear, keepsItsBitsWhateverTheQueues) {
-  const Scene scene = frozen(textured());
-  const Image expected = render(scene, trilinear()).image;
-  const auto expectSame = [&](const char* what, auto&& change) {
-    RenderOptions o = trilinear();
-    change(o);
-    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
-  };
-  expectSame("threads", [](RenderOptions& o) { o.threads = 3; });
-  expectSame("tile", [](RenderOptions& o) { o.tile = 11; });
-  expectSame("queue", [](RenderOptions& o) { o.queue = 48; });
-  expectSame("batch", [](RenderOptions& o) { o.batch = Batch::frame; });
-  expectSame("packet", [](RenderOptions& o) { o.packet = 4; });
-  expectSame("effects", [](RenderOptions& o) { o.effects = EffectChoice::all; });
+  expectBitsWhateverTheQueues(frozen(textured()), trilinear());
 }
 
 TEST(Trilinear, H61a_keepsItsBitsAtAnyPowerOfTwo) {

@@ -6,7 +6,7 @@
 
 #include "io/paths.h"
 #include "metrics/metrics.h"
-#include "render/shipped_scene.h"
+#include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -37,19 +37,7 @@ class Twins : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Twins, everyStageAgreesWithItsTwinOnEveryTarget) {
-  const Scene scene = load(GetParam());
-  for (const std::string& target : simd::availableTargets()) {
-    RenderOptions o = smallOptions();
-    o.simd = target;
-    Renderer renderer(scene, o);
-    const Film film = makeFilm(scene, o);
-    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
-      EXPECT_LE(row.worstUlp, row.limitUlp)
-          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
-          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
-      EXPECT_GT(row.slots, 0u);
-    }
-  }
+  expectStagesAgreeOnEveryTarget(load(GetParam()), smallOptions());
 }
 
 TEST_P(Twins, picturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }

@@ -1,0 +1,46 @@
+// What holds for every scene and effect.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+
+// Every stage is as near to its scalar twin as its limit says, on every SIMD target of the machine.
+// Leaves the target as it is by default.
+inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions options) {
+  for (const std::string& target : simd::availableTargets()) {
+    options.simd = target;
+    Renderer renderer(scene, options);
+    const Film film = makeFilm(scene, options);
+    for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, options), film)) {
+      EXPECT_LE(row.worstUlp, row.limitUlp)
+          << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
+          << " at " << row.pixelX << "," << row.pixelY << " depth " << row.depth;
+      EXPECT_GT(row.slots, 0u);
+    }
+  }
+  simd::chooseTarget("auto");
+}
+
+// However the work is cut up, the picture has the same bits.
+inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions& options) {
+  const Image expected = render(scene, options).image;
+  const auto same = [&](const char* what, auto&& change) {
+    RenderOptions o = options;
+    change(o);
+    EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
+  };
+  same("1 thread", [](RenderOptions& o) { o.threads = 1; });
+  same("3 threads", [](RenderOptions& o) { o.threads = 3; });
+  same("tiles of 8", [](RenderOptions& o) { o.tile = 8; });
+  same("tiles of 11", [](RenderOptions& o) { o.tile = 11; });
+  same("queues of 48", [](RenderOptions& o) { o.queue = 48; });
+  same("whole frames", [](RenderOptions& o) { o.batch = Batch::frame; });
+  same("packets of 4", [](RenderOptions& o) { o.packet = 4; });
+  same("every effect", [](RenderOptions& o) { o.effects = EffectChoice::all; });
+}
+
+}  // namespace whit::test
