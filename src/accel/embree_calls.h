@@ -1,6 +1,8 @@
 // Embree's packet types and calls by width, and whatever differs between its major versions.
 #pragma once
 
+#include <cstddef>
+
 #if WHIT_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>
 #else
@@ -70,6 +72,13 @@ inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay16& r)
   rtcOccluded16(valid, s, &r, c.occluded());
 }
 
+// Embree 4 has no streams.
+inline constexpr bool kStreams = false;
+template <typename Packet>
+void intersectStream(RTCScene, QueryContext&, Packet*, int, std::size_t) {}
+template <typename Packet>
+void occludedStream(RTCScene, QueryContext&, Packet*, int, std::size_t) {}
+
 #else
 
 class QueryContext {
@@ -110,6 +119,39 @@ inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay16& r)
   rtcOccluded16(valid, s, c.get(), &r);
 }
 
+inline constexpr bool kStreams = true;
+template <typename Packet>
+void intersectStream(RTCScene s, QueryContext& c, Packet* packets, int width, std::size_t n) {
+  rtcIntersectNM(s, c.get(), reinterpret_cast<RTCRayHitN*>(packets), static_cast<unsigned>(width),
+                 static_cast<unsigned>(n), sizeof(Packet));
+}
+template <typename Packet>
+void occludedStream(RTCScene s, QueryContext& c, Packet* packets, int width, std::size_t n) {
+  rtcOccludedNM(s, c.get(), reinterpret_cast<RTCRayN*>(packets), static_cast<unsigned>(width),
+                static_cast<unsigned>(n), sizeof(Packet));
+}
+
 #endif
+
+// The lanes of a packet that are traced, -1, and the others, 0, whose rays are empty.
+template <int kWidth>
+struct alignas(64) Lanes {
+  int live[kWidth];
+};
+
+// n packets of one ray kind, one after the other. `together`: by Embree's stream calls, which lead
+// several packets of coherent rays through the BVH at once and find the same hits.
+template <int kWidth, typename Packet>
+void intersectAll(const Lanes<kWidth>* lanes, RTCScene scene, QueryContext& context, bool together,
+                  Packet* packets, std::size_t n) {
+  if (together) return intersectStream(scene, context, packets, kWidth, n);
+  for (std::size_t p = 0; p < n; ++p) intersect(lanes[p].live, scene, context, packets[p]);
+}
+template <int kWidth, typename Packet>
+void occludedAll(const Lanes<kWidth>* lanes, RTCScene scene, QueryContext& context, bool together,
+                 Packet* packets, std::size_t n) {
+  if (together) return occludedStream(scene, context, packets, kWidth, n);
+  for (std::size_t p = 0; p < n; ++p) occluded(lanes[p].live, scene, context, packets[p]);
+}
 
 }  // namespace whit

@@ -61,6 +61,12 @@ std::string deviceConfiguration(const AccelOptions& options) {
 EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
   device_ = rtcNewDevice(deviceConfiguration(options).c_str());
   if (!device_) throwNoDevice(options);
+  const auto has = [this](RTCDeviceProperty what) {
+    return rtcGetDeviceProperty(device_, what) != 0;
+  };
+  const bool eightWide = has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) &&
+                         !has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
+  if (kStreams && eightWide) streamWidth_ = 8;
   rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
   triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);

@@ -35,15 +35,12 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
   const std::size_t count = (n + kWidth - 1) / kWidth;
   std::vector<RayHit> hits(stream.occlusion ? 0 : count);
   std::vector<Ray> shadows(stream.occlusion ? count : 0);
-  struct alignas(64) Valid {
-    int lane[kWidth];
-  };
-  std::vector<Valid> valid(count);
+  std::vector<Lanes<kWidth>> lanes(count);
   for (std::size_t i = 0; i < count * kWidth; ++i) {
     const std::size_t packet = i / kWidth;
     const int lane = static_cast<int>(i % kWidth);
     const float* ray = &stream.rays[std::min(i, n - 1) * kFloatsPerRay];
-    valid[packet].lane[lane] = i < n ? -1 : 0;
+    lanes[packet].live[lane] = i < n ? -1 : 0;
     if (stream.occlusion) {
       loadLane<kWidth>(shadows[packet], lane, ray, kShadowMask);
       continue;
@@ -53,13 +50,12 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
     hits[packet].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
   }
   QueryContext context(stream.coherent);
+  const bool together = stream.coherent && scene.streamWidth() == kWidth;
   const auto start = TraceClock::now();
-  for (std::size_t p = 0; p < count; ++p) {
-    if (stream.occlusion) {
-      occluded(valid[p].lane, scene.top(), context, shadows[p]);
-    } else {
-      intersect(valid[p].lane, scene.top(), context, hits[p]);
-    }
+  if (stream.occlusion) {
+    occludedAll(lanes.data(), scene.top(), context, together, shadows.data(), count);
+  } else {
+    intersectAll(lanes.data(), scene.top(), context, together, hits.data(), count);
   }
   return millisecondsSince(start);
 }

@@ -15,21 +15,21 @@ template <int kWidth>
 struct RayGroup {
   static constexpr std::size_t kPackets = kGroup / kWidth;
   alignas(64) std::array<typename PacketTypes<kWidth>::RayHit, kPackets> packets;
-  alignas(64) int valid[kPackets][kWidth];
+  std::array<Lanes<kWidth>, kPackets> lanes;
   std::size_t count = 0;  // packets in use
 };
 template <int kWidth>
 struct ShadowGroup {
   static constexpr std::size_t kPackets = kGroup / kWidth;
   alignas(64) std::array<typename PacketTypes<kWidth>::Ray, kPackets> packets;
-  alignas(64) int valid[kPackets][kWidth];
+  std::array<Lanes<kWidth>, kPackets> lanes;
   std::size_t count = 0;
 };
 
 // Full packets have these lanes; the last one of a queue may have fewer.
 template <int kWidth, typename Group>
 void setAllLanes(Group& group) {
-  for (auto& valid : group.valid) std::fill(valid, valid + kWidth, -1);
+  for (Lanes<kWidth>& lanes : group.lanes) std::fill(lanes.live, lanes.live + kWidth, -1);
 }
 
 // Embree's robust traversal accepts hits at tnear, so the origin must not lie on the surface: it
@@ -58,9 +58,9 @@ void loadRay(Ray& ray, const Columns& rays, std::size_t i) {
 // Masked lanes get a harmless empty ray: where Embree splits a packet that is wider than the CPU,
 // it looks at their coordinates all the same.
 template <int kWidth, typename Ray>
-void emptyLanes(Ray& ray, int* valid, std::size_t live) {
+void emptyLanes(Ray& ray, Lanes<kWidth>& lanes, std::size_t live) {
   for (std::size_t lane = live; lane < kWidth; ++lane) {
-    valid[lane] = 0;
+    lanes.live[lane] = 0;
     ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
     ray.dir_x[lane] = ray.dir_y[lane] = 0;
     ray.dir_z[lane] = 1;
@@ -81,7 +81,7 @@ void fillGroup(RayGroup<kWidth>& group, const RayColumns& rays, std::size_t begi
       packet.hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
-    emptyLanes<kWidth>(packet.ray, group.valid[group.count], end - i);
+    emptyLanes<kWidth>(packet.ray, group.lanes[group.count], end - i);
     leaveOutBadRays<kWidth>(packet.ray, reach);
   }
 }
@@ -115,6 +115,7 @@ template <int kWidth>
 void traceHits(const EmbreeScene& scene, const RayColumns& rays, std::size_t n, bool coherent,
                const HitColumns& hits, TraceMeter& meter) {
   QueryContext context(coherent);
+  const bool together = coherent && scene.streamWidth() == kWidth;
   RayGroup<kWidth> group;
   setAllLanes<kWidth>(group);
   for (auto& packet : group.packets) setConstants<kWidth>(packet.ray, kSeenMask);
@@ -122,9 +123,8 @@ void traceHits(const EmbreeScene& scene, const RayColumns& rays, std::size_t n, 
     const std::size_t end = std::min(n, begin + kGroup);
     fillGroup<kWidth>(group, rays, begin, end, scene.reach());
     const auto start = TraceClock::now();
-    for (std::size_t p = 0; p < group.count; ++p) {
-      intersect(group.valid[p], scene.top(), context, group.packets[p]);
-    }
+    intersectAll(group.lanes.data(), scene.top(), context, together, group.packets.data(),
+                 group.count);
     meter.embreeMs += millisecondsSince(start);
     for (std::size_t p = 0; p < group.count; ++p) {
       storeHits<kWidth>(scene, group.packets[p], hits, begin + p * kWidth);
@@ -137,6 +137,7 @@ template <int kWidth>
 void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::size_t n,
                   bool coherent, float* visible, TraceMeter& meter) {
   QueryContext context(coherent);
+  const bool together = coherent && scene.streamWidth() == kWidth;
   ShadowGroup<kWidth> group;
   setAllLanes<kWidth>(group);
   for (auto& packet : group.packets) setConstants<kWidth>(packet, kShadowMask);
@@ -147,13 +148,12 @@ void traceShadows(const EmbreeScene& scene, const ShadowColumns& shadows, std::s
       auto& packet = group.packets[group.count];
       loadRay<kWidth>(packet, shadows, i);
       std::memcpy(packet.tfar, shadows.tFar + i, sizeof(packet.tfar));
-      emptyLanes<kWidth>(packet, group.valid[group.count], end - i);
+      emptyLanes<kWidth>(packet, group.lanes[group.count], end - i);
       leaveOutBadRays<kWidth>(packet, scene.reach());
     }
     const auto start = TraceClock::now();
-    for (std::size_t p = 0; p < group.count; ++p) {
-      occluded(group.valid[p], scene.top(), context, group.packets[p]);
-    }
+    occludedAll(group.lanes.data(), scene.top(), context, together, group.packets.data(),
+                group.count);
     meter.embreeMs += millisecondsSince(start);
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t lane = i - begin;
