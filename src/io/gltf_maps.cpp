@@ -132,8 +132,7 @@ class Baker {
   bool wants(Map map) const { return wants(material_, map); }
 
   void start(Texture& texture, TexelFormat format) const {
-    const GltfTexture& map =
-        material_.baseMap.exists() ? material_.baseMap : material_.metallicRoughnessMap;
+    const GltfTexture& map = material_.surfaceMap();
     texture.name = material_.name;
     texture.format = format;
     texture.wrapU = map.wrapU;
@@ -227,8 +226,6 @@ Texture colourTexture(const GltfMaterial& material, const GltfTexture& map, cons
   return texture;
 }
 
-bool emits(const GltfMaterial& m) { return m.emissiveMap.exists() && maxComponent(m.emission) > 0; }
-
 // All that the maps and their means depend on.
 std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
@@ -237,7 +234,7 @@ std::string keyOf(const GltfMaterial& m) {
     key << map->image << ' ' << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
-      << (m.transmission > 0) << emits(m) << m.unlit << ' ' << m.metallic << ' ';
+      << (m.transmission > 0) << m.emitsByMap() << m.unlit << ' ' << m.metallic << ' ';
   if (m.mixesMetal()) {
     for (int i = 0; i < 3; ++i) key << m.f0[i] << ' ' << m.base[i] << ' ';
   }
@@ -285,7 +282,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       return made;
     })[0];
   }
-  if (emits(m)) {
+  if (m.emitsByMap()) {
     maps.emission = textures.add(1, [=, emissive = image(m.emissiveMap)] {
       const auto raw = decode(emissive);
       Images made(1);

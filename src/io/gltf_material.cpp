@@ -40,6 +40,7 @@ class GltfMaterialReader {
     factors();
     maps();
     extensions();
+    countCoordinatesLeftOut();
     countMapsLeftOut();
     return std::move(m_);
   }
@@ -85,11 +86,17 @@ class GltfMaterialReader {
     m_.normalMap = texture(source_.normalTexture);
     m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
     m_.emissiveMap = texture(source_.emissiveTexture);
-    for (const GltfTexture* map :
-         {&m_.baseMap, &m_.metallicRoughnessMap, &m_.normalMap, &m_.emissiveMap}) {
-      if (map->exists() && !(map->uv == m_.uv())) {
-        warn("textures of one material with different coordinates: those of the first taken");
-      }
+  }
+
+  void countCoordinatesLeftOut() {
+    const GltfMaterial::Coordinates known = m_.coordinates();
+    const bool third = !(m_.emissiveMap.uv == known.first) && !(m_.emissiveMap.uv == known.second);
+    if (m_.emitsByMap() && third) {
+      warn("texture with a third kind of coordinates in its material: those of the first taken");
+    }
+    if (m_.mixesMetal() && m_.metallicRoughnessMap.exists() &&
+        !(m_.metallicRoughnessMap.uv == m_.surfaceMap().uv)) {
+      warn("metalness by a texture with other coordinates than the base colour's: these taken");
     }
   }
 
@@ -237,11 +244,19 @@ Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
 }  // namespace
 
-GltfUvMap GltfMaterial::uv() const {
-  for (const GltfTexture* map : {&baseMap, &metallicRoughnessMap, &normalMap, &emissiveMap}) {
-    if (map->exists()) return map->uv;
-  }
-  return {};
+GltfMaterial::Coordinates GltfMaterial::coordinates() const {
+  Coordinates found;
+  bool any = false;
+  const auto add = [&](const GltfTexture& map, bool needed) {
+    if (!needed || found.areTwo()) return;
+    if (!any) found.first = map.uv;
+    found.second = map.uv;
+    any = true;
+  };
+  add(surfaceMap(), surfaceMap().exists());
+  add(normalMap, normalMap.exists());
+  add(emissiveMap, emitsByMap());
+  return found;
 }
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
@@ -263,6 +278,9 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   m.name = g.name;
   m.roughness = g.roughness * means.roughness;
   m.emission = g.emission;
+  const GltfMaterial::Coordinates coordinates = g.coordinates();
+  m.normalBySecondUvs = coordinates.bySecond(g.normalMap);
+  m.emissionBySecondUvs = coordinates.bySecond(g.emissiveMap);
   m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;

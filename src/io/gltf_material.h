@@ -47,12 +47,23 @@ struct GltfMaterial {
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, transmissionMap;
   float normalScale = 1;
 
-  // Of all maps: that of the first there is.
-  GltfUvMap uv() const;
+  // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
+  // first that differ from them (equal where none do).
+  struct Coordinates {
+    GltfUvMap first, second;
+    bool areTwo() const { return !(first == second); }
+    bool bySecond(const GltfTexture& map) const { return areTwo() && map.uv == second; }
+  };
+  Coordinates coordinates() const;
   // Whether the maps of diffuse and specular reflectance depend on the metalness of each texel.
   bool mixesMetal() const {
     return metallic > 0 && (metallicRoughnessMap.exists() || (baseMap.exists() && metallic < 1));
   }
+  // Whose coordinates those maps have.
+  const GltfTexture& surfaceMap() const {
+    return baseMap.exists() || !mixesMetal() ? baseMap : metallicRoughnessMap;
+  }
+  bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
 };
 
 // One for each material, and the format's default last. What cannot be represented is counted in

@@ -78,6 +78,9 @@ void checkScene(const Scene& scene) {
   for (const NormalRecord& record : scene.normals) {
     for (const float x : record.normal) require(std::isfinite(x), "a normal that is no number");
   }
+  for (const UvRecord& record : scene.secondUvs) {
+    for (const float x : record.uv) require(std::isfinite(x), "a coordinate that is no number");
+  }
   for (const Geometry& geometry : scene.geometries) {
     for (const auto& triangle : geometry.index) {
       for (const std::uint32_t i : triangle) {
