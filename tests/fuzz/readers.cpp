@@ -145,6 +145,8 @@ void readMaterials(const fs::path& file) {
 void readImageFile(const fs::path& file) {
   ImageLimits limits;
   limits.bytes = kImageLimit;
+  MemoryBudget budget(kMemoryLimit);
+  limits.budget = &budget;
   Warnings warnings;
   const RawImage raw = readRawImage(file.string(), limits, warnings);
   for (const float value : raw.values) {
