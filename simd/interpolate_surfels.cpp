@@ -146,15 +146,22 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   }
   const TableReader material(tables.materials.data(), kMaterialStride, t.material, valid);
   const V4 diffuse = material.Columns4(0);
-  TexturePoints at{Interpolate(w, t.u0, t.u1, t.u2), Interpolate(w, t.v0, t.v1, t.v2), hn::Zero(d)};
+  TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
+                   Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
+  VF coneWidth = hn::Zero(d);
   const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
   const VF cosine = Dot(direction, ng);
   if (surfels.cone) {
-    const VF width =
+    coneWidth =
         hn::MulAdd(hn::Set(d, coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
-    hn::Store(width, d, surfels.cone + i);
-    at.footprint = TextureFootprint(t, edge1, edge2, width, cosine);
+    hn::Store(coneWidth, d, surfels.cone + i);
+    at.footprint = TextureFootprint(t.uv, edge1, edge2, coneWidth, cosine);
   }
+  const auto pointsOfMap = [&](uint32_t bySecond) HWY_ATTR {
+    if (HWY_LIKELY(tables.secondUvs == nullptr)) return at;
+    const UvLanes uv = UvsOfMap(tables, t, triangle, valid, bySecond);
+    return PointsOfMap(tables, uv, w, edge1, edge2, coneWidth, cosine);
+  };
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = hn::IfThenElse(entering, one, hn::Set(d, -1.0f));
   if constexpr ((kBits & kTextured) != 0) {
@@ -164,8 +171,12 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
     const VF map = material.Columns4(8).w;
     const MF mapped = hn::And(valid, hn::RebindMask(d, NonNegative(hn::BitCast(di, map))));
     if (!hn::AllFalse(d, mapped)) {
-      const TangentFrame frame = FindTangentFrame(t, edge1, edge2, ns, handedness);
-      QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
+      const bool twoSets = tables.secondUvs != nullptr;
+      const TangentFrame frame = FindTangentFrame(
+          twoSets ? UvsOfMap(tables, t, triangle, valid, kMaterialNormalBySecondUvs) : t.uv, edge1,
+          edge2, ns, handedness);
+      QueueMap(tables, map, hn::And(mapped, frame.good), pointsOfMap(kMaterialNormalBySecondUvs),
+               slot, block.normal);
       StoreFrame(frame, flip, slot, block);
     }
   }
@@ -186,7 +197,8 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   if (surfels.emissionR) {
     Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
     if constexpr ((kBits & kTextured) != 0) {
-      QueueMap(tables, lobe.w, valid, at, slot, block.emission);
+      QueueMap(tables, lobe.w, valid, pointsOfMap(kMaterialEmissionBySecondUvs), slot,
+               block.emission);
     }
   }
   const VU materialOrMiss =

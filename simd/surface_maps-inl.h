@@ -20,7 +20,7 @@ struct TangentFrame {
   MF good;
 };
 
-HWY_INLINE TangentFrame FindTangentFrame(const TriangleLanes& t, const V3& edge1, const V3& edge2,
+HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, const V3& edge2,
                                          const V3& ns, VF handedness) {
   const FloatTag d;
   const VF du1 = hn::Sub(t.u1, t.u0), dv1 = hn::Sub(t.v1, t.v0);
@@ -42,8 +42,8 @@ HWY_INLINE TangentFrame FindTangentFrame(const TriangleLanes& t, const V3& edge1
 // The area of texture space, of which a repeat is 1, that a cone of this width covers (the scalar
 // twin, with its source: reference/surfel.h). Lengths are brought to the order of the edges by a
 // power of two first, as for GeometricNormal.
-HWY_INLINE VF TextureFootprint(const TriangleLanes& t, const V3& edge1, const V3& edge2,
-                               VF coneWidth, VF cosine) {
+HWY_INLINE VF TextureFootprint(const UvLanes& t, const V3& edge1, const V3& edge2, VF coneWidth,
+                               VF cosine) {
   const VF inTexture = hn::Abs(DifferenceOfProducts(hn::Sub(t.u1, t.u0), hn::Sub(t.v2, t.v0),
                                                     hn::Sub(t.u2, t.u0), hn::Sub(t.v1, t.v0)));
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
@@ -76,6 +76,33 @@ HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, Bloc
 struct TexturePoints {
   VF u, v, footprint;
 };
+
+// The coordinates of a map where a scene has two sets: the second where the flags of the lane's
+// material have `bySecond`. Not inlined, nor the next: other frames shall not carry this along.
+HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const TriangleLanes& t, VI triangle,
+                              MF live, uint32_t bySecond) {
+  const UintTag du;
+  const TableReader reader(tables.materials.data(), kMaterialStride, t.material, live);
+  const VU flags = hn::And(hn::BitCast(du, reader.Columns4(12).z), hn::Set(du, bySecond));
+  const MF second = hn::And(live, hn::RebindMask(FloatTag(), hn::Ne(flags, hn::Zero(du))));
+  if (hn::AllFalse(FloatTag(), second)) return t.uv;
+  const UvLanes other = LoadSecondUvs(tables, triangle);
+  const auto select = [&](VF b, VF a) HWY_ATTR { return hn::IfThenElse(second, b, a); };
+  return {select(other.u0, t.uv.u0), select(other.v0, t.uv.v0), select(other.u1, t.uv.u1),
+          select(other.v1, t.uv.v1), select(other.u2, t.uv.u2), select(other.v2, t.uv.v2)};
+}
+
+// Where a map of these coordinates is looked up, by rays that hit at the weights `w`.
+HWY_NOINLINE TexturePoints PointsOfMap(const ShadingTables& tables, const UvLanes& uv,
+                                       const Weights& w, const V3& edge1, const V3& edge2,
+                                       VF coneWidth, VF cosine) {
+  TexturePoints at{Interpolate(w, uv.u0, uv.u1, uv.u2), Interpolate(w, uv.v0, uv.v1, uv.v2),
+                   hn::Zero(FloatTag())};
+  if (tables.shading.textureFilter == TextureFilter::trilinear) {
+    at.footprint = TextureFootprint(uv, edge1, edge2, coneWidth, cosine);
+  }
+  return at;
+}
 
 // The level at which a texel is as large as so many of the full texture; 0 where that is no number.
 HWY_INLINE VF MipLevel(VF texels) {

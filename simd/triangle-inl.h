@@ -12,10 +12,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// The corners and texture coordinates of each lane's triangle, and what follows from them.
+// Texture coordinates of the corners of each lane's triangle.
+struct UvLanes {
+  VF u0, v0, u1, v1, u2, v2;
+};
+
 struct TriangleLanes {
   V3 p0, p1, p2;
-  VF u0, v0, u1, v1, u2, v2;
+  UvLanes uv;
   VI material;
 };
 
@@ -23,8 +27,18 @@ HWY_INLINE TriangleLanes LoadTriangles(const ShadingTables& tables, VI triangle)
   const Records records = RecordsAt(tables.triangles, 16, triangle);
   const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 4);
   const V4 c = LoadColumns4(records, 8), e = LoadColumns4(records, 12);
-  return {{a.x, a.y, a.z},           {a.w, b.x, b.y}, {b.z, b.w, c.x}, c.y, c.z, c.w, e.x, e.y, e.z,
+  return {{a.x, a.y, a.z},
+          {a.w, b.x, b.y},
+          {b.z, b.w, c.x},
+          {c.y, c.z, c.w, e.x, e.y, e.z},
           hn::BitCast(IntTag(), e.w)};
+}
+
+HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
+  const Records records = RecordsAt(tables.secondUvs, sizeof(UvRecord) / sizeof(float), triangle);
+  // The last fetch starts at 2, not 4: a record ends after six floats.
+  const V4 a = LoadColumns4(records, 0), b = LoadColumns4(records, 2);
+  return {a.x, a.y, a.z, a.w, b.z, b.w};
 }
 
 // Barycentric weights of the corners.

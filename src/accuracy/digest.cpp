@@ -62,6 +62,8 @@ constexpr bool kPlain<NormalRecord> = sizeof(NormalRecord) == 9 * sizeof(float);
 template <>
 constexpr bool kPlain<ColourRecord> = sizeof(ColourRecord) == 9 * sizeof(float);
 template <>
+constexpr bool kPlain<UvRecord> = sizeof(UvRecord) == 6 * sizeof(float);
+template <>
 constexpr bool kPlain<ImageSize> = sizeof(ImageSize) == 2 * sizeof(int);
 template <>
 constexpr bool kPlain<Crop> = sizeof(Crop) == 4 * sizeof(int);
@@ -102,11 +104,12 @@ void add(Digester& d, const InstanceRecord& instance) {
 }
 void add(Digester& d, const Material& material) {
   const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, glossyReflection,
-               emission, emissionMap, normalMap, alphaMap, alphaCutoff, mirror, mirrorGrazing,
-               transmission, ior, absorption, priority, vertexTint, castsShadow, pointer] =
-      material;
+               emission, emissionMap, normalMap, emissionBySecondUvs, normalBySecondUvs, alphaMap,
+               alphaCutoff, mirror, mirrorGrazing, transmission, ior, absorption, priority,
+               vertexTint, castsShadow, pointer] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
   add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
+  add(d, emissionBySecondUvs), add(d, normalBySecondUvs);
   add(d, alphaMap), add(d, alphaCutoff), add(d, mirror), add(d, mirrorGrazing);
   add(d, transmission), add(d, ior), add(d, absorption), add(d, priority), add(d, vertexTint);
   add(d, castsShadow);
@@ -149,12 +152,12 @@ void add(Digester& d, const Sky& sky) {
 std::string digestOf(const Scene& scene) {
   const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
                mediumOfMaterial, media, textures, geometries, instances, triangles, normals,
-               colours, lower, upper, instancedTriangles, effects, reasons] = scene;
+               colours, secondUvs, lower, upper, instancedTriangles, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
-  addTable(d, colours);
+  addTable(d, colours), addTable(d, secondUvs);
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

@@ -14,7 +14,9 @@
 
 namespace whit {
 
-// Starts tasks at once on up to threads - 1 workers; the caller of finish() is the last worker.
+// Starts tasks at once on up to threads - 1 workers; the caller of finish() is the last worker. A
+// task that throws Error(limit) is run once more, alone, when all others have ended: what it lacked
+// may have been what they held. So tasks must be fit to be run again.
 class DecodeQueue {
  public:
   // threads 0: as many as the machine has for this process.
@@ -31,6 +33,8 @@ class DecodeQueue {
  private:
   void work();
   bool runOne(std::unique_lock<std::mutex>& lock);
+  void runAgain(std::unique_lock<std::mutex>& lock);
+  void end(std::size_t index, std::exception_ptr failure, std::unique_lock<std::mutex>& lock);
 
   Progress* progress_;
   std::string phase_;
@@ -39,6 +43,7 @@ class DecodeQueue {
   std::condition_variable wake_, done_;
   std::vector<std::function<void()>> tasks_;
   std::vector<std::exception_ptr> failures_;
+  std::vector<std::size_t> postponed_;
   std::size_t begun_ = 0, ended_ = 0;
   bool closing_ = false;
   std::vector<std::thread> workers_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/gltf_baker.h"
 #include "io/image_decoders.h"
 #include "io/image_file.h"
 #include "io/raw_channels.h"
@@ -51,148 +52,6 @@ class GltfImage {
 namespace {
 
 using Images = std::vector<std::optional<Texture>>;
-enum Map { kDiffuse, kSpecular, kAlpha, kMaps };
-
-struct Texel {
-  Rgb colour;  // linear
-  std::array<float, 4> code{1, 1, 1, 1};
-};
-
-// Nearest texels of an image that is stretched to another size; white without an image.
-class Stretched {
- public:
-  Stretched(const RawImage* raw, int width, int height)
-      : raw_(raw), width_(width), height_(height) {}
-
-  Texel at(int x, int y) const {
-    Texel texel{Rgb(1.0f), {1, 1, 1, 1}};
-    if (!raw_) return texel;
-    const auto column = static_cast<std::size_t>(std::int64_t{x} * raw_->width / width_);
-    const auto row = static_cast<std::size_t>(std::int64_t{y} * raw_->height / height_);
-    const auto channels = static_cast<std::size_t>(raw_->channels);
-    const std::size_t first = (row * static_cast<std::size_t>(raw_->width) + column) * channels;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const bool colour = c < 3, grey = channels < 3;
-      if (!colour && channels % 2 == 1) break;  // without alpha
-      const std::size_t at = first + (grey ? (colour ? 0 : 1) : c);
-      texel.code[c] = raw_->linear ? raw_->values[at] : static_cast<float>(raw_->codes[at]) / 255;
-      if (colour) {
-        texel.colour[static_cast<int>(c)] =
-            raw_->linear ? raw_->values[at] : linearOfCode()[raw_->codes[at]];
-      }
-    }
-    return texel;
-  }
-
- private:
-  const RawImage* raw_;
-  int width_, height_;
-};
-
-// What base colour and metalness become together.
-class Baker {
- public:
-  Baker(const GltfMaterial& material, const RawImage* base, const RawImage* metal,
-        const ImageLimits& limits)
-      : material_(material), rawBase_(base) {
-    for (const RawImage* raw : {base, metal}) {
-      if (!raw) continue;
-      width_ = std::max(width_, raw->width);
-      height_ = std::max(height_, raw->height);
-    }
-    constexpr std::uint64_t kBytesPerTexel = 2 * sizeof(std::uint32_t);
-    checkImageSize(material.where, width_, height_, kBytesPerTexel, limits);
-    base_.emplace(base, width_, height_);
-    metal_.emplace(metal, width_, height_);
-  }
-
-  Images bake(GltfMeans& means) {
-    Images maps(kMaps);
-    for (const Map map : {kDiffuse, kSpecular}) {
-      if (!wants(map)) continue;
-      maps[map].emplace();
-      start(*maps[map], TexelFormat::colour);
-    }
-    sum(maps);
-    const double texels = static_cast<double>(width_) * height_;
-    means.base = Rgb(colour_ / texels);
-    means.metallic = static_cast<float>(metallic_ / texels);
-    means.roughness = static_cast<float>(roughness_ / texels);
-    if (rawBase_ && hasTranslucentAlpha(*rawBase_)) bakeAlpha(maps[kAlpha], means);
-    return maps;
-  }
-
-  static bool wants(const GltfMaterial& m, Map map) {
-    const bool mixes = m.mixesMetal();
-    return map == kDiffuse ? mixes || (m.baseMap.exists() && m.metallic < 1)
-                           : mixes || (m.baseMap.exists() && m.metallic > 0);
-  }
-
- private:
-  bool wants(Map map) const { return wants(material_, map); }
-
-  void start(Texture& texture, TexelFormat format) const {
-    const GltfTexture& map =
-        material_.baseMap.exists() ? material_.baseMap : material_.metallicRoughnessMap;
-    texture.name = material_.name;
-    texture.format = format;
-    texture.wrapU = map.wrapU;
-    texture.wrapV = map.wrapV;
-    texture.width = width_;
-    texture.height = height_;
-    texture.texels.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  }
-
-  void sum(Images& maps) {
-    const bool mixes = material_.mixesMetal();
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const Texel base = base_->at(x, y), other = metal_->at(x, y);
-        const float metal = mixes ? material_.metallic * other.code[2] : 0.0f;
-        colour_ += RgbD(base.colour);
-        metallic_ += other.code[2];
-        roughness_ += other.code[1];
-        if (maps[kDiffuse]) {
-          maps[kDiffuse]->texels.push_back(encodeColourTexel(base.colour * (1 - metal)));
-        }
-        if (!maps[kSpecular]) continue;
-        const Rgb f0 =
-            mixes ? material_.f0 * (1 - metal) + material_.base * base.colour * metal : base.colour;
-        maps[kSpecular]->texels.push_back(encodeColourTexel(f0));
-      }
-    }
-  }
-
-  // Blending is even where most of what is not opaque is not clear either.
-  void bakeAlpha(std::optional<Texture>& map, GltfMeans& means) const {
-    if (material_.alphaMode == GltfMaterial::Alpha::opaque) return;
-    double alpha = 0;
-    std::uint64_t between = 0, translucent = 0;
-    for (int y = 0; y < rawBase_->height; ++y) {
-      for (int x = 0; x < rawBase_->width; ++x) {
-        const float a = Stretched(rawBase_, rawBase_->width, rawBase_->height).at(x, y).code[3];
-        alpha += a;
-        translucent += a < 1;
-        between += a > 0.1f && a < 0.9f;
-      }
-    }
-    if (material_.alphaMode == GltfMaterial::Alpha::blend && 2 * between > translucent) {
-      means.alpha =
-          static_cast<float>(alpha / (static_cast<double>(rawBase_->width) * rawBase_->height));
-      return;
-    }
-    map = makeTexture(material_.name, alphaOf(*rawBase_), TexelFormat::data);
-    map->wrapU = material_.baseMap.wrapU;
-    map->wrapV = material_.baseMap.wrapV;
-  }
-
-  const GltfMaterial& material_;
-  const RawImage* rawBase_;
-  int width_ = 1, height_ = 1;
-  std::optional<Stretched> base_, metal_;
-  RgbD colour_;
-  double metallic_ = 0, roughness_ = 0;
-};
 
 Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
   Texture texture = makeTexture(material.name, raw, TexelFormat::data);
@@ -211,42 +70,39 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
   return texture;
 }
 
-float meanOfFirstChannel(const RawImage& raw) {
-  const Stretched texels(&raw, raw.width, raw.height);
-  double sum = 0;
-  for (int y = 0; y < raw.height; ++y) {
-    for (int x = 0; x < raw.width; ++x) sum += texels.at(x, y).code[0];
-  }
-  return static_cast<float>(sum / (static_cast<double>(raw.width) * raw.height));
-}
-
-Texture colourTexture(const GltfMaterial& material, const GltfTexture& map, const RawImage& raw) {
+Texture emissionTexture(const GltfMaterial& material, const RawImage& raw) {
   Texture texture = makeTexture(material.name, raw, TexelFormat::colour);
-  texture.wrapU = map.wrapU;
-  texture.wrapV = map.wrapV;
+  texture.wrapU = material.emissiveMap.wrapU;
+  texture.wrapV = material.emissiveMap.wrapV;
   return texture;
 }
 
-bool emits(const GltfMaterial& m) { return m.emissiveMap.exists() && maxComponent(m.emission) > 0; }
+std::shared_ptr<const RawImage> decoded(const std::shared_ptr<GltfImage>& image,
+                                        const ImageLimits& limits) {
+  return image ? image->decode(limits) : nullptr;
+}
 
 // All that the maps and their means depend on.
 std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
   for (const GltfTexture* map :
-       {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.transmissionMap}) {
+       {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.specularMap,
+        &m.specularColourMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap}) {
     key << map->image << ' ' << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
-      << (m.transmission > 0) << emits(m) << m.unlit << ' ' << m.metallic << ' ';
-  if (m.mixesMetal()) {
-    for (int i = 0; i < 3; ++i) key << m.f0[i] << ' ' << m.base[i] << ' ';
+      << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' ' << m.metallic
+      << ' ';
+  if (m.bakesSpecular()) {
+    key << m.f90 << ' ';
+    for (int i = 0; i < 3; ++i) key << m.specularColour[i] << ' ' << m.base[i] << ' ';
   }
   return key.str();
 }
 
 }  // namespace
 
-GltfMapMaker::GltfMapMaker(const GltfDocument& document) {
+GltfMapMaker::GltfMapMaker(const GltfDocument& document) : warnings_(document.warnings()) {
   for (const GltfImageSource& source : document.images()) {
     images_.push_back(std::make_shared<GltfImage>(source, document.warnings()));
   }
@@ -264,42 +120,64 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   if (!isNew) return maps;
   const auto means = std::make_shared<GltfMeans>();
   maps.means = means;
-  const auto decode = [&textures](const std::shared_ptr<GltfImage>& image) {
-    return image ? image->decode(textures.limits()) : nullptr;
-  };
-  if (m.baseMap.exists() || m.metallicRoughnessMap.exists()) {
+  if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0()) {
     const auto slots = textures.add(
-        kMaps, [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap), &textures] {
-          const auto rawBase = decode(base), rawMetal = decode(metal);
-          return Baker(m, rawBase.get(), rawMetal.get(), textures.limits()).bake(*means);
+        kGltfBakedMaps,
+        [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap),
+         strength = image(m.specularMap), tint = image(m.specularColourMap), &textures] {
+          const ImageLimits limits = textures.limits();
+          const auto rawBase = decoded(base, limits), rawMetal = decoded(metal, limits);
+          const auto rawStrength = decoded(strength, limits), rawTint = decoded(tint, limits);
+          return bake(m, {rawBase.get(), rawMetal.get(), rawStrength.get(), rawTint.get()}, limits,
+                      *means);
         });
-    if (Baker::wants(m, kDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kDiffuse];
-    if (Baker::wants(m, kSpecular)) maps.specular = slots[kSpecular];
-    if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kAlpha];
+    if (wantsBaked(m, kGltfDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kGltfDiffuse];
+    if (wantsBaked(m, kGltfSpecular)) maps.specular = slots[kGltfSpecular];
+    if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kGltfAlpha];
   }
-  if (m.normalMap.exists()) {
-    maps.normal = textures.add(1, [=, normal = image(m.normalMap)] {
-      const auto raw = decode(normal);
+  const auto single = [&](const GltfTexture& map,
+                          Texture (*make)(const GltfMaterial&, const RawImage&)) {
+    return textures.add(1, [=, image = image(map), &textures] {
+      const ImageLimits limits = textures.limits();
+      const auto raw = decoded(image, limits);
       Images made(1);
-      if (raw) made[0] = normalTexture(m, *raw);
+      if (!raw) return made;
+      const MemoryHold held =
+          holdImage(m.where, raw->width, raw->height, sizeof(std::uint32_t), limits);
+      made[0] = make(m, *raw);
       return made;
     })[0];
-  }
-  if (emits(m)) {
-    maps.emission = textures.add(1, [=, emissive = image(m.emissiveMap)] {
-      const auto raw = decode(emissive);
-      Images made(1);
-      if (raw) made[0] = colourTexture(m, m.emissiveMap, *raw);
-      return made;
-    })[0];
-  }
-  if (m.transmission > 0 && m.transmissionMap.exists()) {
-    textures.add(0, [=, map = image(m.transmissionMap)] {
-      if (const auto raw = decode(map)) means->transmission = meanOfFirstChannel(*raw);
+  };
+  if (m.normalMap.exists()) maps.normal = single(m.normalMap, normalTexture);
+  if (m.emitsByMap()) maps.emission = single(m.emissiveMap, emissionTexture);
+  addMeans(m, means, textures);
+  return maps;
+}
+
+// Of factors that a Material has no map for.
+void GltfMapMaker::addMeans(const GltfMaterial& m, const std::shared_ptr<GltfMeans>& means,
+                            TextureLoader& textures) const {
+  const auto add = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*mean,
+                       const char* warning) {
+    if (!map.exists()) return;
+    textures.add(0, [=, this, image = image(map), where = m.where, &textures] {
+      if (const auto raw = decoded(image, textures.limits())) {
+        const ChannelMean found = meanOf(*raw, channel);
+        (*means).*mean = found.mean;
+        if (found.varies) warnings_.add(warning, where);
+      }
       return Images();
     });
+  };
+  if (m.transmission > 0) {
+    add(m.transmissionMap, 0, &GltfMeans::transmission,
+        "transmission by a texture taken by its mean");
   }
-  return maps;
+  if (m.clearcoat > 0) {
+    add(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
+    add(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
+        "roughness of a clearcoat by a texture taken by its mean");
+  }
 }
 
 }  // namespace whit

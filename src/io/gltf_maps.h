@@ -9,6 +9,7 @@
 
 #include "io/gltf_document.h"
 #include "io/gltf_material.h"
+#include "io/gltf_shading.h"
 #include "io/texture_loader.h"
 
 namespace whit {
@@ -34,6 +35,10 @@ class GltfMapMaker {
  private:
   std::shared_ptr<GltfImage> image(const GltfTexture& map) const;
 
+  void addMeans(const GltfMaterial& material, const std::shared_ptr<GltfMeans>& means,
+                TextureLoader& textures) const;
+
+  Warnings& warnings_;
   std::vector<std::shared_ptr<GltfImage>> images_;
   std::map<std::string, GltfMaps> known_;
 };

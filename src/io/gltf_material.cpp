@@ -40,6 +40,7 @@ class GltfMaterialReader {
     factors();
     maps();
     extensions();
+    countCoordinatesLeftOut();
     countMapsLeftOut();
     return std::move(m_);
   }
@@ -85,11 +86,22 @@ class GltfMaterialReader {
     m_.normalMap = texture(source_.normalTexture);
     m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
     m_.emissiveMap = texture(source_.emissiveTexture);
-    for (const GltfTexture* map :
-         {&m_.baseMap, &m_.metallicRoughnessMap, &m_.normalMap, &m_.emissiveMap}) {
-      if (map->exists() && !(map->uv == m_.uv())) {
-        warn("textures of one material with different coordinates: those of the first taken");
-      }
+  }
+
+  void countCoordinatesLeftOut() {
+    const GltfMaterial::Coordinates known = m_.coordinates();
+    const bool third = !(m_.emissiveMap.uv == known.first) && !(m_.emissiveMap.uv == known.second);
+    if (m_.emitsByMap() && third) {
+      warn("texture with a third kind of coordinates in its material: those of the first taken");
+    }
+    const auto apart = [&](const GltfTexture& map) {
+      return map.exists() && !(map.uv == m_.surfaceMap().uv);
+    };
+    if (m_.mixesMetal() && apart(m_.metallicRoughnessMap)) {
+      warn("metalness by a texture with other coordinates than the base colour's: these taken");
+    }
+    if (m_.variesF0() && (apart(m_.specularMap) || apart(m_.specularColourMap))) {
+      warn("specular by a texture with other coordinates than the base colour's: these taken");
     }
   }
 
@@ -116,6 +128,20 @@ class GltfMaterialReader {
     result.uv.set = static_cast<std::size_t>(std::max(info.texCoord, 0));
     if (const Value* t = find(info.extensions, "KHR_texture_transform")) transform(*t, result.uv);
     return result;
+  }
+
+  // Of an extension.
+  GltfTexture texture(const Value& extension, const char* slot) {
+    tinygltf::TextureInfo info;
+    if (!extension.Has(slot) || m_.unlit) return {};
+    const Value& value = extension.Get(slot);
+    info.index = static_cast<int>(numberOf(value, "index", -1));
+    info.texCoord = static_cast<int>(numberOf(value, "texCoord", 0));
+    constexpr char kTransform[] = "KHR_texture_transform";
+    if (value.Has("extensions") && value.Get("extensions").Has(kTransform)) {
+      info.extensions[kTransform] = value.Get("extensions").Get(kTransform);
+    }
+    return texture(info);
   }
 
   static Wrap wrap(int code) {
@@ -145,7 +171,7 @@ class GltfMaterialReader {
     if (const Value* e = find(source_.extensions, "KHR_materials_ior"))
       ior(numberOf(*e, "ior", 1.5));
     const float step = (m_.ior - 1) / (m_.ior + 1);
-    m_.f0 = Rgb(step * step);
+    m_.specularColour = Rgb(step * step);
     if (const Value* e = find(source_.extensions, "KHR_materials_specular")) specular(*e);
     if (const Value* e = find(source_.extensions, "KHR_materials_emissive_strength")) {
       m_.emission *= static_cast<float>(
@@ -156,6 +182,8 @@ class GltfMaterialReader {
     if (const Value* e = find(source_.extensions, "KHR_materials_clearcoat")) {
       m_.clearcoat = unit(numberOf(*e, "clearcoatFactor", 0));
       m_.clearcoatRoughness = unit(numberOf(*e, "clearcoatRoughnessFactor", 0));
+      m_.clearcoatMap = texture(*e, "clearcoatTexture");
+      m_.clearcoatRoughnessMap = texture(*e, "clearcoatRoughnessTexture");
     }
   }
 
@@ -163,11 +191,6 @@ class GltfMaterialReader {
     constexpr struct {
       const char *extension, *map, *warning;
     } kMaps[] = {
-        {"KHR_materials_specular", "specularTexture", "specular strength by a texture left out"},
-        {"KHR_materials_specular", "specularColorTexture", "specular colour by a texture left out"},
-        {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoat by a texture left out"},
-        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture",
-         "roughness of a clearcoat by a texture left out"},
         {"KHR_materials_clearcoat", "clearcoatNormalTexture", "normal map of a clearcoat left out"},
         {"KHR_materials_volume", "thicknessTexture",
          "thickness of a volume by a texture left out: what the mesh encloses counts"},
@@ -185,17 +208,14 @@ class GltfMaterialReader {
 
   void specular(const Value& e) {
     m_.f90 = unit(numberOf(e, "specularFactor", 1));
-    const Rgb colour = colourOf(e, "specularColorFactor", Rgb(1.0f));
-    m_.f0 = min(max(m_.f0 * colour, Rgb(0.0f)), Rgb(1.0f)) * m_.f90;
+    m_.specularColour = m_.specularColour * colourOf(e, "specularColorFactor", Rgb(1.0f));
+    m_.specularMap = texture(e, "specularTexture");
+    m_.specularColourMap = texture(e, "specularColorTexture");
   }
 
   void transmission(const Value& e) {
     m_.transmission = unit(numberOf(e, "transmissionFactor", 0));
-    if (!e.Has("transmissionTexture")) return;
-    tinygltf::TextureInfo info;
-    info.index = e.Get("transmissionTexture").Get("index").GetNumberAsInt();
-    m_.transmissionMap = texture(info);
-    if (m_.transmission > 0) warn("transmission by a texture taken by its mean");
+    m_.transmissionMap = texture(e, "transmissionTexture");
   }
 
   void volume(const Value& e) {
@@ -213,35 +233,29 @@ class GltfMaterialReader {
   GltfMaterial m_;
 };
 
-// A mask that cuts everything, with or without a map.
-Material invisible(Material m) {
-  m.diffuse = m.emission = Rgb(0.0f);
-  m.transmission = Rgb(1.0f);
-  m.ior = 1;
-  m.castsShadow = false;
-  return m;
-}
-
-// Emits its colour, and lets the rest straight through.
-Material unlit(Material m, const Rgb& base, float coverage) {
-  m.diffuse = Rgb(0.0f);
-  m.emission = base * coverage;
-  m.vertexTint = VertexTint::emission;
-  m.transmission = Rgb(1 - coverage);
-  if (coverage < 1) m.ior = 1;
-  m.castsShadow = !m.hasTransmission();
-  return m;
-}
-
-Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
-
 }  // namespace
 
-GltfUvMap GltfMaterial::uv() const {
-  for (const GltfTexture* map : {&baseMap, &metallicRoughnessMap, &normalMap, &emissiveMap}) {
-    if (map->exists()) return map->uv;
-  }
-  return {};
+const GltfTexture& GltfMaterial::surfaceMap() const {
+  if (baseMap.exists()) return baseMap;
+  if (mixesMetal()) return metallicRoughnessMap;
+  return variesF0() && specularMap.exists() ? specularMap
+         : variesF0()                       ? specularColourMap
+                                            : baseMap;
+}
+
+GltfMaterial::Coordinates GltfMaterial::coordinates() const {
+  Coordinates found;
+  bool any = false;
+  const auto add = [&](const GltfTexture& map, bool needed) {
+    if (!needed || found.areTwo()) return;
+    if (!any) found.first = map.uv;
+    found.second = map.uv;
+    any = true;
+  };
+  add(surfaceMap(), surfaceMap().exists());
+  add(normalMap, normalMap.exists());
+  add(emissiveMap, emitsByMap());
+  return found;
 }
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
@@ -256,49 +270,6 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   fallback.where = document.name();
   materials.push_back(fallback);
   return materials;
-}
-
-Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
-  Material m;
-  m.name = g.name;
-  m.roughness = g.roughness * means.roughness;
-  m.emission = g.emission;
-  m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
-                      ? std::min(g.alphaCutoff / g.alpha, 1.0f)
-                      : 0.5f;
-  if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) {
-    return invisible(std::move(m));
-  }
-  const bool blends = g.alphaMode == GltfMaterial::Alpha::blend;
-  const float coverage = blends ? g.alpha * means.alpha : 1.0f;
-  if (g.unlit) return unlit(std::move(m), g.base, coverage);
-  const Rgb base = g.base * means.base;
-  const float metal = g.metallic * means.metallic;
-  const float clear = g.transmission * means.transmission;
-  if (metal >= 0.5f) m.vertexTint = VertexTint::diffuseAndSpecular;
-  m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear) * coverage);
-  m.specular = (g.mixesMetal() ? Rgb(1.0f) : mix(g.f0, g.base, metal)) * coverage;
-  const float through = clear * (1 - metal);
-  m.transmission = base * (through * coverage) + Rgb(1 - coverage);
-  if (through > 0) {
-    m.ior = g.ior;
-    m.absorption = g.absorption;
-  } else if (coverage < 1) {
-    m.ior = 1;
-  }
-  m.glossyReflection = m.roughness > kGltfSmoothRoughness && !m.hasTransmission();
-  if (m.roughness <= kGltfSmoothRoughness) {
-    // The dielectric adds its own reflectance.
-    const float share = through > 0 ? metal : 1.0f;
-    m.mirror = mix(g.f0, base, metal) * (share * coverage);
-    m.mirrorGrazing = Rgb((g.f90 * (1 - metal) + metal) * share * coverage);
-  }
-  if (g.clearcoatRoughness <= kGltfSmoothRoughness) {
-    m.mirror = min(m.mirror + Rgb(0.04f * g.clearcoat), Rgb(1.0f));
-    m.mirrorGrazing = max(m.mirrorGrazing, Rgb(g.clearcoat));
-  }
-  m.castsShadow = !m.hasTransmission();
-  return m;
 }
 
 }  // namespace whit

@@ -20,7 +20,7 @@ class PrimitiveReader {
       : document_(document), primitive_(primitive), where_(std::move(where)) {
     const bool named = primitive.material >= 0;
     material_ = named ? static_cast<std::size_t>(primitive.material) : materials.size() - 1;
-    uv_ = materials[material_].uv();
+    coordinates_ = materials[material_].coordinates();
     opaque_ = materials[material_].alphaMode == GltfMaterial::Alpha::opaque;
   }
 
@@ -37,7 +37,8 @@ class PrimitiveReader {
     refuseDraco(position);
     mesh.positions = readVectors(document_, static_cast<std::size_t>(position));
     readNormals(mesh);
-    readTextureCoordinates(mesh);
+    mesh.uvs = textureCoordinates(mesh, coordinates_.first);
+    if (coordinates_.areTwo()) mesh.secondUvs = secondTextureCoordinates(mesh);
     readVertexColours(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
@@ -86,17 +87,28 @@ class PrimitiveReader {
     if (read.translucent && !opaque_) warn("alpha of vertex colours left out");
   }
 
-  void readTextureCoordinates(Mesh& mesh) const {
-    const std::string name = "TEXCOORD_" + std::to_string(uv_.set);
+  // None where the primitive has none of that set.
+  std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
+    const std::string name = "TEXCOORD_" + std::to_string(uv.set);
     const int coordinates = attribute(name);
-    if (coordinates < 0) return;
-    mesh.uvs = readUvs(document_, static_cast<std::size_t>(coordinates));
-    checkLength(mesh.uvs, mesh, name);
-    for (Vec2f& at : mesh.uvs) {
+    if (coordinates < 0) return {};
+    std::vector<Vec2f> uvs = readUvs(document_, static_cast<std::size_t>(coordinates));
+    checkLength(uvs, mesh, name);
+    for (Vec2f& at : uvs) {
       const double u = at.x, v = at.y;
-      at.x = static_cast<float>(uv_.uu * u + uv_.uv * v + uv_.u0);
-      at.y = static_cast<float>(1 - (uv_.vu * u + uv_.vv * v + uv_.v0));
+      at.x = static_cast<float>(uv.uu * u + uv.uv * v + uv.u0);
+      at.y = static_cast<float>(1 - (uv.vu * u + uv.vv * v + uv.v0));
     }
+    return uvs;
+  }
+
+  // Never none: a scene without any looks all maps up with the first.
+  std::vector<Vec2f> secondTextureCoordinates(const Mesh& mesh) const {
+    std::vector<Vec2f> uvs = textureCoordinates(mesh, coordinates_.second);
+    if (!uvs.empty()) return uvs;
+    document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), where_);
+    uvs.resize(mesh.positions.size());
+    return uvs;
   }
 
   std::vector<std::uint32_t> corners(std::size_t vertices) {
@@ -135,7 +147,7 @@ class PrimitiveReader {
   const tinygltf::Primitive& primitive_;
   std::string where_;
   std::size_t material_ = 0;
-  GltfUvMap uv_;
+  GltfMaterial::Coordinates coordinates_;
   bool opaque_ = true;
 };
 

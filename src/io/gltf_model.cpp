@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/gltf_mesh.h"
+#include "io/gltf_shading.h"
 
 namespace whit {
 namespace {

@@ -162,6 +162,10 @@ constexpr const char* kTextureSlots[] = {
     "normalTexture",
     "emissiveTexture",
     "extensions/KHR_materials_transmission/transmissionTexture",
+    "extensions/KHR_materials_specular/specularTexture",
+    "extensions/KHR_materials_specular/specularColorTexture",
+    "extensions/KHR_materials_clearcoat/clearcoatTexture",
+    "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
 };
 constexpr Rule kTextureRules[] = {
     {"", Kind::object},

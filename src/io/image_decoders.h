@@ -16,6 +16,10 @@ namespace whit {
 void checkImageSize(const std::string& path, std::int64_t width, std::int64_t height,
                     std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
+// The same, and then holds so much of the limits' budget.
+[[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
+                                   std::uint64_t bytesPerPixel, const ImageLimits& limits);
+
 // Linear light of every 8-bit sRGB code.
 const std::array<float, 256>& linearOfCode();
 
@@ -37,6 +41,7 @@ struct ExrPixels {
   Crop window;
   int channels = 0;  // 1: Y, 2: Y A, 3: R G B, 4: R G B A
   std::vector<float> values;
+  MemoryHold held;  // of these
 };
 bool isExr(const std::vector<std::uint8_t>& beginning);
 // Scanlines or tiles (level 0), any compression, any channel type. A missing one of R, G and B is

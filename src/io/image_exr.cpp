@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "core/error.h"
 #include "io/image_decoders.h"
@@ -83,6 +84,12 @@ void checkSizes(const std::string& path, const Imf::Header& header, std::size_t 
   }
 }
 
+MemoryHold holdBox(const std::string& path, const Box2i& box, std::size_t channels,
+                   const ImageLimits& limits) {
+  return holdImage(path, sideOf(box.min.x, box.max.x), sideOf(box.min.y, box.max.y),
+                   channels * sizeof(float), limits);
+}
+
 // The data window's values, interleaved.
 std::vector<float> readParts(const std::string& path, const Box2i& data, const Layout& layout) {
   const std::size_t channels = layout.channels.size();
@@ -105,10 +112,11 @@ std::vector<float> readParts(const std::string& path, const Box2i& data, const L
 
 // The same of an image stored as luminance and subsampled chroma, whose conversion OpenEXR only
 // offers in half precision.
-std::vector<float> readLumaChroma(const std::string& path, const Box2i& data,
-                                  std::size_t channels) {
+std::vector<float> readLumaChroma(const std::string& path, const Box2i& data, std::size_t channels,
+                                  const ImageLimits& limits) {
   const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
   const auto height = static_cast<std::size_t>(sideOf(data.min.y, data.max.y));
+  const MemoryHold held(limits.budget, width * height, sizeof(Imf::Rgba), path);
   std::vector<Imf::Rgba> pixels(width * height);
   Imf::RgbaInputFile file(path.c_str());
   const std::int64_t offset = data.min.x + data.min.y * static_cast<std::int64_t>(width);
@@ -165,9 +173,14 @@ ExrPixels decodeExr(const std::string& path, const ImageLimits& limits) {
     pixels.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
                      kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
     pixels.channels = static_cast<int>(channels);
-    pixels.values =
-        layout.lumaChroma ? readLumaChroma(path, data, channels) : readParts(path, data, layout);
-    if (kept != data) pixels.values = cropped(pixels.values, data, kept, channels);
+    pixels.held = holdBox(path, data, channels, limits);
+    const MemoryHold working(limits.budget, exrChunkBytes(header), 1, path);
+    pixels.values = layout.lumaChroma ? readLumaChroma(path, data, channels, limits)
+                                      : readParts(path, data, layout);
+    if (kept != data) {
+      const MemoryHold whole = std::exchange(pixels.held, holdBox(path, kept, channels, limits));
+      pixels.values = cropped(pixels.values, data, kept, channels);
+    }
     return pixels;
   });
 }

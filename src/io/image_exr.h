@@ -3,6 +3,7 @@
 
 #include <ImfHeader.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,9 @@ namespace whit {
 // attributes and the tables of chunks claim to take. Throws Error(badScene) where they claim more
 // than the file holds, and what OpenEXR throws.
 std::vector<Imf::Header> readExrHeaders(const std::string& path);
+
+// What the library takes, at most, for the chunks of a file of this header that it has in work: as
+// they are stored, as they are decoded, and twice that again while it undoes the compression.
+std::uint64_t exrChunkBytes(const Imf::Header& header);
 
 }  // namespace whit

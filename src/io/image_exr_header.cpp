@@ -1,8 +1,11 @@
+#include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfStdIO.h>
+#include <ImfThreading.h>
 #include <ImfTileDescription.h>
 #include <ImfVersion.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -159,6 +162,24 @@ void checkChunks(const std::string& path, const Imf::Header& header) {
 }
 
 }  // namespace
+
+std::uint64_t exrChunkBytes(const Imf::Header& header) {
+  const Imath::Box2i& data = header.dataWindow();
+  auto columns = static_cast<std::uint64_t>(std::int64_t{data.max.x} - data.min.x + 1);
+  auto lines = static_cast<std::uint64_t>(linesInChunk(header.compression()));
+  if (header.hasTileDescription()) {
+    columns += header.tileDescription().xSize;  // a row of tiles, all whole
+    lines = header.tileDescription().ySize;
+  } else {
+    lines = std::min(lines, static_cast<std::uint64_t>(std::int64_t{data.max.y} - data.min.y + 1));
+  }
+  std::uint64_t bytes = 0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    bytes += it.channel().type == Imf::HALF ? 2 : 4;
+  }
+  const int chunks = std::max(1, 2 * Imf::globalThreadCount());
+  return columns * lines * bytes * 4 * static_cast<std::uint64_t>(chunks);
+}
 
 std::vector<Imf::Header> readExrHeaders(const std::string& path) {
   AttributeWalk(path).check();

@@ -52,12 +52,14 @@ RawImage decodeBytes(const std::string& name, const std::vector<std::uint8_t>& f
 
 RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   std::error_code error;
-  checkFileSize(path, std::filesystem::file_size(path, error), limits);
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  checkFileSize(path, size, limits);
+  const MemoryHold file(limits.budget, error ? 0 : size, 1, path);
   return decodeBytes(path, readBytes(path, limits.bytes), limits);
 }
 
 // The display window's values; what lies outside the data window is 0.
-RawImage fillDisplay(ExrPixels&& exr) {
+RawImage fillDisplay(const std::string& path, ExrPixels&& exr, const ImageLimits& limits) {
   RawImage raw;
   raw.width = exr.width;
   raw.height = exr.height;
@@ -65,9 +67,11 @@ RawImage fillDisplay(ExrPixels&& exr) {
   raw.linear = true;
   if (exr.window == Crop{0, 0, exr.width, exr.height}) {
     raw.values = std::move(exr.values);
+    raw.held = std::move(exr.held);
     return raw;
   }
   const auto channels = static_cast<std::size_t>(exr.channels);
+  raw.held = holdImage(path, exr.width, exr.height, channels * sizeof(float), limits);
   const std::size_t row = static_cast<std::size_t>(exr.width) * channels;
   const std::size_t part = static_cast<std::size_t>(exr.window.x1 - exr.window.x0) * channels;
   raw.values.resize(row * static_cast<std::size_t>(exr.height));
@@ -116,8 +120,16 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
                std::to_string(limits.bytes) + " bytes allowed");
 }
 
+MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
+                     std::uint64_t bytesPerPixel, const ImageLimits& limits) {
+  checkImageSize(path, width, height, bytesPerPixel, limits);
+  const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return {limits.budget, pixels, bytesPerPixel, path + ": " + sizeText(width, height)};
+}
+
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
-  RawImage raw = isExrFile(path) ? fillDisplay(decodeExr(path, limits)) : decodeOther(path, limits);
+  RawImage raw = isExrFile(path) ? fillDisplay(path, decodeExr(path, limits), limits)
+                                 : decodeOther(path, limits);
   sanitise(path, raw.values, warnings);
   return raw;
 }
@@ -125,6 +137,7 @@ RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnin
 RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
                         const ImageLimits& limits, Warnings& warnings) {
   checkFileSize(name, file.size(), limits);
+  const MemoryHold copy(limits.budget, file.size(), 1, name);
   RawImage raw = decodeBytes(name, file, limits);
   sanitise(name, raw.values, warnings);
   return raw;
@@ -136,7 +149,7 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings&) {
     source = decodeExr(path, limits);
   } else {
     RawImage raw = decodeOther(path, limits);
-    source = {raw.width, raw.height, {0, 0, raw.width, raw.height}, raw.channels, {}};
+    source = {raw.width, raw.height, {0, 0, raw.width, raw.height}, raw.channels, {}, {}};
     source.values = std::move(raw.values);
     source.values.reserve(raw.codes.size());
     for (const std::uint8_t code : raw.codes) source.values.push_back(linearOfCode()[code]);

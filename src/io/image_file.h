@@ -9,6 +9,7 @@
 
 #include "core/image.h"
 #include "core/warnings.h"
+#include "io/memory_budget.h"
 #include "scene/texture.h"
 
 namespace whit {
@@ -18,6 +19,9 @@ using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 struct ImageLimits {
   int side = 32768;                              // pixels
   std::uint64_t bytes = std::uint64_t{4} << 30;  // decoded
+  // Where there is one, what decoding takes is held in it: the file, the decoder's own memory, and
+  // the image for as long as that lives.
+  MemoryBudget* budget = nullptr;
 };
 
 // Decoded but not yet interpreted: 8-bit files keep their codes (values code / 255, not
@@ -27,6 +31,7 @@ struct RawImage {
   bool linear = false;
   std::vector<std::uint8_t> codes;  // when !linear
   std::vector<float> values;  // when linear; sanitised: NaN and negatives 0, inf 65504, counted
+  MemoryHold held;            // of these
 };
 
 // PNG, JPEG, TGA, BMP, Radiance HDR, OpenEXR. Throws Error(io) if it cannot be read, badScene if it

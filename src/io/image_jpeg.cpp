@@ -63,6 +63,21 @@ class Decoder {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     return decoder_.num_components == 3 ? 3 : 0;
   }
+  // What libjpeg takes to decode, at most: some rows of each component, and all of its
+  // coefficients where they come in more than one scan.
+  std::uint64_t workingBytes() {
+    constexpr std::uint64_t kRows = 64;
+    const bool many = jpeg_has_multiple_scans(&decoder_) != 0;
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < decoder_.num_components; ++i) {
+      const jpeg_component_info& component = decoder_.comp_info[i];
+      const std::uint64_t across = component.width_in_blocks + std::uint64_t{8};
+      const std::uint64_t down = component.height_in_blocks + std::uint64_t{8};
+      bytes += across * DCTSIZE * kRows * sizeof(int);
+      if (many) bytes += across * down * DCTSIZE2 * sizeof(JCOEF);
+    }
+    return bytes;
+  }
   const char* message() const { return message_; }
 
  private:
@@ -112,8 +127,9 @@ RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& fi
   image.height = decoder.height();
   image.channels = decoder.channels();
   if (image.channels == 0) throwBadScene(path, "expected grey or RGB, found four inks");
-  checkImageSize(path, image.width, image.height, static_cast<std::uint64_t>(image.channels),
-                 limits);
+  image.held = holdImage(path, image.width, image.height,
+                         static_cast<std::uint64_t>(image.channels), limits);
+  const MemoryHold working(limits.budget, decoder.workingBytes(), 1, path);
   image.codes.resize(static_cast<std::size_t>(image.width) *
                      static_cast<std::size_t>(image.height) *
                      static_cast<std::size_t>(image.channels));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -10,14 +11,17 @@
 
 namespace {
 
-// What stb_image allocates for one image. Frees what is left at the end, so that exceptions may
-// pass through stb_image, and refuses any single block larger than the image's claimed size
-// justifies: a file of a few kilobytes can unpack to gigabytes.
+// What stb_image allocates for one image, held in the budget. Frees what is left at the end, so
+// that exceptions may pass through stb_image, and refuses any single block larger than the image's
+// claimed size justifies: a file of a few kilobytes can unpack to gigabytes.
 class Arena {
  public:
-  explicit Arena(std::size_t largestBlock) : largestBlock_(largestBlock) { current = this; }
+  Arena(const std::string& path, std::size_t largestBlock, whit::MemoryBudget* budget)
+      : path_(path), largestBlock_(largestBlock), budget_(budget) {
+    current = this;
+  }
   ~Arena() {
-    for (void* block : blocks_) std::free(block);
+    for (const auto& [block, held] : blocks_) std::free(block);
     current = nullptr;
   }
   Arena(const Arena&) = delete;
@@ -25,22 +29,25 @@ class Arena {
 
   void* resize(void* block, std::size_t size) {
     if (size > largestBlock_) return nullptr;
+    whit::MemoryHold held(budget_, size, 1, path_);
     void* moved = std::realloc(block, size);
     if (moved == nullptr) return nullptr;
-    std::erase(blocks_, block);
-    blocks_.push_back(moved);
+    blocks_.erase(block);
+    blocks_[moved] = std::move(held);
     return moved;
   }
   void release(void* block) {
-    std::erase(blocks_, block);
+    blocks_.erase(block);
     std::free(block);
   }
 
   static thread_local Arena* current;
 
  private:
+  const std::string& path_;
   std::size_t largestBlock_;
-  std::vector<void*> blocks_;
+  whit::MemoryBudget* budget_;
+  std::map<void*, whit::MemoryHold> blocks_;
 };
 thread_local Arena* Arena::current = nullptr;
 
@@ -111,6 +118,32 @@ bool startsWith(const std::vector<std::uint8_t>& file, const char* signature, st
   return file.size() >= size && std::memcmp(file.data(), signature, size) == 0;
 }
 
+bool isPng(const std::vector<std::uint8_t>& file) {
+  return startsWith(file, "\x89PNG\r\n\x1a\n", 8);
+}
+
+// By what the first chunk says of a PNG (PNG specification 11.2.2): stb_image calls an image that
+// is too large for it one of an unknown type.
+void checkPngSize(const std::string& path, const std::vector<std::uint8_t>& file,
+                  const ImageLimits& limits) {
+  constexpr std::size_t kWidth = 16, kHeight = 20, kColourType = 25;
+  constexpr std::uint64_t kMostBytes = 1 << 30;                 // that stb_image takes
+  constexpr std::uint64_t kChannels[] = {1, 0, 3, 4, 2, 0, 4};  // of the colour types
+  if (file.size() <= kColourType) return;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | file[i];
+    return std::int64_t{value};
+  };
+  const std::int64_t width = number(kWidth), height = number(kHeight);
+  const MemoryHold claimed = holdImage(path, width, height, 1, limits);
+  const std::size_t type = std::min<std::size_t>(file[kColourType], 6);
+  if (static_cast<std::uint64_t>(width * height) * kChannels[type] > kMostBytes) {
+    throwLimit(path + ": " + std::to_string(width) + "x" + std::to_string(height) +
+               " is more than the " + std::to_string(kMostBytes) + " bytes that a PNG may have");
+  }
+}
+
 bool isTgaName(const std::string& path) {
   if (path.size() < 4) return false;
   std::string end = path.substr(path.size() - 4);
@@ -119,16 +152,16 @@ bool isTgaName(const std::string& path) {
 }
 
 bool isKnown(const std::string& path, const std::vector<std::uint8_t>& file) {
-  return startsWith(file, "\x89PNG\r\n\x1a\n", 8) || startsWith(file, "BM", 2) ||
-         startsWith(file, "#?RADIANCE", 10) || startsWith(file, "#?RGBE", 6) || isTgaName(path);
+  return isPng(file) || startsWith(file, "BM", 2) || startsWith(file, "#?RADIANCE", 10) ||
+         startsWith(file, "#?RGBE", 6) || isTgaName(path);
 }
 
 // Calls use(callbacks, source) with memory to work in, and translates what can go wrong. `use`
 // tells failure by a result that converts to false.
 template <typename Use>
 auto withSource(const std::string& path, const std::vector<std::uint8_t>& file,
-                std::size_t largestBlock, Use&& use) {
-  const Arena arena(largestBlock);
+                std::size_t largestBlock, MemoryBudget* budget, Use&& use) {
+  const Arena arena(path, largestBlock, budget);
   const stbi_io_callbacks callbacks = Source::callbacks();
   Source source(file);
   try {
@@ -145,11 +178,19 @@ auto withSource(const std::string& path, const std::vector<std::uint8_t>& file,
   throwBadScene(path, "not a valid image (" + reason + ")");
 }
 
+// 16-bit or float channels, a packed copy, doubling while it grows.
+std::size_t justifiedBlock(const RawImage& image, std::size_t fileSize) {
+  return (static_cast<std::size_t>(image.width) + 128) *
+             (static_cast<std::size_t>(image.height) + 128) * 32 +
+         fileSize * 2 + (1u << 20);
+}
+
 // Decodes as `Value`s with stb_image's function for them.
 template <typename Value, typename Load>
 std::vector<Value> load(const std::string& path, const std::vector<std::uint8_t>& file,
-                        const RawImage& claimed, std::size_t largestBlock, Load&& function) {
-  auto values = withSource(path, file, largestBlock, [&](auto callbacks, void* source) {
+                        const RawImage& claimed, MemoryBudget* budget, Load&& function) {
+  const std::size_t block = justifiedBlock(claimed, file.size());
+  auto values = withSource(path, file, block, budget, [&](auto callbacks, void* source) {
     int width = 0, height = 0, inFile = 0;
     const Value* decoded = function(callbacks, source, &width, &height, &inFile, claimed.channels);
     if (decoded != nullptr && (width != claimed.width || height != claimed.height))
@@ -161,37 +202,30 @@ std::vector<Value> load(const std::string& path, const std::vector<std::uint8_t>
   return std::move(*values);
 }
 
-// 16-bit or float channels, a packed copy, doubling while it grows.
-std::size_t justifiedBlock(const RawImage& image, std::size_t fileSize) {
-  return (static_cast<std::size_t>(image.width) + 128) *
-             (static_cast<std::size_t>(image.height) + 128) * 32 +
-         fileSize * 2 + (1u << 20);
-}
-
 }  // namespace
 
 RawImage decodeWithStb(const std::string& path, const std::vector<std::uint8_t>& file,
                        const ImageLimits& limits) {
   if (!isKnown(path, file))
     throwBadScene(path, "expected a PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR image");
+  if (isPng(file)) checkPngSize(path, file, limits);
   constexpr std::size_t kHeaderBlock = 1u << 20;
   RawImage image;
-  withSource(path, file, kHeaderBlock, [&](auto callbacks, void* source) {
+  withSource(path, file, kHeaderBlock, limits.budget, [&](auto callbacks, void* source) {
     return stbi_info_from_callbacks(callbacks, source, &image.width, &image.height,
                                     &image.channels);
   });
   image.linear = startsWith(file, "#?", 2);
   if (image.channels < 1 || image.channels > 4)
     throwBadScene(path, "expected 1 to 4 channels, found " + std::to_string(image.channels));
-  checkImageSize(path, image.width, image.height,
-                 static_cast<std::uint64_t>(image.channels) *
-                     (image.linear ? sizeof(float) : sizeof(std::uint8_t)),
-                 limits);
-  const std::size_t block = justifiedBlock(image, file.size());
+  image.held = holdImage(path, image.width, image.height,
+                         static_cast<std::uint64_t>(image.channels) *
+                             (image.linear ? sizeof(float) : sizeof(std::uint8_t)),
+                         limits);
   if (image.linear)
-    image.values = load<float>(path, file, image, block, stbi_loadf_from_callbacks);
+    image.values = load<float>(path, file, image, limits.budget, stbi_loadf_from_callbacks);
   else
-    image.codes = load<std::uint8_t>(path, file, image, block, stbi_load_from_callbacks);
+    image.codes = load<std::uint8_t>(path, file, image, limits.budget, stbi_load_from_callbacks);
   return image;
 }
 

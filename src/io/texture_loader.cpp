@@ -10,6 +10,10 @@
 namespace whit {
 namespace {
 
+std::uint64_t texelsOf(const RawImage& raw) {
+  return static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height);
+}
+
 // Nothing: the image has no such texture.
 std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
                                const TextureSource& source) {
@@ -22,7 +26,8 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, Tex
       if (!looksLikeHeights(raw)) return makeTexture(name, raw, TexelFormat::data);
       return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
     case TextureUse::mask:
-      return makeTexture(name, hasTranslucentAlpha(raw) ? alphaOf(raw) : raw, TexelFormat::data);
+      return hasTranslucentAlpha(raw) ? makeTexture(name, alphaOf(raw), TexelFormat::data)
+                                      : makeTexture(name, raw, TexelFormat::data);
     case TextureUse::colourAlpha:
       if (!hasTranslucentAlpha(raw)) return std::nullopt;
       return makeTexture(name, alphaOf(raw), TexelFormat::data);
@@ -94,16 +99,21 @@ void TextureLoader::whenDone(std::function<void(SceneDescription&)> change) {
 void TextureLoader::addEnvironment(const std::string& path, EnvironmentImage& image) {
   queue_.add([this, path, &image] {
     const RawImage raw = read(path);
-    budget_.charge(static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height),
-                   3 * sizeof(float), path);
+    MemoryHold planes(&budget_, texelsOf(raw), 3 * sizeof(float), path);
     image = makeEnvironment(raw);
+    planes.keep();
   });
 }
 
 ImageLimits TextureLoader::limits() const {
   ImageLimits limits;
-  limits.bytes = std::min(limits.bytes, budget_.left());
+  limits.budget = &budget_;
   return limits;
+}
+
+MemoryHold TextureLoader::holdCopy(const RawImage& raw, TextureUse use) {
+  const bool copies = use == TextureUse::mask || use == TextureUse::colourAlpha;
+  return {&budget_, copies ? texelsOf(raw) : 0, raw.linear ? sizeof(float) : 1, "an alpha channel"};
 }
 
 RawImage TextureLoader::read(const std::string& path) {
@@ -122,10 +132,11 @@ void TextureLoader::decode(const TextureSource& source, const std::vector<Textur
   }
   const std::string name = std::filesystem::path(source.path).filename().string();
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    budget_.charge(static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height),
-                   sizeof(std::uint32_t), source.path);
+    MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), source.path);
+    const MemoryHold copy = holdCopy(raw, uses[i]);
     std::optional<Texture> texture = makeUse(name, raw, uses[i], source);
     if (texture) {
+      texels.keep();
       texture->wrapU = source.wrapU;
       texture->wrapV = source.wrapV;
     }

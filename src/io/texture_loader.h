@@ -54,7 +54,7 @@ class TextureLoader {
   void addEnvironment(const std::string& path, EnvironmentImage& image);
   // `change` is called by finish() when all textures are there, before they are numbered.
   void whenDone(std::function<void(SceneDescription&)> change);
-  // What an image may take that is decoded now.
+  // What an image may take that is decoded now; the budget that textures are charged to.
   ImageLimits limits() const;
 
   // Waits for all images, moves them to scene.textures and replaces the slots in its materials by
@@ -67,6 +67,7 @@ class TextureLoader {
   void decode(const TextureSource& source, const std::vector<TextureUse>& uses,
               const std::vector<std::optional<Texture>*>& targets);
   RawImage read(const std::string& path);
+  MemoryHold holdCopy(const RawImage& raw, TextureUse use);  // of the alpha that it takes out
 
   MemoryBudget& budget_;
   Warnings& warnings_;

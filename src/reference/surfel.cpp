@@ -17,20 +17,25 @@ Vec3d interpolate(const float* corners, const TriangleHit& hit) {
          triple(corners + 6) * hit.v;
 }
 
+// From corner 0 to corners 1 and 2.
 struct Edges {
-  Vec3d e1, e2;               // from corner 0 to corners 1 and 2
-  double du1, dv1, du2, dv2;  // the same in texture space
+  Vec3d e1, e2;
 };
 
 Edges edgesOf(const TriangleRecord& t) {
   const Vec3d p0 = triple(t.position);
-  const double u0 = t.uv[0], v0 = t.uv[1];
-  return {triple(t.position + 3) - p0,
-          triple(t.position + 6) - p0,
-          t.uv[2] - u0,
-          t.uv[3] - v0,
-          t.uv[4] - u0,
-          t.uv[5] - v0};
+  return {triple(t.position + 3) - p0, triple(t.position + 6) - p0};
+}
+
+// The same in texture space.
+struct TextureEdges {
+  double du1, dv1, du2, dv2;
+  double determinant() const { return du1 * dv2 - du2 * dv1; }
+};
+
+TextureEdges textureEdgesOf(const float* uvs) {
+  const double u0 = uvs[0], v0 = uvs[1];
+  return {uvs[2] - u0, uvs[3] - v0, uvs[4] - u0, uvs[5] - v0};
 }
 
 // Sum of the magnitudes that the hit point is added up from, per axis, in the world.
@@ -44,48 +49,64 @@ double magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* 
   return carried.x + carried.y + carried.z;
 }
 
-// The textures at a hit.
+// The textures at a hit. `cosine` is that between ray and geometric normal.
 class Lookups {
  public:
-  Lookups(const Scene& scene, const TextureLookup& how, const TexturePoint& at, double footprint)
-      : scene_(scene), how_(how), at_(at), footprint_(footprint) {}
+  Lookups(const Scene& scene, const TextureLookup& how, std::uint32_t triangle,
+          const Affine* toWorld, const TriangleHit& hit, double cosine)
+      : scene_(scene),
+        how_(how),
+        triangle_(triangle),
+        toWorld_(toWorld),
+        hit_(hit),
+        cosine_(cosine) {}
 
-  RgbD colour(std::int32_t map) const {
+  const float* uvs(bool second) const { return scene_.uvsOf(triangle_, second); }
+
+  RgbD colour(std::int32_t map, bool second) const {
+    const TexturePoint at = texturePoint(uvs(second), hit_);
     if (how_.filter != TextureFilter::trilinear) {
-      return sampleColour(textureOf(map), at_.u, at_.v, how_.filter);
+      return sampleColour(textureOf(map), at.u, at.v, how_.filter);
     }
-    return sampleColour(*how_.maps, static_cast<std::size_t>(map), at_.u, at_.v, levelOf(map));
+    return sampleColour(*how_.maps, static_cast<std::size_t>(map), at.u, at.v,
+                        levelOf(map, second));
   }
-  DataSample data(std::int32_t map) const {
+  DataSample data(std::int32_t map, bool second) const {
+    const TexturePoint at = texturePoint(uvs(second), hit_);
     if (how_.filter != TextureFilter::trilinear) {
-      return sampleData(textureOf(map), at_.u, at_.v, how_.filter);
+      return sampleData(textureOf(map), at.u, at.v, how_.filter);
     }
-    return sampleData(*how_.maps, static_cast<std::size_t>(map), at_.u, at_.v, levelOf(map));
+    return sampleData(*how_.maps, static_cast<std::size_t>(map), at.u, at.v, levelOf(map, second));
   }
 
  private:
   const Texture& textureOf(std::int32_t map) const {
     return scene_.textures[static_cast<std::size_t>(map)];
   }
-  double levelOf(std::int32_t map) const {
-    return mipLevel(footprint_ * textureOf(map).width * textureOf(map).height);
+  double levelOf(std::int32_t map, bool second) const {
+    const double footprint = textureFootprint(scene_.triangles[triangle_], uvs(second), toWorld_,
+                                              how_.cone.width, cosine_);
+    return mipLevel(footprint * textureOf(map).width * textureOf(map).height);
   }
 
   const Scene& scene_;
   const TextureLookup& how_;
-  TexturePoint at_;
-  double footprint_;
+  std::uint32_t triangle_;
+  const Affine* toWorld_;
+  const TriangleHit& hit_;
+  double cosine_;
 };
 
 // `normal` bent by a tangent-space normal map: x along growing u, y along growing v. Unchanged
 // where texture space has collapsed.
-Vec3d bentNormal(const DataSample& m, const TriangleRecord& triangle, const Affine* toWorld,
-                 const Vec3d& normal) {
+Vec3d bentNormal(const DataSample& m, const TriangleRecord& triangle, const float* uvs,
+                 const Affine* toWorld, const Vec3d& normal) {
   const Edges e = edgesOf(triangle);
-  const double determinant = e.du1 * e.dv2 - e.du2 * e.dv1;
+  const TextureEdges t = textureEdgesOf(uvs);
+  const double determinant = t.determinant();
   if (determinant == 0) return normal;
   const double sign = determinant < 0 ? -1 : 1;
-  Vec3d tangent = (e.e1 * e.dv2 - e.e2 * e.dv1) * sign;
+  Vec3d tangent = (e.e1 * t.dv2 - e.e2 * t.dv1) * sign;
   double handedness = sign;
   if (toWorld) {
     tangent = toWorld->vector(tangent);
@@ -136,13 +157,15 @@ void findColours(const Scene& scene, EffectSet effects, std::uint32_t number,
   const TriangleRecord& triangle = scene.triangles[number];
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
-  const auto textured = [&](const Rgb& factor, std::int32_t map) {
+  const auto textured = [&](const Rgb& factor, std::int32_t map, bool second = false) {
     if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
-    return RgbD(factor) * lookups.colour(map);
+    return RgbD(factor) * lookups.colour(map, second);
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
-  if (effects.has(Effect::emissionMaps)) s.emission = textured(Rgb(1.0f), material.emissionMap);
+  if (effects.has(Effect::emissionMaps)) {
+    s.emission = textured(Rgb(1.0f), material.emissionMap, material.emissionBySecondUvs);
+  }
   if (effects.has(Effect::vertexColours) && !scene.colours.empty()) {
     tint(vertexColour(scene.colours[number], hit), material.vertexTint, s);
   }
@@ -152,17 +175,16 @@ void findColours(const Scene& scene, EffectSet effects, std::uint32_t number,
 
 }  // namespace
 
-TexturePoint texturePoint(const TriangleRecord& triangle, const TriangleHit& hit) {
+TexturePoint texturePoint(const float* uv, const TriangleHit& hit) {
   const double w = 1 - hit.u - hit.v;
-  const float* uv = triangle.uv;
   return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
 }
 
-double textureFootprint(const TriangleRecord& triangle, const Affine* toWorld, double coneWidth,
-                        double cosine) {
+double textureFootprint(const TriangleRecord& triangle, const float* uvs, const Affine* toWorld,
+                        double coneWidth, double cosine) {
   const Edges e = edgesOf(triangle);
   const auto carried = [&](const Vec3d& v) { return toWorld ? toWorld->vector(v) : v; };
-  const double inTexture = std::abs(e.du1 * e.dv2 - e.du2 * e.dv1);
+  const double inTexture = std::abs(textureEdgesOf(uvs).determinant());
   const double inWorld = length(cross(carried(e.e1), carried(e.e2)));
   const double across = coneWidth / std::abs(cosine);
   return inTexture / inWorld * across * across;
@@ -172,7 +194,7 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit)
   const TriangleRecord& record = scene.triangles[triangle];
   const Material& material = scene.materials[record.material];
   if (material.alphaMap == kNoTexture) return false;
-  const TexturePoint at = texturePoint(record, hit);
+  const TexturePoint at = texturePoint(record.uv, hit);
   const Texture& mask = scene.textures[static_cast<std::size_t>(material.alphaMap)];
   return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
 }
@@ -208,17 +230,15 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   s.offset = 32 * kUnitRoundOff * magnitude(triangle, hit, toWorld);
   s.cone = lookup.cone;
   findNormals(scene, effects, candidate, hit, toWorld, s);
-  double footprint = 0;
-  if (lookup.filter == TextureFilter::trilinear) {
-    const double cosine = dot(direction, s.geometricNormal);
-    footprint = textureFootprint(triangle, toWorld, lookup.cone.width, cosine);
+  const double cosine = dot(direction, s.geometricNormal);
+  const Lookups lookups(scene, lookup, candidate.triangle, toWorld, hit, cosine);
+  const Material& material = scene.materials[triangle.material];
+  if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
+    const bool second = material.normalBySecondUvs;
+    s.shadingNormal = bentNormal(lookups.data(material.normalMap, second), triangle,
+                                 lookups.uvs(second), toWorld, s.shadingNormal);
   }
-  const Lookups lookups(scene, lookup, texturePoint(triangle, hit), footprint);
-  const std::int32_t normalMap = scene.materials[triangle.material].normalMap;
-  if (effects.has(Effect::normalMaps) && normalMap != kNoTexture) {
-    s.shadingNormal = bentNormal(lookups.data(normalMap), triangle, toWorld, s.shadingNormal);
-  }
-  s.entering = dot(direction, s.geometricNormal) < 0;
+  s.entering = cosine < 0;
   if (!s.entering) {
     s.geometricNormal = -s.geometricNormal;
     s.shadingNormal = -s.shadingNormal;

@@ -46,12 +46,12 @@ struct TextureLookup {
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
                   const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup = {});
 
-// The area of texture space, of which a repeat is 1, that a cone of this width covers about the
-// hit, if it does so alike in all directions: its section by the triangle's plane is that much
-// longer than wide, and counts as if it were as wide (Akenine-Moeller et al. 2019, section
-// 20.3.4). `cosine` is that between ray and plane's normal.
-double textureFootprint(const TriangleRecord& triangle, const Affine* toWorld, double coneWidth,
-                        double cosine);
+// The area of texture space, spanned by `uvs` (Scene::uvsOf), of which a repeat is 1, that a cone
+// of this width covers about the hit, if it does so alike in all directions: its section by the
+// triangle's plane is that much longer than wide, and counts as if it were as wide (Akenine-Moeller
+// et al. 2019, section 20.3.4). `cosine` is that between ray and plane's normal.
+double textureFootprint(const TriangleRecord& triangle, const float* uvs, const Affine* toWorld,
+                        double coneWidth, double cosine);
 
 // How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
 // are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow
@@ -59,11 +59,11 @@ double textureFootprint(const TriangleRecord& triangle, const Affine* toWorld, d
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
                      const TriangleHit& hit, const Surfel& s);
 
-// Texture coordinates at the hit.
+// Texture coordinates at the hit, from those of the corners (Scene::uvsOf).
 struct TexturePoint {
   double u = 0, v = 0;
 };
-TexturePoint texturePoint(const TriangleRecord& triangle, const TriangleHit& hit);
+TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
 // Whether an alpha mask has cut a hole where the ray meets the triangle.
 bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit);

@@ -24,6 +24,8 @@ std::uint32_t flagsOf(const Material& m, EffectSet effects) {
   if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
+  if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;
+  if (m.normalBySecondUvs) flags |= kMaterialNormalBySecondUvs;
   return flags;
 }
 
@@ -169,6 +171,7 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
   tables.colours = scene.colours.empty() ? &white : scene.colours.data();
   tables.colourStride = scene.colours.empty() ? 0 : sizeof(ColourRecord) / sizeof(float);
+  tables.secondUvs = scene.secondUvs.empty() ? nullptr : scene.secondUvs.data();
   tables.shading = shading;
   addMaterials(scene, effects, tables);
   addTextures(scene, effects, threads, tables);

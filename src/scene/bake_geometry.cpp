@@ -70,7 +70,7 @@ class Baker {
   std::vector<MaterialUse> uses_;             // one a material
   std::vector<std::vector<Source>> sources_;  // one list a geometry
   std::vector<Box> boxes_;                    // one a geometry, in its own space
-  bool withNormals_ = false, withColours_ = false;
+  bool withNormals_ = false, withColours_ = false, withSecondUvs_ = false;
 };
 
 // Which mesh goes where: those of objects used once into geometry 0, others into one of their own.
@@ -98,6 +98,7 @@ void Baker::plan() {
       sources_[g].push_back(std::move(source));
       withNormals_ = withNormals_ || !mesh.normals.empty();
       withColours_ = withColours_ || !mesh.colours.empty();
+      withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
     }
   }
 }
@@ -193,6 +194,7 @@ void Baker::reserveTables() {
   scene_.triangles.reserve(total);
   if (withNormals_) scene_.normals.reserve(total);
   if (withColours_) scene_.colours.reserve(total);
+  if (withSecondUvs_) scene_.secondUvs.reserve(total);
   boxes_.resize(scene_.geometries.size());
 }
 
@@ -230,8 +232,9 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
     }
     geometry.index.push_back(corners);
     std::uint64_t uvs = 0, normals = 0, colours = 0;
-    scene_.triangles.push_back(
-        makeTriangleRecord(mesh, i, geometry.position, corners, uses_[mesh.material(i)], uvs));
+    const MaterialUse& use = uses_[mesh.material(i)];
+    scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
+    if (withSecondUvs_) scene_.secondUvs.push_back(makeSecondUvRecord(mesh, i, use, uvs));
     if (withNormals_) {
       scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
     }

@@ -28,6 +28,8 @@ void keepBaked(const Material& from, Material& to) {
   to.specularMap = from.specularMap;
   to.emissionMap = from.emissionMap;
   to.normalMap = from.normalMap;
+  to.emissionBySecondUvs = from.emissionBySecondUvs;
+  to.normalBySecondUvs = from.normalBySecondUvs;
   to.alphaMap = from.alphaMap;
   to.alphaCutoff = from.alphaCutoff;
   to.castsShadow = from.castsShadow;

@@ -81,8 +81,8 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
 
 std::uint64_t Scene::memoryBytes() const {
   std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colours) +
-                        bytesOf(instances) + bytesOf(sky.image.r) + bytesOf(sky.image.g) +
-                        bytesOf(sky.image.b);
+                        bytesOf(secondUvs) + bytesOf(instances) + bytesOf(sky.image.r) +
+                        bytesOf(sky.image.g) + bytesOf(sky.image.b);
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += bytesOf(t.texels);
   return bytes;

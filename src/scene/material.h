@@ -41,7 +41,9 @@ struct Material {
   Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
   std::int32_t emissionMap = kNoTexture;  // colour
   std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
-  std::int32_t alphaMap = kNoTexture;     // data, channel r; cut where below alphaCutoff
+  // Whether these two are looked up with Mesh::secondUvs.
+  bool emissionBySecondUvs = false, normalBySecondUvs = false;
+  std::int32_t alphaMap = kNoTexture;  // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
 
   // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at

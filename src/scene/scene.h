@@ -54,6 +54,10 @@ struct NormalRecord {
   float normal[9];  // unit, one a corner; all three equal the face's where the mesh has none
 };
 
+struct UvRecord {
+  float uv[6];  // as in TriangleRecord
+};
+
 struct ColourRecord {
   float colour[9];  // linear RGB, one a corner
 };
@@ -113,6 +117,8 @@ class Scene {
   // Same length, or empty when no mesh has normals other than its triangles'.
   HugeVector<NormalRecord> normals;
   HugeVector<ColourRecord> colours;  // same length, or empty when every vertex is white
+  // Same length, or empty when no map is looked up with second texture coordinates.
+  HugeVector<UvRecord> secondUvs;
 
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;
@@ -120,6 +126,11 @@ class Scene {
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;
+
+  // The three corners' texture coordinates for a map that is looked up with the first or second.
+  const float* uvsOf(std::uint32_t triangle, bool second) const {
+    return second && !secondUvs.empty() ? secondUvs[triangle].uv : triangles[triangle].uv;
+  }
 
   // Bytes held by geometry and by textures (without Embree's).
   std::uint64_t memoryBytes() const;

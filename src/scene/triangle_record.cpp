@@ -24,6 +24,19 @@ float finiteOrZero(float x, std::uint64_t& mended) {
   return 0;
 }
 
+// Of the mesh's triangle, to the six numbers `to`.
+void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& corners,
+             const MaterialUse& use, float* to, std::uint64_t& mended) {
+  if (uvs.empty()) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2f& uv = uvs[corners[i]];
+    to[2 * i] = finiteOrZero(uv.x, mended);
+    to[2 * i + 1] = finiteOrZero(uv.y, mended);
+  }
+  if (use.repeatU) recentre(to);
+  if (use.repeatV) recentre(to + 1);
+}
+
 }  // namespace
 
 MaterialUse useOf(const Material& material, const std::vector<Texture>& textures) {
@@ -58,14 +71,16 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3f& p = position[corners[i]];
     std::copy_n(&p.x, 3, record.position + 3 * i);
-    if (mesh.uvs.empty()) continue;
-    const Vec2f& uv = mesh.uvs[mesh.triangles[triangle][i]];
-    record.uv[2 * i] = finiteOrZero(uv.x, mended);
-    record.uv[2 * i + 1] = finiteOrZero(uv.y, mended);
   }
-  if (use.repeatU) recentre(record.uv);
-  if (use.repeatV) recentre(record.uv + 1);
+  copyUvs(mesh.uvs, mesh.triangles[triangle], use, record.uv, mended);
   record.material = mesh.material(triangle);
+  return record;
+}
+
+UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
+                            std::uint64_t& mended) {
+  UvRecord record{};
+  copyUvs(mesh.secondUvs, mesh.triangles[triangle], use, record.uv, mended);
   return record;
 }
 

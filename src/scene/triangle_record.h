@@ -34,6 +34,10 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
                                   const std::array<std::uint32_t, 3>& corners,
                                   const MaterialUse& use, std::uint64_t& mended);
 
+// The second coordinates, treated alike; zeros where the mesh has none.
+UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
+                            std::uint64_t& mended);
+
 // The mesh's normals have unit length, or are zero where they are of no use: those become the
 // face's and are added to `mended`.
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,

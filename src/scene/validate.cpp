@@ -195,6 +195,9 @@ void checkObjects(const SceneDescription& d) {
       };
       if (!mesh.normals.empty()) expect("normals", mesh.normals.size(), mesh.positions.size());
       if (!mesh.uvs.empty()) expect("uvs", mesh.uvs.size(), mesh.positions.size());
+      if (!mesh.secondUvs.empty()) {
+        expect("second uvs", mesh.secondUvs.size(), mesh.positions.size());
+      }
       if (!mesh.colours.empty()) expect("colours", mesh.colours.size(), mesh.positions.size());
       if (mesh.materials.size() != 1 && !mesh.triangles.empty()) {
         expect("materials", mesh.materials.size(), mesh.triangles.size());

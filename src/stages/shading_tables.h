@@ -37,6 +37,8 @@ inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
                                kMaterialGlossy = 8, kMaterialScatters = 16,
                                kMaterialTintsSpecular = 32, kMaterialTintsEmission = 64;
+// Maps that are looked up with the second texture coordinates.
+inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
@@ -82,6 +84,7 @@ struct ShadingTables {
   // Likewise, of ones: white.
   const ColourRecord* colours = nullptr;
   int colourStride = 0;                   // floats
+  const UvRecord* secondUvs = nullptr;    // none: no material's flags name them
   std::vector<MaterialRecord> materials;  // at least one
   std::vector<TextureRecord> textures;    // at least one
   // kMipStride a texture, from the full one on; none unless lookups are trilinear.

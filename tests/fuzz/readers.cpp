@@ -78,6 +78,9 @@ void checkScene(const Scene& scene) {
   for (const NormalRecord& record : scene.normals) {
     for (const float x : record.normal) require(std::isfinite(x), "a normal that is no number");
   }
+  for (const UvRecord& record : scene.secondUvs) {
+    for (const float x : record.uv) require(std::isfinite(x), "a coordinate that is no number");
+  }
   for (const Geometry& geometry : scene.geometries) {
     for (const auto& triangle : geometry.index) {
       for (const std::uint32_t i : triangle) {
@@ -142,6 +145,8 @@ void readMaterials(const fs::path& file) {
 void readImageFile(const fs::path& file) {
   ImageLimits limits;
   limits.bytes = kImageLimit;
+  MemoryBudget budget(kMemoryLimit);
+  limits.budget = &budget;
   Warnings warnings;
   const RawImage raw = readRawImage(file.string(), limits, warnings);
   for (const float value : raw.values) {

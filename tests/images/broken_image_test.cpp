@@ -114,8 +114,9 @@ TEST_F(BrokenImage, HugeClaimsAreRefusedBeforeDecoding) {
   };
   EXPECT_EQ(status("a.tga", tga(65535, 65535, {})), ExitStatus::limit);
   EXPECT_EQ(status("a.bmp", bmp(100000, 1, Bytes(300000, 0))), ExitStatus::limit);
-  // So large that stb_image does not even tell the size.
-  EXPECT_EQ(status("a.png", png(1 << 20, 1 << 20, 8, 2, {0})), ExitStatus::badScene);
+  // So large that stb_image does not even tell the size, and too large for it alone.
+  EXPECT_EQ(status("a.png", png(1 << 20, 1 << 20, 8, 2, {0})), ExitStatus::limit);
+  EXPECT_EQ(status("c.png", png(30000, 30000, 8, 2, {0})), ExitStatus::limit);
   EXPECT_EQ(status("b.png", png(40000, 10, 8, 2, {0})), ExitStatus::limit);
   EXPECT_EQ(status("a.hdr", hdr(1 << 20, 1 << 20, {})), ExitStatus::limit);
   // 32768 x 32768 RGB floats are 12 GiB: inside the side limit, beyond the byte limit.

@@ -35,6 +35,7 @@ class GltfMaterials : public GltfTest {
       attributes +=
           ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(colours_)), 5126, "VEC3", 4));
     }
+    if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + std::to_string(b.uvs(secondUvs_));
     std::string meshes, nodes, roots, materials;
     for (std::size_t i = 0; i < squares.size(); ++i) {
       const auto z = static_cast<float>(squares[i].z), s = static_cast<float>(squares[i].size);
@@ -108,8 +109,9 @@ class GltfMaterials : public GltfTest {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
   }
 
-  std::vector<float> colours_;  // of the squares' corners, from the lower left; empty: none
-  double candela_ = 9 * kPi;    // at 683 lm/W
+  // Of the squares' corners, from the lower left; empty: none.
+  std::vector<float> colours_, secondUvs_;
+  double candela_ = 9 * kPi;  // at 683 lm/W
   std::string light_ = "0,0,3", images_;
 };
 

@@ -49,6 +49,26 @@ TEST(Bake, VertexColoursAreClampedAndWhiteWhereThereAreNone) {
   EXPECT_TRUE(finalized(std::move(white)).colours.empty());
 }
 
+// Whole repeats are taken from each kind of coordinates by itself.
+TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
+  SceneDescription d = sceneOf(square());
+  d.textures.push_back(whiteTexture(TexelFormat::colour));
+  d.materials[0].emissionMap = 0;
+  d.objects[0].meshes[0].secondUvs = {{20, 0}, {20.5f, 0}, {20, 20}, {std::nanf(""), 1}};
+  Mesh without = square();
+  for (Vec3f& p : without.positions) p.z = 1;
+  d.objects[0].meshes.push_back(without);
+  Warnings warnings;
+  const Scene scene = Scene::finalize(std::move(d), warnings);
+  ASSERT_EQ(scene.secondUvs.size(), scene.triangles.size());
+  const float wanted[] = {0, 0, 0.5f, 0, 0, 20};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(scene.uvsOf(0, true)[i], wanted[i]) << i;
+  EXPECT_EQ(scene.uvsOf(0, false), scene.triangles[0].uv);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(scene.uvsOf(2, true)[i], 0) << i;
+  EXPECT_EQ(test::warned(warnings, "non-finite texture coordinate set to 0"), 1u);
+  EXPECT_TRUE(finalized(sceneOf(square())).secondUvs.empty());
+}
+
 TEST(Bake, RecordsAgreeWithTheGeometry) {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(square());

@@ -1,0 +1,136 @@
+// What decoding takes, held in the budget of the scene that the images are for.
+#include <thread>
+
+#include "image_samples.h"
+#include "io/decode_queue.h"
+
+namespace whit {
+namespace {
+
+constexpr std::uint64_t kPlenty = 1 << 30;
+
+TEST(MemoryBudget, WhatIsHeldIsGivenBackUnlessKept) {
+  MemoryBudget budget(100);
+  {
+    const MemoryHold held(&budget, 10, 6, "a");
+    EXPECT_EQ(budget.left(), 40u);
+    EXPECT_EQ(statusOf([&] { MemoryHold(&budget, 41, 1, "b"); }), ExitStatus::limit);
+  }
+  EXPECT_EQ(budget.left(), 100u);
+  MemoryHold first(&budget, 50, 1, "a");
+  first = MemoryHold(&budget, 20, 1, "b");
+  EXPECT_EQ(budget.left(), 80u);
+  first.keep();
+  EXPECT_EQ(budget.left(), 80u);
+  budget.charge(80, 1, "c");
+  EXPECT_EQ(statusOf([&] { budget.charge(1, 1, "d"); }), ExitStatus::limit);
+  EXPECT_EQ(statusOf([&] { MemoryHold(&budget, ~std::uint64_t{0}, 8, "d"); }), ExitStatus::limit);
+  MemoryHold(nullptr, ~std::uint64_t{0}, 8, "no budget");
+}
+
+TEST(MemoryBudget, ChargingWaitsForWhatOthersHold) {
+  MemoryBudget budget(100);
+  std::optional<MemoryHold> held(std::in_place, &budget, 60, 1, "a");
+  std::thread other([&] { budget.charge(70, 1, "b"); });
+  held.reset();
+  other.join();
+  EXPECT_EQ(budget.left(), 30u);
+}
+
+TEST(DecodeQueue, WhatLackedMemoryIsRunAgainAlone) {
+  for (const int threads : {1, 3}) {
+    MemoryBudget budget(100);
+    DecodeQueue queue(threads, nullptr, "holding");
+    std::atomic<int> done{0};
+    for (int i = 0; i < 8; ++i) {
+      queue.add([&] {
+        const MemoryHold held(&budget, 90, 1, "task");
+        std::this_thread::yield();
+        ++done;
+      });
+    }
+    queue.finish();
+    EXPECT_EQ(done, 8);
+  }
+  MemoryBudget budget(100);
+  DecodeQueue queue(2, nullptr, "failing");
+  int runs = 0;
+  queue.add([&] {
+    ++runs;
+    MemoryHold(&budget, 101, 1, "too much");
+  });
+  EXPECT_EQ(statusOf([&] { queue.finish(); }), ExitStatus::limit);
+  EXPECT_EQ(runs, 2);
+}
+
+class DecodeMemory : public ImageTest {
+ protected:
+  struct Sample {
+    std::string name;
+    Bytes bytes;
+    std::uint64_t decoded;
+  };
+  std::vector<Sample> samples() {
+    const Bytes rgb(300, 7);
+    Image image(10, 10);
+    writeExr(path("a.exr"), image, {});
+    return {{"a.png", png(10, 10, 8, 2, Bytes(310, 0)), 300},
+            {"a.bmp", bmp(10, 10, rgb), 300},
+            {"a.tga", tga(10, 10, rgb), 300},
+            {"a.jpg", jpegGrey200(), 64},
+            {"a.hdr", hdr(10, 10, Bytes(400, 128)), 1200},
+            {"a.exr", load(path("a.exr")), 1200}};
+  }
+};
+
+TEST_F(DecodeMemory, TheImageIsHeldForAsLongAsItLives) {
+  for (const Sample& sample : samples()) {
+    MemoryBudget budget(kPlenty);
+    limits_.budget = &budget;
+    {
+      RawImage raw = readRawImage(save(sample.name, sample.bytes), limits_, warnings_);
+      EXPECT_EQ(budget.left(), kPlenty - sample.decoded) << sample.name;
+      const RawImage moved = std::move(raw);
+      EXPECT_EQ(budget.left(), kPlenty - sample.decoded) << sample.name;
+    }
+    EXPECT_EQ(budget.left(), kPlenty) << sample.name;
+  }
+}
+
+// With ever more memory: a limit, until there is enough; and nothing stays held.
+TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
+  for (const Sample& sample : samples()) {
+    const std::string file = save(sample.name, sample.bytes);
+    std::uint64_t enough = 0;
+    for (std::uint64_t bytes = 16; enough == 0 && bytes < kPlenty; bytes += bytes / 4) {
+      MemoryBudget budget(bytes);
+      limits_.budget = &budget;
+      const ExitStatus status = statusOf([&] { readRawImage(file, limits_, warnings_); });
+      if (status == ExitStatus::done) enough = bytes;
+      EXPECT_TRUE(status == ExitStatus::done || status == ExitStatus::limit) << sample.name;
+      EXPECT_EQ(budget.left(), bytes) << sample.name;
+    }
+    EXPECT_GT(enough, sample.decoded + sample.bytes.size() / 2) << sample.name;
+    EXPECT_LT(enough, 1u << 20) << sample.name;
+  }
+}
+
+// 2^24 pixels of which the file holds none, coefficient by coefficient: 2 bytes each.
+TEST_F(DecodeMemory, AProgressiveJpegHoldsItsCoefficients) {
+  Bytes file = jpegGrey200();
+  const std::string marker = "\xff\xc0";
+  const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end(),
+                                 [](std::uint8_t a, char b) { return a == std::uint8_t(b); });
+  frame[1] = 0xc2;
+  for (const int at : {5, 7}) frame[at] = 0x10;  // 0x1000: 4096 pixels a side, and 8 more
+  const std::string path = save("a.jpg", file);
+  constexpr std::uint64_t kPixels = 4104 * 4104;
+  MemoryBudget little(kPixels * 5 / 2), enough(kPixels * 4);
+  limits_.budget = &little;
+  EXPECT_EQ(statusOf([&] { readRawImage(path, limits_, warnings_); }), ExitStatus::limit);
+  limits_.budget = &enough;
+  EXPECT_NE(statusOf([&] { readRawImage(path, limits_, warnings_); }), ExitStatus::limit);
+}
+
+}  // namespace
+}  // namespace whit

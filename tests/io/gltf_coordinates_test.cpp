@@ -1,0 +1,124 @@
+// Maps of one material with different texture coordinates: two sets of the mesh, or one set that
+// each map transforms differently.
+#include "gltf_pictures.h"
+
+namespace whit {
+namespace {
+
+constexpr char kSecondSet[] = ",\"texCoord\":1";
+
+std::string transformed(const std::string& transform) {
+  return ",\"extensions\":{\"KHR_texture_transform\":{" + transform + "}}";
+}
+
+// Two columns of light: texture 0 is red beside green, texture 1 blue beside black. The second set
+// mirrors the first.
+class GltfCoordinates : public GltfMaterials {
+ protected:
+  void SetUp() override {
+    GltfMaterials::SetUp();
+    save("colour.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
+    save("light.tga", tga(2, 1, {{0, 0, 255}, {0, 0, 0}}));
+    useImages({"colour.tga", "light.tga"});
+    secondUvs_ = {1, 1, 0, 1, 0, 0, 1, 0};
+  }
+
+  // What a texture of base colour and one of emission are, beside their indices.
+  static std::string material(const std::string& base, const std::string& emissive) {
+    return matte("\"baseColorTexture\":{\"index\":0" + base + "}",
+                 "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1" + emissive + "}");
+  }
+  // Of the base colour, in light that makes white 1.
+  void expectColumns(const std::string& material, const Rgb& leftBase, const Rgb& leftLight,
+                     const Rgb& rightBase, const Rgb& rightLight) {
+    const auto p = picture({{0, material, 1}}, 2);
+    const auto at = static_cast<float>(lit(0.5, 0.5));
+    for (const std::size_t row : {0, 2}) {
+      expectColour(p[row], leftBase * at + leftLight);
+      expectColour(p[row + 1], rightBase * at + rightLight);
+    }
+  }
+
+  const Rgb red_{1, 0, 0}, green_{0, 1, 0}, blue_{0, 0, 1}, black_{0, 0, 0};
+};
+
+TEST_F(GltfCoordinates, OfTwoSets) {
+  expectColumns(material("", ""), red_, blue_, green_, black_);
+  expectColumns(material("", kSecondSet), red_, black_, green_, blue_);
+  expectColumns(material(kSecondSet, ""), green_, blue_, red_, black_);
+  expectColumns(material(kSecondSet, kSecondSet), green_, black_, red_, blue_);
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+TEST_F(GltfCoordinates, ATransformNamesItsSet) {
+  expectColumns(material("", transformed("\"texCoord\":1")), red_, black_, green_, blue_);
+  expectColumns(material("", kSecondSet + transformed("\"texCoord\":0")), red_, blue_, green_,
+                black_);
+}
+
+TEST_F(GltfCoordinates, OfOneSetTransformedForOneMap) {
+  expectColumns(material("", transformed("\"offset\":[0.5,0]")), red_, black_, green_, blue_);
+  expectColumns(material(transformed("\"offset\":[0.5,0]"), ""), green_, blue_, red_, black_);
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+// A quarter turn: u runs upwards, v to the left. The map leans the normal by (0.6, 0, 0.8) in
+// steps of 1/127.5; light falls from (0, 3, 3), whose square of distance is twice 9.
+TEST_F(GltfCoordinates, TheNormalMapLeansAlongItsOwn) {
+  save("lean.tga", tga(1, 1, {{204, 128, 230}}));
+  save("white.tga", tga(1, 1, {{255, 255, 255}}));
+  useImages({"white.tga", "lean.tga"});
+  secondUvs_ = {0, 0, 0, 1, 1, 1, 1, 0};
+  light_ = "0,3,3";
+  const auto lean = [&](const std::string& set) {
+    return pixel(
+        matte("\"baseColorTexture\":{\"index\":0}", "\"normalTexture\":{\"index\":1" + set + "}"));
+  };
+  const double x = 204 / 127.5 - 1, y = 128 / 127.5 - 1, z = 230 / 127.5 - 1;
+  const double scale = 0.5 * std::sqrt(0.5) / std::sqrt(x * x + y * y + z * z);
+  expectColour(lean(""), Rgb(static_cast<float>((y + z) * scale)));
+  expectColour(lean(kSecondSet), Rgb(static_cast<float>((x + z) * scale)));
+}
+
+TEST_F(GltfCoordinates, ASetThatIsNotThereIsZero) {
+  secondUvs_.clear();
+  // Wherever it is seen, between the first column and, repeated, the last.
+  const Rgb half = blue_ * 0.5f;
+  expectColumns(material("", kSecondSet), red_, half, green_, half);
+}
+
+TEST_F(GltfCoordinates, OneSetOfASecondMaterialTakesNoMemory) {
+  const Scene plain = Scene::finalize(
+      loadText(sceneText({{0, material("", ""), 1}, {1, material(kSecondSet, kSecondSet), 1}})),
+      warnings_);
+  EXPECT_TRUE(plain.secondUvs.empty());
+  const std::string dark =
+      matte("\"baseColorTexture\":{\"index\":0}",
+            "\"emissiveTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":[0,0,0]");
+  EXPECT_TRUE(Scene::finalize(loadText(sceneText({{0, dark, 1}})), warnings_).secondUvs.empty());
+  const Scene both = Scene::finalize(
+      loadText(sceneText({{0, material("", ""), 1}, {1, material("", kSecondSet), 1}})), warnings_);
+  EXPECT_EQ(both.secondUvs.size(), both.triangles.size());
+}
+
+TEST_F(GltfCoordinates, AThirdKindAndThoseOfMetalnessAreCounted) {
+  loadText(sceneText({{0,
+                       matte("\"baseColorTexture\":{\"index\":0}",
+                             "\"normalTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":"
+                             "[1,1,1],\"emissiveTexture\":{\"index\":1" +
+                                 transformed("\"scale\":[2,2]") + "}"),
+                       1}}));
+  EXPECT_EQ(
+      warned("texture with a third kind of coordinates in its material: those of the first taken"),
+      1u);
+  loadText(sceneText({{0,
+                       "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
+                       "\"metallicRoughnessTexture\":{\"index\":1,\"texCoord\":1}}}",
+                       1}}));
+  EXPECT_EQ(
+      warned("metalness by a texture with other coordinates than the base colour's: these taken"),
+      1u);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,132 @@
+// Textures of KHR_materials_specular, _transmission and _clearcoat.
+#include "gltf_pictures.h"
+
+namespace whit {
+namespace {
+
+// Black with a lobe of alpha 1, which off the middle is f0 / (4 pi cos).
+std::string lobeOnly(const std::string& specular, const std::string& pbr = "") {
+  return "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0,0,0,1]" + pbr +
+         "},\"extensions\":{\"KHR_materials_specular\":{" + specular + "}}}";
+}
+float lobeAt(double x, double y) { return static_cast<float>(9 / (4 * (x * x + y * y + 9))); }
+
+// Strength 1 beside 102 / 255 = 0.4; of colours red and a grey of 0.5029.
+TEST_F(GltfMaterials, SpecularTexelByTexel) {
+  save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
+  save("colour.tga", tga(2, 1, {{255, 0, 0}, {188, 188, 188}}));
+  useImages({"strength.tga", "colour.tga"});
+  const auto grey = static_cast<float>(srgbToLinear(188 / 255.0));
+  const float lobe = lobeAt(0.5, 0.5);
+  const auto show = [&](const std::string& specular) {
+    return picture({{0, lobeOnly(specular), 1}}, 2);
+  };
+  const std::string strength = "\"specularFactor\":0.5,\"specularTexture\":{\"index\":0}";
+  const std::string colour =
+      "\"specularColorFactor\":[10,5,10],\"specularColorTexture\":{\"index\":1}";
+  auto p = show(strength);
+  expectColour(p[0], Rgb(0.04f * 0.5f * lobe));
+  expectColour(p[1], Rgb(0.04f * 0.2f * lobe));
+  p = show(colour);
+  expectColour(p[0], Rgb{0.4f, 0, 0} * lobe);
+  expectColour(p[1], Rgb{0.4f, 0.2f, 0.4f} * (grey * lobe));
+  p = show(strength + "," + colour);
+  expectColour(p[0], Rgb{0.4f, 0, 0} * (0.5f * lobe));
+  expectColour(p[1], Rgb{0.4f, 0.2f, 0.4f} * (grey * 0.2f * lobe));
+  // Colour is bounded by 1 before the strength counts.
+  p = show(strength +
+           ",\"specularColorFactor\":[100,100,100],\"specularColorTexture\":"
+           "{\"index\":1}");
+  expectColour(p[0], Rgb{0.5f, 0, 0} * lobe);
+  expectColour(p[1], Rgb(0.2f * lobe));
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+// A metal has its base colour, whatever the specular texture; half a metal half of it.
+TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
+  save("metal.tga", tga(2, 1, {{0, 255, 255}, {0, 255, 0}}));
+  save("strength.tga", tga(1, 1, {{0, 0, 0, 102}}));
+  useImages({"metal.tga", "strength.tga"});
+  const auto p = picture({{0,
+                           "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.4,0.2,1],"
+                           "\"metallicRoughnessTexture\":{\"index\":0}},\"extensions\":"
+                           "{\"KHR_materials_specular\":{\"specularTexture\":{\"index\":1}}}}",
+                           1}},
+                         2);
+  const float lobe = lobeAt(0.5, 0.5), white = static_cast<float>(lit(0.5, 0.5));
+  expectColour(p[0], Rgb{0.8f, 0.4f, 0.2f} * lobe);
+  expectColour(p[1], Rgb{0.8f, 0.4f, 0.2f} * white + Rgb(0.04f * 0.4f * lobe));
+}
+
+// An impulse has no map: strength 0.7 and colour 0.5 on average.
+TEST_F(GltfMaterials, MirrorsTakeTheMeanOfSpecularTextures) {
+  save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
+  save("colour.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 255}}));
+  useImages({"strength.tga", "colour.tga"});
+  const SceneDescription scene =
+      loadText(sceneText({{0,
+                           lobeOnly("\"specularTexture\":{\"index\":0},\"specularColorTexture\":"
+                                    "{\"index\":1}",
+                                    ",\"roughnessFactor\":0"),
+                           1}}));
+  expectColour(scene.materials[0].mirror, Rgb{0.02f, 0.02f, 0.04f} * 0.7f, 1e-6);
+  expectColour(scene.materials[0].mirrorGrazing, Rgb(0.7f), 1e-6);
+}
+
+TEST_F(GltfMaterials, ClearcoatAndTransmissionTakeTheMeanOfTheirTextures) {
+  save("even.tga", tga(2, 1, {{102, 51, 0}, {102, 51, 0}}));
+  save("uneven.tga", tga(2, 1, {{102, 0, 0}, {204, 102, 0}}));
+  useImages({"even.tga", "uneven.tga"});
+  const auto materialOf = [&](const std::string& extension) {
+    return loadText(sceneText({{0,
+                                "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+                                "\"roughnessFactor\":1},\"extensions\":{" +
+                                    extension + "}}",
+                                1}}))
+        .materials[0];
+  };
+  const auto coat = [&](const std::string& index, const std::string& roughness) {
+    return materialOf(
+        "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,\"clearcoatTexture\":"
+        "{\"index\":" +
+        index + "}" + roughness + "}");
+  };
+  const Material even = coat("0", "");
+  expectColour(even.mirror, Rgb(0.04f * 0.2f), 1e-6);
+  expectColour(even.mirrorGrazing, Rgb(0.2f), 1e-6);
+  // 0.2 is smooth; 1 without the texture is not.
+  const std::string rough = ",\"clearcoatRoughnessFactor\":1";
+  EXPECT_FALSE(coat("0", rough).hasMirror());
+  EXPECT_TRUE(coat("0", rough + ",\"clearcoatRoughnessTexture\":{\"index\":0}").hasMirror());
+  const auto clear = [&](const std::string& index) {
+    return materialOf(
+        "\"KHR_materials_transmission\":{\"transmissionFactor\":0.5,"
+        "\"transmissionTexture\":{\"index\":" +
+        index + "}}");
+  };
+  expectColour(clear("0").transmission, Rgb(0.2f), 1e-6);
+  EXPECT_TRUE(warnings_.entries().empty());
+
+  expectColour(coat("1", "").mirrorGrazing, Rgb(0.3f), 1e-6);
+  expectColour(clear("1").transmission, Rgb(0.3f), 1e-6);
+  coat("0", rough + ",\"clearcoatRoughnessTexture\":{\"index\":1}");
+  EXPECT_EQ(warned("clearcoat by a texture taken by its mean"), 1u);
+  EXPECT_EQ(warned("roughness of a clearcoat by a texture taken by its mean"), 1u);
+  EXPECT_EQ(warned("transmission by a texture taken by its mean"), 1u);
+}
+
+TEST_F(GltfMaterials, SpecularTexturesWithOtherCoordinatesAreCounted) {
+  save("strength.tga", tga(1, 1, {{0, 0, 0, 102}}));
+  useImages({"strength.tga"});
+  secondUvs_ = {1, 1, 0, 1, 0, 0, 1, 0};
+  loadText(sceneText({{0,
+                       lobeOnly("\"specularTexture\":{\"index\":0,\"texCoord\":1}",
+                                ",\"baseColorTexture\":{\"index\":0}"),
+                       1}}));
+  EXPECT_EQ(
+      warned("specular by a texture with other coordinates than the base colour's: these taken"),
+      1u);
+}
+
+}  // namespace
+}  // namespace whit

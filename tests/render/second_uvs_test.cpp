@@ -1,0 +1,144 @@
+// Maps that are looked up with second texture coordinates: in the reference against closed forms,
+// in the vector pipeline against the reference.
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+#include "render/pipeline_laws.h"
+
+namespace whit::test {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of the formulas in double
+
+// The square [0, 1]^2 of the floor y = 0, seen from above: u runs along x and v along -z; of the
+// second coordinates, u along -z and v along -x.
+Mesh twoWayFloor(std::uint32_t material) {
+  Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
+  mesh.secondUvs = {{0, 1}, {0, 0}, {1, 0}, {1, 1}};
+  return mesh;
+}
+
+// Red beside black; (code / 1023)^2 is the light.
+std::int32_t addColumns(SceneBuilder& builder) {
+  return builder.add(makeTexture(TexelFormat::colour, 2, 1, {1023u, 0u}));
+}
+
+TEST(SecondUvs, AreThoseOfTheEmissionMapThatSaysSo) {
+  for (const bool second : {false, true}) {
+    SceneBuilder builder;
+    Material m = diffuseMaterial(0.5f);
+    m.emission = {4, 4, 4};
+    m.diffuseMap = m.emissionMap = addColumns(builder);
+    m.emissionBySecondUvs = second;
+    builder.add(twoWayFloor(builder.add(m)));
+    builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
+    const Scene scene = builder.build();
+    for (const double u : {0.25, 0.75}) {
+      for (const double v : {0.25, 0.75}) {
+        const double diffuse = u < 0.5 ? 0.5 : 0, light = (second ? v : u) < 0.5 ? 4 : 0;
+        const RgbD seen = radianceAlong(scene, {u, 1, -v}, {0, -1, 0});
+        EXPECT_NEAR(seen.x, diffuse + light, kRounding) << second << " " << u << " " << v;
+      }
+    }
+  }
+}
+
+// Leans by 45 degrees along u: towards +x, or by the second coordinates towards -z. Sunlight comes
+// from +x and from above.
+TEST(SecondUvs, AreTheFrameOfTheNormalMapThatSaysSo) {
+  for (const bool second : {false, true}) {
+    SceneBuilder builder;
+    Material m = diffuseMaterial(0.5f);
+    const float lean = 0.5f + 0.5f * std::sqrt(0.5f);
+    m.normalMap =
+        builder.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(lean, 0.5f, lean, 1)}));
+    m.normalBySecondUvs = second;
+    builder.add(twoWayFloor(builder.add(m)));
+    Light sun;
+    sun.kind = Light::Kind::directional;
+    sun.direction = {-1, -1, 0};
+    sun.intensity = Rgb(2.0f);
+    builder.description.lights = {sun};
+    const double x = std::lround(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
+    const Vec3d n = normalized(second ? Vec3d{-y, x, -x} : Vec3d{x, x, -y});
+    const Vec3d toLight = normalized(Vec3d{1, 1, 0});
+    const double wanted = 0.5 / 3.14159265358979323846 * 2 * dot(n, toLight);
+    const RgbD seen = radianceAlong(builder.build(), {0.5, 1, -0.5}, {0, -1, 0});
+    EXPECT_NEAR(seen.x, wanted, 1e-6) << second;  // the light's direction is rounded to float
+  }
+}
+
+// Maps of all kinds, by both coordinates and side by side, with and without instances.
+Scene everything() {
+  SceneBuilder builder;
+  const std::int32_t colour = builder.add(makeTexture(
+      TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+  const std::int32_t normal = builder.add(
+      makeTexture(TexelFormat::data, 2, 2,
+                  {encodeDataTexel(0.8f, 0.5f, 0.9f, 1), encodeDataTexel(0.5f, 0.2f, 0.9f, 1),
+                   encodeDataTexel(0.5f, 0.5f, 1, 1), encodeDataTexel(0.3f, 0.7f, 0.9f, 1)}));
+  Object tiles;
+  for (int i = 0; i < 6; ++i) {
+    Material m = diffuseMaterial(0.5f);
+    m.diffuseMap = colour;
+    m.specular = Rgb(0.4f);
+    m.roughness = 0.4f;
+    if (i != 4) m.emission = {0.5f, 0.25f, 1};
+    if (i >= 2) m.emissionMap = colour;
+    if (i != 3) m.normalMap = normal;
+    m.emissionBySecondUvs = i % 2 == 0;
+    m.normalBySecondUvs = i % 3 != 0;
+    Mesh mesh = twoWayFloor(builder.add(m));
+    if (i == 5) mesh.secondUvs.clear();
+    for (Vec3f& p : mesh.positions)
+      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centres
+    tiles.meshes.push_back(std::move(mesh));
+  }
+  builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
+  builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
+  builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
+  Camera camera;
+  camera.eye = {0, 5, 1};
+  camera.at = {0, 0, 0.25f};
+  camera.up = {0, 0, -1};
+  builder.description.cameras = {camera};
+  return builder.build();
+}
+
+constexpr std::size_t kAtEdges = 7;  // pixels, 0.1 % of the picture: another surface is hit
+
+TEST(SecondUvs, agreeWithTheReferenceOnEveryTarget) {
+  const Scene scene = everything();
+  for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
+    RenderOptions o = smallOptions();
+    o.shading.textureFilter = filter;
+    expectStagesAgreeOnEveryTarget(scene, o);
+    for (const std::string& target : simd::availableTargets()) {
+      o.simd = target;
+      Renderer renderer(scene, o);
+      Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
+      renderer.render(chooseCamera(scene, o), film);
+      renderer.renderReference(chooseCamera(scene, o), reference);
+      std::size_t differences = 0;
+      for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+        const Rgb apart = abs(film.image.pixels[i] - reference.image.pixels[i]);
+        differences += !(maxComponent(apart) < 1e-3f);
+      }
+      EXPECT_LE(differences, kAtEdges) << target;
+    }
+    simd::chooseTarget("auto");
+  }
+}
+
+// The table alone, when no material asks for it, changes no bit; nor do queues and packets.
+TEST(SecondUvs, ChangeNothingWhereNoMapAsksForThem) {
+  Scene scene = everything();
+  expectBitsWhateverTheQueues(scene, smallOptions());
+  for (Material& m : scene.materials) m.emissionBySecondUvs = m.normalBySecondUvs = false;
+  const Image with = render(scene, smallOptions()).image;
+  scene.secondUvs = {};
+  EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, with), "");
+}
+
+}  // namespace
+}  // namespace whit::test
