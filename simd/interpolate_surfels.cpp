@@ -148,19 +148,18 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const V4 diffuse = material.Columns4(0);
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
                    Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
-  VF coneWidth = hn::Zero(d);
   const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
   const VF cosine = Dot(direction, ng);
   if (surfels.cone) {
-    coneWidth =
+    const VF width =
         hn::MulAdd(hn::Set(d, coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
-    hn::Store(coneWidth, d, surfels.cone + i);
-    at.footprint = TextureFootprint(t.uv, edge1, edge2, coneWidth, cosine);
+    hn::Store(width, d, surfels.cone + i);
+    at.footprint = TextureFootprint(t.uv, edge1, edge2, width, cosine);
   }
-  const auto pointsOfMap = [&](uint32_t bySecond) HWY_ATTR {
-    if (HWY_LIKELY(tables.secondUvs == nullptr)) return at;
-    const UvLanes uv = UvsOfMap(tables, t, triangle, valid, bySecond);
-    return PointsOfMap(tables, uv, w, edge1, edge2, coneWidth, cosine);
+  // A copy: what others have the address of does not stay in registers.
+  const auto mapHits = [&]() HWY_ATTR {
+    const VF width = surfels.cone ? hn::Load(d, surfels.cone + i) : hn::Zero(d);
+    return MapHits{t.uv, triangle, t.material, valid, w, edge1, edge2, width, cosine};
   };
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = hn::IfThenElse(entering, one, hn::Set(d, -1.0f));
@@ -171,13 +170,13 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
     const VF map = material.Columns4(8).w;
     const MF mapped = hn::And(valid, hn::RebindMask(d, NonNegative(hn::BitCast(di, map))));
     if (!hn::AllFalse(d, mapped)) {
-      const bool twoSets = tables.secondUvs != nullptr;
-      const TangentFrame frame = FindTangentFrame(
-          twoSets ? UvsOfMap(tables, t, triangle, valid, kMaterialNormalBySecondUvs) : t.uv, edge1,
-          edge2, ns, handedness);
-      QueueMap(tables, map, hn::And(mapped, frame.good), pointsOfMap(kMaterialNormalBySecondUvs),
-               slot, block.normal);
-      StoreFrame(frame, flip, slot, block);
+      if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
+        QueueNormalByOwnUvs(tables, mapHits(), map, NormalSpace{ns, handedness, flip}, slot, block);
+      } else {
+        const TangentFrame frame = FindTangentFrame(t.uv, edge1, edge2, ns, handedness);
+        QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
+        StoreFrame(frame, flip, slot, block);
+      }
     }
   }
   Store3(position, surfels.posX, surfels.posY, surfels.posZ, i);
@@ -197,8 +196,11 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   if (surfels.emissionR) {
     Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
     if constexpr ((kBits & kTextured) != 0) {
-      QueueMap(tables, lobe.w, valid, pointsOfMap(kMaterialEmissionBySecondUvs), slot,
-               block.emission);
+      if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
+        QueueEmissionByOwnUvs(tables, mapHits(), lobe.w, slot, block);
+      } else {
+        QueueMap(tables, lobe.w, valid, at, slot, block.emission);
+      }
     }
   }
   const VU materialOrMiss =
