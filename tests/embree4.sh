@@ -23,6 +23,7 @@ leaveOut() {
 }
 
 . "$root/tests/debian13.sh"
+. "$root/tests/picture_table.sh"
 
 configure() {
   local embree flags
@@ -63,17 +64,11 @@ differ() {
   # shellcheck disable=SC2064  # the folder of now
   trap "rm -rf '$work'" EXIT
   echo "Embree $(embreeOf "$build/whit") against Embree $(embreeOf "$other")"
-  echo "| scene | same codes | within one code | largest difference | RMSE |"
-  echo "|---|---:|---:|---:|---:|"
-  for scene in matte whitted glass mirrors atrium landscape ${WHIT_DATA:+sponza-mirror}; do
+  tableHead scene
+  for scene in $(tableScenes); do
     "$build/whit" render "$scene" --size 480x300 -o "$work/4.exr" --quiet
     "$other" render "$scene" --size 480x300 -o "$work/3.exr" --quiet
-    "$other" compare "$work/4.exr" "$work/3.exr" --quiet | awk -v scene="$scene" '
-      /^RMSE/ { rmse = $NF }
-      /off by 1 or more/ { one = 100 - $(NF - 1) }
-      /off by 2 or more/ { two = 100 - $(NF - 1) }
-      /largest 8-bit/ { most = $NF }
-      END { printf "| %s | %.4f %% | %.4f %% | %d | %s |\n", scene, one, two, most, rmse }'
+    tableRow "$scene" "$other" "$work/4.exr" "$work/3.exr"
   done
 }
 
