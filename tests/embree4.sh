@@ -14,7 +14,7 @@ build=$root/build-embree4
 sysroot=$build/debian13
 libraries=$sysroot/usr/lib/x86_64-linux-gnu
 # What meets rays, or differs with the width of vectors.
-tests=(alpha_map analytic effects_law encode_display hard invariance scaling terminator twins)
+areas=(render hard)
 
 leaveOut() {
   echo "!! Embree 4 is NOT checked: $1" >&2
@@ -23,6 +23,7 @@ leaveOut() {
 }
 
 . "$root/tests/debian13.sh"
+. "$root/tests/picture_table.sh"
 
 configure() {
   local embree flags
@@ -44,14 +45,14 @@ embreeOf() {
 }
 
 runTests() {
-  local name
+  local area
   echo "Embree $(embreeOf "$build/whit")"
   [[ $(embreeOf "$build/whit") == 4.* ]]
-  for name in "${tests[@]}"; do
-    echo "-- $name"
-    (cd "$build" && WHIT_SOURCE_DIR=$root "tests/${name}_test" --gtest_brief=1 >"$name.log") ||
-      { cat "$build/$name.log"; return 1; }
-    tail -2 "$build/$name.log" | head -1
+  for area in "${areas[@]}"; do
+    echo "-- $area"
+    (cd "$build" && WHIT_SOURCE_DIR=$root "tests/${area}_test" --gtest_brief=1 >"$area.log") ||
+      { cat "$build/$area.log"; return 1; }
+    tail -2 "$build/$area.log" | head -1
   done
 }
 
@@ -63,17 +64,11 @@ differ() {
   # shellcheck disable=SC2064  # the folder of now
   trap "rm -rf '$work'" EXIT
   echo "Embree $(embreeOf "$build/whit") against Embree $(embreeOf "$other")"
-  echo "| scene | same codes | within one code | largest difference | RMSE |"
-  echo "|---|---:|---:|---:|---:|"
-  for scene in matte whitted glass mirrors atrium landscape ${WHIT_DATA:+sponza-mirror}; do
+  tableHead scene
+  for scene in $(tableScenes); do
     "$build/whit" render "$scene" --size 480x300 -o "$work/4.exr" --quiet
     "$other" render "$scene" --size 480x300 -o "$work/3.exr" --quiet
-    "$other" compare "$work/4.exr" "$work/3.exr" --quiet | awk -v scene="$scene" '
-      /^RMSE/ { rmse = $NF }
-      /off by 1 or more/ { one = 100 - $(NF - 1) }
-      /off by 2 or more/ { two = 100 - $(NF - 1) }
-      /largest 8-bit/ { most = $NF }
-      END { printf "| %s | %.4f %% | %.4f %% | %d | %s |\n", scene, one, two, most, rmse }'
+    tableRow "$scene" "$other" "$work/4.exr" "$work/3.exr"
   done
 }
 
@@ -94,6 +89,6 @@ if [ "${1:-}" = --differ ]; then
   compile whit
   differ
 else
-  compile whit "${tests[@]/%/_test}"
+  compile whit "${areas[@]/%/_test}"
   runTests
 fi

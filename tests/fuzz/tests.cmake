@@ -7,10 +7,8 @@ target_link_libraries(whit_readers PUBLIC whit_io)
 target_include_directories(whit_readers PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(whit_readers PRIVATE
                            WHIT_FUZZ_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus")
-whit_test(fuzz_replay whit_readers)
-whit_test(damaged_data whit_core)
-target_compile_definitions(damaged_data_test PRIVATE WHIT_PROGRAM="$<TARGET_FILE:whit>")
-add_dependencies(damaged_data_test whit)
+whit_tests(fuzz whit_readers)
+whit_runs_programs(fuzz whit)
 # `cmake --build BUILD --target make_corpus`, then BUILD/tests/make_corpus tests/fuzz/corpus
 add_executable(make_corpus EXCLUDE_FROM_ALL fuzz/make_corpus.cpp)
 target_link_libraries(make_corpus PRIVATE whit_io OpenEXR::OpenEXR JPEG::JPEG ZLIB::ZLIB

@@ -1,2 +1,1 @@
-whit_test(hard whit_stress)
-whit_test(accounted whit_stress)
+whit_tests(hard whit_stress)

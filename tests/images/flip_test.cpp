@@ -6,18 +6,13 @@
 #include <cmath>
 
 #include "core/srgb.h"
+#include "flat_image.h"
 #include "metrics/metrics.h"
 
 namespace whit {
 namespace {
 
 using Triple = std::array<double, 3>;
-
-Image flat(int width, int height, const Rgb& colour) {
-  Image image(width, height);
-  for (Rgb& pixel : image.pixels) pixel = colour;
-  return image;
-}
 
 Rgb ofCodes(int r, int g, int b) {
   const auto linear = [](int c) { return static_cast<float>(srgbToLinear(c / 255.0)); };

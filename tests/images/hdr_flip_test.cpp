@@ -6,16 +6,11 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "flat_image.h"
 #include "metrics/metrics.h"
 
 namespace whit {
 namespace {
-
-Image flat(int width, int height, const Rgb& colour) {
-  Image image(width, height);
-  for (Rgb& pixel : image.pixels) pixel = colour;
-  return image;
-}
 
 // Narkowicz's curve as published, for x / 0.6 of ours.
 double aces(double x) {

@@ -7,15 +7,10 @@
 
 #include "core/error.h"
 #include "core/srgb.h"
+#include "flat_image.h"
 
 namespace whit {
 namespace {
-
-Image flat(int width, int height, const Rgb& colour) {
-  Image image(width, height);
-  for (Rgb& pixel : image.pixels) pixel = colour;
-  return image;
-}
 
 float ofCode(int code) { return static_cast<float>(srgbToLinear(code / 255.0)); }
 

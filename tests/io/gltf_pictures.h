@@ -8,13 +8,13 @@
 #include "core/srgb.h"
 #include "gltf_files.h"
 #include "io/image_file.h"
+#include "pi.h"
 #include "render/renderer.h"
 
 namespace whit {
 
 // Some roundings of float, and of texels to 10 bits of their square roots.
 inline constexpr double kClose = 2e-3;
-inline constexpr double kPi = 3.14159265358979323846;
 
 // [-1, 1]^2 at `z`, facing +z, its texture upright and not mirrored as seen from there.
 struct Square {

@@ -19,11 +19,9 @@ class ObjHostile : public SceneFileTest {
   }
 };
 
-constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
 TEST_F(ObjHostile, VertexIndicesOutOfRangeDropTheFace) {
   const SceneDescription scene =
-      loadObj(std::string(kTriangle) +
+      loadObj(std::string(kTriangleObj) +
               "f 1 2 4\nf 0 1 2\nf -4 -2 -1\nf 1 2 99999999999999\nf -2147483648 1 2\nf a b c\n");
   EXPECT_EQ(triangleCount(scene), 1u);
   EXPECT_EQ(warned("face with a vertex index out of range dropped"), 6u);
@@ -46,7 +44,7 @@ TEST_F(ObjHostile, OtherIndicesOutOfRangeAreIgnored) {
 }
 
 TEST_F(ObjHostile, FacesWithFewCornersAreDropped) {
-  EXPECT_EQ(triangleCount(loadObj(std::string(kTriangle) + "f 1\nf 1 2\nf \nl 1 2\np 1\n")), 1u);
+  EXPECT_EQ(triangleCount(loadObj(std::string(kTriangleObj) + "f 1\nf 1 2\nf \nl 1 2\np 1\n")), 1u);
   EXPECT_EQ(warned("face with fewer than three corners dropped"), 2u);
 }
 
@@ -65,7 +63,8 @@ TEST_F(ObjHostile, MissingNumbersAreErrorsWithTheirLine) {
 
 TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
   for (const char* odd : {"nan", "-inf", "1e999", "-1.#IND", "1.#INF", "NaN(7)"}) {
-    const SceneDescription scene = loadObj(std::string(kTriangle) + "v 5 " + odd + " 5\nf 2 3 4\n");
+    const SceneDescription scene =
+        loadObj(std::string(kTriangleObj) + "v 5 " + odd + " 5\nf 2 3 4\n");
     const Mesh& mesh = scene.objects.at(0).meshes.at(0);
     EXPECT_FALSE(isFinite(mesh.positions[mesh.triangles.at(1)[2]])) << odd;
     Warnings warnings;
@@ -78,7 +77,7 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
 
 TEST_F(ObjHostile, StrictRefusesWhatWouldBeMended) {
   Warnings strict(true);
-  const std::string file = save("m.obj", std::string(kTriangle) + "f 1 2 4\n");
+  const std::string file = save("m.obj", std::string(kTriangleObj) + "f 1 2 4\n");
   EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
             "3 m.obj:5: face with a vertex index out of range dropped (refused by --strict)");
 }
@@ -94,7 +93,7 @@ TEST_F(ObjHostile, NothingAndNonsenseAreEmptyModels) {
 
 TEST_F(ObjHostile, MemoryIsCheckedBeforeItIsTaken) {
   options_.maxMemoryBytes = 20000;
-  std::string text = kTriangle;
+  std::string text = kTriangleObj;
   for (int i = 0; i < 500; ++i) text += "f 1 2 3\n";
   EXPECT_EQ(errorOfObj(text).substr(0, 8), "5 m.obj ");
   options_.maxMemoryBytes = 100;
@@ -104,14 +103,14 @@ TEST_F(ObjHostile, MemoryIsCheckedBeforeItIsTaken) {
 // Counting lines from the top for each of them would take minutes.
 TEST_F(ObjHostile, EveryFaceMayBeBad) {
   constexpr std::uint64_t kFaces = 300'000;
-  std::string text = kTriangle;
+  std::string text = kTriangleObj;
   for (std::uint64_t i = 0; i < kFaces; ++i) text += "f 1 2 9\n";
   EXPECT_EQ(triangleCount(loadObj(text)), 1u);
   EXPECT_EQ(warned("face with a vertex index out of range dropped"), kFaces);
 }
 
 TEST_F(ObjHostile, MaterialsHaveALimit) {
-  std::string uses = kTriangle, library;
+  std::string uses = kTriangleObj, library;
   for (int i = 0; i <= 65536; ++i) {
     uses += "usemtl " + std::to_string(i) + "\n";
     library += "newmtl " + std::to_string(i) + "\n";

@@ -49,7 +49,7 @@ class Ply : public SceneFileTest {
   }
 };
 
-constexpr char kTriangle[] =
+constexpr char kTriangleHeader[] =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar uint vertex_index\n";
 
@@ -90,7 +90,7 @@ TEST_F(Ply, ColoursOfVertices) {
 }
 
 TEST_F(Ply, LineEndsOfAnySystem) {
-  std::string text = header("ascii", kTriangle) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
+  std::string text = header("ascii", kTriangleHeader) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) {
     text.replace(at, 1, "\r\n");
   }
@@ -135,7 +135,7 @@ TEST_F(Ply, BadFacesAreDroppedAndCounted) {
 }
 
 TEST_F(Ply, ScenesUseThem) {
-  save("t.ply", header("ascii", kTriangle) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2");
+  save("t.ply", header("ascii", kTriangleHeader) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2");
   const SceneDescription scene = loadMembers(
       "\"scene\": [{\"model\": \"t.ply\", \"materials\": {\"*\": {\"diffuse\": [1,0,0]}}}]");
   EXPECT_EQ(triangleCount(scene), 1u);
@@ -156,7 +156,7 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
   EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0\nelement v 1\nproperty half x\n"),
             "3 m.ply:4: \"half\" is no type of a property");
   EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0"), "3 m.ply:2: expected a line of a PLY header");
-  const std::string whole = header("ascii", kTriangle);
+  const std::string whole = header("ascii", kTriangleHeader);
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
             "3 m.ply:12: expected a number");
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 0 0\n0 1 0\n255 0 1 2\n"),

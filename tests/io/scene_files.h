@@ -17,6 +17,8 @@
 
 namespace whit {
 
+inline constexpr char kTriangleObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
 // A new folder for each test, removed afterwards.
 class SceneFileTest : public testing::Test {
  protected:

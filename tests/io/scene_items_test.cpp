@@ -9,35 +9,33 @@ namespace {
 
 using SceneItems = SceneFileTest;
 
-constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
 // Where instance `i` puts corner `corner` of its object.
 Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t corner) {
   const Instance& instance = scene.instances[i];
   return instance.toWorld.point(Vec3d(scene.objects[instance.object].meshes[0].positions[corner]));
 }
 
-void expectNear(const Vec3d& a, const Vec3d& b) {
+void expectPoint(const Vec3d& a, const Vec3d& b) {
   constexpr double kRounding = 1e-12;  // a few operations in double, on numbers below 100
   EXPECT_LT(length(a - b), kRounding) << a.x << " " << a.y << " " << a.z;
 }
 
 TEST_F(SceneItems, TransformScalesThenRotatesThenTranslates) {
-  save("t.obj", kTriangle);
+  save("t.obj", kTriangleObj);
   const SceneDescription scene = loadMembers(
       "\"scene\": [{\"model\": \"t.obj\", \"transform\": {\"translate\": [10,0,0],"
       "\"rotate\": [0,0,1,90], \"scale\": [2,3,4]}}]");
-  expectNear(cornerOf(scene, 0, 1), {10, 2, 0});
-  expectNear(cornerOf(scene, 0, 2), {7, 0, 0});
+  expectPoint(cornerOf(scene, 0, 1), {10, 2, 0});
+  expectPoint(cornerOf(scene, 0, 2), {7, 0, 0});
 }
 
 TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
-  save("t.obj", kTriangle);
+  save("t.obj", kTriangleObj);
   const SceneDescription scene = loadMembers(
       "\"scene\": [{\"model\": \"t.obj\", \"transform\": [{\"translate\": [1,0,0]},"
       "{\"rotate\": [[0,0,1,90], [1,0,0,90]]}, {\"matrix\": [1,0,0,5, 0,1,0,6, 0,0,2,7]}]}]");
   // (1,0,0) -> (2,0,0) -> (0,2,0) -> (0,0,2) -> (5,6,11)
-  expectNear(cornerOf(scene, 0, 1), {5, 6, 11});
+  expectPoint(cornerOf(scene, 0, 1), {5, 6, 11});
 }
 
 TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
@@ -59,15 +57,15 @@ TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
 }
 
 TEST_F(SceneItems, GroupsAndRepeats) {
-  save("t.obj", kTriangle);
+  save("t.obj", kTriangleObj);
   const SceneDescription scene = loadMembers(
       "\"scene\": [{\"group\": [{\"model\": \"t.obj\", \"transform\": {\"translate\": [1,0,0]}}],"
       "\"transform\": {\"scale\": 2}, \"repeat\": {\"count\": [2,1,3], \"step\": [10,0,100]}}]");
   ASSERT_EQ(scene.instances.size(), 6u);
   // The step is in the parent's space: it is not scaled.
   for (std::size_t i = 0; i < 6; ++i) {
-    expectNear(cornerOf(scene, i, 0),
-               {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
+    expectPoint(cornerOf(scene, i, 0),
+                {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
   }
   Warnings warnings;
   SceneDescription copy = scene;
@@ -88,7 +86,7 @@ TEST_F(SceneItems, RepeatsAreLimited) {
 }
 
 TEST_F(SceneItems, ObjectsPlacedOnceAreBakedAndMoreOftenInstanced) {
-  save("t.obj", kTriangle);
+  save("t.obj", kTriangleObj);
   const std::string objects =
       "\"objects\": {\"pair\": [{\"use\": \"one\"}, {\"use\": \"one\", \"transform\": "
       "{\"translate\": [0,0,1]}}], \"one\": [{\"model\": \"t.obj\"}], \"never\": [{\"model\": "
@@ -100,11 +98,11 @@ TEST_F(SceneItems, ObjectsPlacedOnceAreBakedAndMoreOftenInstanced) {
       objects + ", {\"use\": \"pair\", \"repeat\": {\"count\": [2,1,1], \"step\": [10,0,0]}}]");
   ASSERT_EQ(thrice.objects.size(), 1u);
   ASSERT_EQ(thrice.instances.size(), 6u);
-  expectNear(cornerOf(thrice, 5, 1), {11, 0, 1});
+  expectPoint(cornerOf(thrice, 5, 1), {11, 0, 1});
 }
 
 TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
-  save("t.obj", kTriangle);
+  save("t.obj", kTriangleObj);
   const SceneDescription scene = loadMembers(
       "\"objects\": {\"o\": [{\"model\": \"t.obj\", \"transform\": {\"scale\": -2}}]},"
       "\"scene\": [{\"use\": \"o\"}, {\"use\": \"o\", \"transform\": {\"translate\": [5,0,0]}}]");
@@ -112,7 +110,7 @@ TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
   const Mesh& mesh = scene.objects[0].meshes[0];
   EXPECT_EQ(mesh.positions[1], Vec3f(-2, 0, 0));
   EXPECT_NE(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));  // a mirrored winding
-  expectNear(cornerOf(scene, 1, 1), {3, 0, 0});
+  expectPoint(cornerOf(scene, 1, 1), {3, 0, 0});
 }
 
 TEST_F(SceneItems, ObjectsMayNotContainThemselves) {
@@ -172,7 +170,7 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   save("m.mtl",
        "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0 0 0\n"
        "newmtl y\nKd 0.25 0.25 0.25\n");
-  save("m.obj", std::string("mtllib m.mtl\nusemtl x\n") + kTriangle + "usemtl y\nf 1 2 3\n");
+  save("m.obj", std::string("mtllib m.mtl\nusemtl x\n") + kTriangleObj + "usemtl y\nf 1 2 3\n");
   const std::string head =
       "\"textures\": {\"b\": {\"image\": \"b.tga\"}}, \"scene\": [{\"model\": \"m.obj\"";
   const SceneDescription scene = loadMembers(

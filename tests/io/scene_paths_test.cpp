@@ -4,8 +4,6 @@
 namespace whit {
 namespace {
 
-constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
 class ScenePaths : public SceneFileTest {
  protected:
   std::string errorOfModel(const std::string& path) {
@@ -18,8 +16,8 @@ class ScenePaths : public SceneFileTest {
 };
 
 TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
-  save("sub/in.obj", kTriangle);
-  save("../out.obj", kTriangle);
+  save("sub/in.obj", kTriangleObj);
+  save("../out.obj", kTriangleObj);
   const std::string leaves =
       " leaves the scene's folder and $WHIT_DATA (--allow-outside permits that)";
   EXPECT_EQ(errorOfModel("sub/in.obj"), "no error");
@@ -34,7 +32,7 @@ TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
 }
 
 TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
-  save("in.obj", kTriangle);
+  save("in.obj", kTriangleObj);
   save("s.json", "{\"whit\": 1, \"scene\": [{\"model\": \"in.obj\"}]}");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(root_);
@@ -44,12 +42,12 @@ TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
 }
 
 TEST_F(ScenePaths, AFolderWhoseNameBeginsAlikeIsOutside) {
-  save("../inside2/out.obj", kTriangle);
+  save("../inside2/out.obj", kTriangleObj);
   EXPECT_EQ(errorOfModel("../inside2/out.obj").substr(0, 2), "3 ");
 }
 
 TEST_F(ScenePaths, TheDataFolderIsAllowed) {
-  save("../data/in.obj", kTriangle);
+  save("../data/in.obj", kTriangleObj);
   setenv("WHIT_DATA", (folder_ + "/data").c_str(), 1);
   EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"), "no error");
   EXPECT_EQ(errorOfModel("$WHIT_DATA/../out.obj").substr(0, 2), "3 ");

@@ -8,13 +8,13 @@
 #include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
 #include "reference/texture_sampling.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
 
 using namespace test;
 
-constexpr double kRounding = 1e-12;  // of the formulas in double
 // Rays that go on start off the surface, by less than 1e-3 of the ways here, which is as much of a
 // level.
 constexpr double kOffset = 2e-3;

@@ -52,7 +52,7 @@ double lateralShift(const StraightThrough& path, const Vec3d& origin, const Vec3
 
 // At each of up to four faces the origin is moved by offset = 32 u (|x| + |y| + |z|) of the
 // interpolated magnitudes, at most 5 + 2 + 5 here.
-constexpr double kOffsets = 4 * 32 * 12 / 16777216.0;
+constexpr double kOffsetsOfFourFaces = 4 * 32 * 12 / 16777216.0;
 
 TEST(Slab, ShiftsAndKeepsTheDirection) {
   SceneBuilder builder;
@@ -62,7 +62,7 @@ TEST(Slab, ShiftsAndKeepsTheDirection) {
   EXPECT_EQ(path.hits, 2);
   EXPECT_EQ(path.media, 0u);
   EXPECT_LT(length(path.last.direction - d), 1e-14);
-  EXPECT_NEAR(lateralShift(path, origin, d), 0.512472013, kOffsets);
+  EXPECT_NEAR(lateralShift(path, origin, d), 0.512472013, kOffsetsOfFourFaces);
   ASSERT_EQ(path.reflectances.size(), 2u);
   EXPECT_NEAR(path.reflectances[0], path.reflectances[1], 1e-14) << "reciprocity";
 }
@@ -100,7 +100,7 @@ TEST_F(NestedTest, OverlapActsAsOneInterface) {
   EXPECT_EQ(seen.media, 0u);
   EXPECT_LT(length(seen.last.direction - direction_), 1e-14);
   EXPECT_NEAR(lateralShift(seen, origin_, direction_),
-              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 1}}), kOffsets);
+              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 1}}), kOffsetsOfFourFaces);
   // From glass into water: ratio 0.8867.
   const double inGlass =
       std::sqrt(1 - std::pow(std::sin(kAngle * 3.14159265358979 / 180) / 1.5, 2));
@@ -113,7 +113,7 @@ TEST_F(NestedTest, WaterMayOutrankGlass) {
   EXPECT_EQ(seen.hidden, 1);
   EXPECT_EQ(seen.media, 0u);
   EXPECT_NEAR(lateralShift(seen, origin_, direction_),
-              shiftThrough(kAngle, {{1.5f, 0.75}, {1.33f, 1.25}}), kOffsets);
+              shiftThrough(kAngle, {{1.5f, 0.75}, {1.33f, 1.25}}), kOffsetsOfFourFaces);
 }
 
 TEST_F(NestedTest, GapHoldsVacuum) {
@@ -122,7 +122,7 @@ TEST_F(NestedTest, GapHoldsVacuum) {
   EXPECT_EQ(seen.reflectances.size(), 4u);
   EXPECT_LT(length(seen.last.direction - direction_), 1e-14);
   EXPECT_NEAR(lateralShift(seen, origin_, direction_),
-              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 0.75}}), kOffsets);
+              shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 0.75}}), kOffsetsOfFourFaces);
 }
 
 // numerics H44, up to the rounding of one sum.

@@ -60,7 +60,7 @@ TEST(Furnace, BoxVanishes) {
 
 // At either face the path is cut short by offset = 32 u (|x| + |y| + |z|) of the interpolated
 // magnitudes, at most 4 + 1 + 4.
-constexpr double kOffsets = 2 * 32 * 9 / 16777216.0;
+constexpr double kOffsetsOfTwoFaces = 2 * 32 * 9 / 16777216.0;
 
 // numerics H50: exp(-sigma * length of the path inside).
 TEST(Absorption, DependsOnThePathInside) {
@@ -73,8 +73,8 @@ TEST(Absorption, DependsOnThePathInside) {
   for (const double degrees : {0.0, 30.0, 60.0}) {
     const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
     const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
-    EXPECT_NEAR(seen.x, std::exp(-path), kOffsets) << degrees;
-    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsets) << degrees;
+    EXPECT_NEAR(seen.x, std::exp(-path), kOffsetsOfTwoFaces) << degrees;
+    EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsetsOfTwoFaces) << degrees;
     EXPECT_EQ(seen.z, 1);
     Settings clear = test::uncut();
     clear.effects = EffectSet::all().without(Effect::absorption);

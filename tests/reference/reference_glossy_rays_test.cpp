@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "pi.h"
 #include "reference/fresnel.h"
 #include "reference/glossy.h"
 #include "reference/shading.h"
@@ -13,8 +14,6 @@
 
 namespace whit::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Vec3d at(double cosine, double turn) {
   const double sine = std::sqrt(1 - cosine * cosine);

@@ -3,13 +3,12 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/shading.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 class GlossyTest : public ::testing::Test {
  protected:

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/shading.h"
 #include "reference/small_scenes.h"
 
@@ -12,8 +13,6 @@ namespace {
 using test::lightAt;
 using test::radianceAlong;
 using test::SceneBuilder;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // What the camera should see at pixel (x, y) of a w x h image, from 5 above a floor that spans
 // y = 0, looking down with -z up: the point on the floor.

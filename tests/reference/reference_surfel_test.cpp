@@ -25,7 +25,7 @@ Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards
   return makeSurfel(scene, effects, candidate, refineHit(scene, ray, candidate), ray.direction);
 }
 
-void expectNear(const Vec3d& a, const Vec3d& b, double tolerance) {
+void expectVectorNear(const Vec3d& a, const Vec3d& b, double tolerance) {
   EXPECT_LE(length(a - b), tolerance)
       << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
 }
@@ -36,14 +36,14 @@ TEST(Surfel, NormalsFaceTheViewer) {
   const Scene scene = builder.build();
   const Surfel above = surfelAlong(scene, {0.5, 3, 0.25}, {0, -1, 0});
   EXPECT_TRUE(above.entering);
-  expectNear(above.position, {0.5, 1, 0.25}, 1e-15);
-  expectNear(above.geometricNormal, {0, 1, 0}, 0);
-  expectNear(above.shadingNormal, {0, 1, 0}, 0);
-  expectNear(above.view, {0, 1, 0}, 0);
+  expectVectorNear(above.position, {0.5, 1, 0.25}, 1e-15);
+  expectVectorNear(above.geometricNormal, {0, 1, 0}, 0);
+  expectVectorNear(above.shadingNormal, {0, 1, 0}, 0);
+  expectVectorNear(above.view, {0, 1, 0}, 0);
   const Surfel below = surfelAlong(scene, {0.5, -3, 0.25}, {0, 1, 0});
   EXPECT_FALSE(below.entering);
-  expectNear(below.geometricNormal, {0, -1, 0}, 0);
-  expectNear(below.shadingNormal, {0, -1, 0}, 0);
+  expectVectorNear(below.geometricNormal, {0, -1, 0}, 0);
+  expectVectorNear(below.shadingNormal, {0, -1, 0}, 0);
 }
 
 TEST(Surfel, OffsetBoundsTheRounding) {
@@ -69,12 +69,13 @@ TEST(Surfel, InterpolatesNormals) {
   // The first edge leans left, the opposite one right.
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
   const Scene scene = builder.build();
-  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
+  expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
   // Three quarters of the way: tan = 0.5 of the border's.
-  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
-             normalized(Vec3d{0.5, 1, 0}), 1e-7);
+  expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
+                   normalized(Vec3d{0.5, 1, 0}), 1e-7);
   const EffectSet flat = EffectSet::all().without(Effect::smoothNormals);
-  expectNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0}, 0);
+  expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0},
+                   0);
 }
 
 // numerics H34: where normals cancel, the face's serves.
@@ -83,7 +84,7 @@ TEST(Surfel, CancellingNormals) {
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
   const Scene scene = builder.build();
   const Surfel s = surfelAlong(scene, {0, 1, 1}, {0, -1, 0});
-  expectNear(s.shadingNormal, {0, 1, 0}, 0);
+  expectVectorNear(s.shadingNormal, {0, 1, 0}, 0);
 }
 
 // Facing is decided by the geometric normal alone (numerics H33).
@@ -95,7 +96,7 @@ TEST(Surfel, ShadingNormalMayLookAway) {
   const Surfel s = surfelAlong(scene, {-1, 0.1, 0}, {1, -0.1, 0});
   EXPECT_TRUE(s.entering);
   EXPECT_LT(dot(s.view, s.shadingNormal), 0);
-  expectNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
+  expectVectorNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
 }
 
 class NormalMapTest : public ::testing::Test {
@@ -124,37 +125,38 @@ class NormalMapTest : public ::testing::Test {
 TEST_F(NormalMapTest, LeansAlongTextureAxes) {
   SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
   alongU.add(mesh_);
-  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0.6, 0.8, 0},
-             kCoding);
+  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {0.6, 0.8, 0}, kCoding);
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
   alongV.add(mesh_);
-  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
-             kCoding);
+  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {0, 0.8, -0.6}, kCoding);
 }
 
 TEST_F(NormalMapTest, MirroredTextureLeansTheOtherWay) {
   SceneBuilder alongU = floorWith({0.6f, 0, 0.8f}, true);
   alongU.add(mesh_);
-  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {-0.6, 0.8, 0},
-             kCoding);
+  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {-0.6, 0.8, 0}, kCoding);
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f}, true);
   alongV.add(mesh_);
-  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
-             kCoding);
+  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {0, 0.8, -0.6}, kCoding);
 }
 
 TEST_F(NormalMapTest, TurnsOverWithTheSurface) {
   SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
   builder.add(mesh_);
-  expectNear(surfelAlong(builder.build(), {0.1, -1, 0.2}, {0, 1, 0}).shadingNormal, {-0.6, -0.8, 0},
-             kCoding);
+  expectVectorNear(surfelAlong(builder.build(), {0.1, -1, 0.2}, {0, 1, 0}).shadingNormal,
+                   {-0.6, -0.8, 0}, kCoding);
 }
 
 TEST_F(NormalMapTest, CollapsedTextureSpaceChangesNothing) {
   SceneBuilder builder = floorWith({0.6f, 0, 0.8f});
   for (Vec2f& uv : mesh_.uvs) uv = {0.5f, uv.y};
   builder.add(mesh_);
-  expectNear(surfelAlong(builder.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 0);
+  expectVectorNear(surfelAlong(builder.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 1, 0},
+                   0);
 }
 
 // A mirrored instance looks like the mirrored surface: the lean along v stays what it was.
@@ -162,12 +164,12 @@ TEST_F(NormalMapTest, MirroredInstance) {
   const Affine far = Affine::translation({0, 0, 50});
   SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
   alongU.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
-  expectNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {-0.6, 0.8, 0},
-             kCoding);
+  expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {-0.6, 0.8, 0}, kCoding);
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
   alongV.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
-  expectNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal, {0, 0.8, -0.6},
-             kCoding);
+  expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
+                   {0, 0.8, -0.6}, kCoding);
 }
 
 // numerics H11: an instance is its mesh, moved beforehand.
@@ -188,9 +190,9 @@ TEST(Surfel, InstancesMatchBakedGeometry) {
     const Vec3d eye = target + map.normal({0, 1, 0}) * (side * 1e-3) + Vec3d{0.1, 0.2, 0.3};
     const Surfel s = surfelAlong(a, eye, target - eye), t = surfelAlong(b, eye, target - eye);
     // The baked corners, 1000 from the origin, are rounded to float: to 3e-5, on edges 1 long.
-    expectNear(s.position, t.position, 1e-4);
-    expectNear(s.geometricNormal, t.geometricNormal, 1e-4);
-    expectNear(s.shadingNormal, t.shadingNormal, 1e-6);
+    expectVectorNear(s.position, t.position, 1e-4);
+    expectVectorNear(s.geometricNormal, t.geometricNormal, 1e-4);
+    expectVectorNear(s.shadingNormal, t.shadingNormal, 1e-6);
     EXPECT_EQ(s.entering, t.entering);
     EXPECT_EQ(s.entering, side > 0);
     // |M| times the magnitudes is at least what the moved corners show.
@@ -209,10 +211,10 @@ TEST(Surfel, TexturesMultiplyColours) {
   const Scene scene = builder.build();
   // u = 0.5: half way between black and yellow.
   const Surfel s = surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0});
-  expectNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
-  expectNear(s.specular, {0.125, 0.125, 0}, 1e-12);
+  expectVectorNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
+  expectVectorNear(s.specular, {0.125, 0.125, 0}, 1e-12);
   const EffectSet plain = EffectSet::all().without(Effect::textures);
-  expectNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
+  expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
 }
 
 TEST(Surfel, RoughnessIsSquaredAndBounded) {

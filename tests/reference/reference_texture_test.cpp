@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "reference/small_scenes.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
@@ -21,8 +22,6 @@ Texture ramp(int width, int height, const std::vector<int>& codes) {
 }
 
 double codeAt(const Texture& t, double u, double v) { return 255 * sampleData(t, u, v).r; }
-
-constexpr double kRounding = 1e-12;  // of codes up to 255 in double
 
 TEST(TextureSampling, TexelCentresGiveTexels) {
   const Texture t = ramp(2, 2, {10, 20, 30, 40});  // the top row first

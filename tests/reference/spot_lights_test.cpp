@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/shading.h"
 #include "reference/small_scenes.h"
+#include "rounding.h"
 
 namespace whit::reference {
 namespace {
@@ -12,9 +14,6 @@ namespace {
 using test::lightAt;
 using test::radianceAlong;
 using test::SceneBuilder;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRounding = 1e-12;  // of the formulas in double
 
 Light spotAt(const Vec3f& position, float intensity, float inner, float outer) {
   Light light = lightAt(position, intensity);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
@@ -10,7 +11,6 @@
 namespace whit::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Twenty roundings of a float, for formulas of about that many operations.
 constexpr double kFloatFormula = 20 * 0x1p-24;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metrics/metrics.h"
+#include "pi.h"
 #include "reference/generate_ray.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
@@ -13,8 +14,6 @@ namespace whit::test {
 namespace {
 
 using namespace stress;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Light spot(float inner, float outer) {
   Light light = lightAt({0, 2, 0}, 10);

@@ -2,13 +2,13 @@
 // in the vector pipeline against the reference.
 #include <gtest/gtest.h>
 
+#include "pi.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
+#include "rounding.h"
 
 namespace whit::test {
 namespace {
-
-constexpr double kRounding = 1e-12;  // of the formulas in double
 
 // The square [0, 1]^2 of the floor y = 0, seen from above: u runs along x and v along -z; of the
 // second coordinates, u along -z and v along -x.
@@ -59,17 +59,17 @@ TEST(SecondUvs, AreTheFrameOfTheNormalMapThatSaysSo) {
     sun.direction = {-1, -1, 0};
     sun.intensity = Rgb(2.0f);
     builder.description.lights = {sun};
-    const double x = std::lround(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
+    const double x = std::round(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
     const Vec3d n = normalized(second ? Vec3d{-y, x, -x} : Vec3d{x, x, -y});
     const Vec3d toLight = normalized(Vec3d{1, 1, 0});
-    const double wanted = 0.5 / 3.14159265358979323846 * 2 * dot(n, toLight);
+    const double wanted = 0.5 / kPi * 2 * dot(n, toLight);
     const RgbD seen = radianceAlong(builder.build(), {0.5, 1, -0.5}, {0, -1, 0});
     EXPECT_NEAR(seen.x, wanted, 1e-6) << second;  // the light's direction is rounded to float
   }
 }
 
 // Maps of all kinds, by both coordinates and side by side, with and without instances.
-Scene everything() {
+Scene everyMapTwice() {
   SceneBuilder builder;
   const std::int32_t colour = builder.add(makeTexture(
       TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
@@ -105,10 +105,10 @@ Scene everything() {
   return builder.build();
 }
 
-constexpr std::size_t kAtEdges = 7;  // pixels, 0.1 % of the picture: another surface is hit
+constexpr std::size_t kPixelsAtEdges = 7;  // pixels, 0.1 % of the picture: another surface is hit
 
 TEST(SecondUvs, agreeWithTheReferenceOnEveryTarget) {
-  const Scene scene = everything();
+  const Scene scene = everyMapTwice();
   for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
     RenderOptions o = smallOptions();
     o.shading.textureFilter = filter;
@@ -124,7 +124,7 @@ TEST(SecondUvs, agreeWithTheReferenceOnEveryTarget) {
         const Rgb apart = abs(film.image.pixels[i] - reference.image.pixels[i]);
         differences += !(maxComponent(apart) < 1e-3f);
       }
-      EXPECT_LE(differences, kAtEdges) << target;
+      EXPECT_LE(differences, kPixelsAtEdges) << target;
     }
     simd::chooseTarget("auto");
   }
@@ -132,7 +132,7 @@ TEST(SecondUvs, agreeWithTheReferenceOnEveryTarget) {
 
 // The table alone, when no material asks for it, changes no bit; nor do queues and packets.
 TEST(SecondUvs, ChangeNothingWhereNoMapAsksForThem) {
-  Scene scene = everything();
+  Scene scene = everyMapTwice();
   expectBitsWhateverTheQueues(scene, smallOptions());
   for (Material& m : scene.materials) m.emissionBySecondUvs = m.normalBySecondUvs = false;
   const Image with = render(scene, smallOptions()).image;

@@ -6,12 +6,11 @@
 
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
+#include "rounding.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
 namespace {
-
-constexpr double kRounding = 1e-12;  // of the formulas in double
 
 // The square [0, 1]^2 of the floor y = 0, seen from above; u and -z run from its first corner.
 Mesh colouredFloor(std::uint32_t material) {

@@ -3,14 +3,13 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // A sphere of radius 1 about the origin, 16 x 32 facets with the sphere's own normals.
 Mesh facettedSphere(std::uint32_t material) {

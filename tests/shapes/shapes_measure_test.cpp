@@ -2,13 +2,13 @@
 // circle by a relative 2 pi^2 / (3 n^2) in area; that bounds the tolerances below.
 #include <gtest/gtest.h>
 
+#include "pi.h"
 #include "shapes/map_parameters.h"
 #include "shapes/mesh_measures.h"
 
 namespace whit::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Corners are rounded to float: 2^-24 relative each, sums of up to six products of three.
 constexpr double kFloat = 2e-6;
 

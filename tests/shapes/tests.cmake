@@ -1,5 +1,1 @@
-whit_test(shapes_closed whit_scene)
-whit_test(shapes_measure whit_scene)
-whit_test(shapes_ground whit_scene)
-whit_test(patterns whit_scene)
-whit_test(scenes whit_io whit_scene)
+whit_tests(shapes whit_io whit_scene)

@@ -4,10 +4,11 @@
 
 #include <limits>
 
+#include "pi.h"
+
 namespace whit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 8 * 0x1p-53;
 
 Vec3d directionAt(const CameraFrame& f, double x, double y) {

@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-PixelSurface floorPoint(float x, float z) { return {1, 7, {x, 0, z}, {0, 1, 0}}; }
+PixelSurface pointOnFloor(float x, float z) { return {1, 7, {x, 0, z}, {0, 1, 0}}; }
 
 TEST(OnSameSurface, materialInstanceAndNothing) {
-  const PixelSurface a = floorPoint(0, 0);
-  PixelSurface b = floorPoint(1, 0);
+  const PixelSurface a = pointOnFloor(0, 0);
+  PixelSurface b = pointOnFloor(1, 0);
   EXPECT_TRUE(onSameSurface(a, b));
   b.material = 2;
   EXPECT_FALSE(onSameSurface(a, b));
-  b = floorPoint(1, 0);
+  b = pointOnFloor(1, 0);
   b.instance = 8;
   EXPECT_FALSE(onSameSurface(a, b));
   EXPECT_FALSE(onSameSurface(a, PixelSurface{}));
@@ -27,18 +27,18 @@ TEST(OnSameSurface, materialInstanceAndNothing) {
 
 TEST(OnSameSurface, normalsMayTurnByFiveDegrees) {
   const auto turned = [](double degrees) {
-    PixelSurface s = floorPoint(1, 0);
+    PixelSurface s = pointOnFloor(1, 0);
     s.normal = Vec3f(Vec3d(std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0));
     return s;
   };
-  EXPECT_TRUE(onSameSurface(floorPoint(0, 0), turned(4.9)));
-  EXPECT_FALSE(onSameSurface(floorPoint(0, 0), turned(5.1)));
+  EXPECT_TRUE(onSameSurface(pointOnFloor(0, 0), turned(4.9)));
+  EXPECT_FALSE(onSameSurface(pointOnFloor(0, 0), turned(5.1)));
 }
 
 // A step of the same material, at any scale.
 TEST(OnSameSurface, parallelPlanesAreTwoSurfaces) {
   for (const float scale : {1e-6f, 1.0f, 1e6f}) {
-    PixelSurface a = floorPoint(0, 0), b = floorPoint(scale, 0);
+    PixelSurface a = pointOnFloor(0, 0), b = pointOnFloor(scale, 0);
     EXPECT_TRUE(onSameSurface(a, b));
     b.position.y = 0.08f * scale;
     EXPECT_TRUE(onSameSurface(a, b));
@@ -56,7 +56,7 @@ struct Frame {
     display.rgba.assign(static_cast<std::size_t>(4 * width * height), 100);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        surfaces.push_back(floorPoint(static_cast<float>(x), static_cast<float>(y)));
+        surfaces.push_back(pointOnFloor(static_cast<float>(x), static_cast<float>(y)));
       }
     }
   }

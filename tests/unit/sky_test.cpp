@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "core/affine.h"
+#include "pi.h"
 #include "scene/light.h"
 
 namespace whit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // At `azimuth` turns from -z towards +x, `polar` half-turns from the zenith.
 Vec3d direction(double azimuth, double polar) {

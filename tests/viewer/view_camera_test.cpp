@@ -1,12 +1,12 @@
 // Flying, looking and orbiting: where the camera must end, worked out by hand.
 #include <gtest/gtest.h>
 
+#include "pi.h"
 #include "viewer/camera_control.h"
 
 namespace whit::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kQuarterTurn = kPi / 2 / kRadiansPerPixel;  // pixels dragged
 constexpr float kTolerance = 1e-5f;                          // a few roundings of floats of size 5
 

@@ -12,7 +12,7 @@
 namespace whit::view {
 namespace {
 
-ShadingEdit read(const std::string& name, const std::vector<std::string>& settings = {}) {
+ShadingEdit readEdit(const std::string& name, const std::vector<std::string>& settings = {}) {
   LoadOptions options;
   options.settings = settings;
   Warnings warnings;
@@ -92,13 +92,13 @@ class RandomEdit {
 };
 
 void expectThatEditsComeBack(const std::string& name) {
-  const ShadingEdit plain = read(name);
+  const ShadingEdit plain = readEdit(name);
   EXPECT_TRUE(editSettings(plain, plain).empty());
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const ShadingEdit edited = RandomEdit(seed).of(plain);
     const std::vector<std::string> settings = editSettings(plain, edited);
     EXPECT_FALSE(settings.empty());
-    const ShadingEdit again = read(name, settings);
+    const ShadingEdit again = readEdit(name, settings);
     expectSame(edited, again);
     EXPECT_TRUE(editSettings(edited, again).empty());
   }
@@ -128,7 +128,7 @@ class EditedModel : public testing::Test {
 };
 
 TEST_F(EditedModel, Alone) {
-  const std::vector<Material> materials = read(folder_ / "m.obj").materials;
+  const std::vector<Material> materials = readEdit(folder_ / "m.obj").materials;
   EXPECT_EQ(materials[0].specularMap, kNoTexture);
   EXPECT_NE(materials[1].specularMap, kNoTexture);
   expectThatEditsComeBack(folder_ / "m.obj");
