@@ -2,8 +2,8 @@
 # Builds everything and runs every test. Exits non-zero when anything fails.
 #   tests/run.sh           formatting, Release with warnings as errors, sanitizers, fuzzing
 #   tests/run.sh --quick   Release only
-#   tests/run.sh --all     fuzzers of the readers, Embree 4, MPI, Clang, the Debian package in a clean
-#                          system and 64-bit ARM under emulation as well (half an hour and more)
+#   tests/run.sh --all     Embree 4, MPI, Clang's Release, the Debian package in a clean system and
+#                          64-bit ARM under emulation as well (half an hour and more)
 #   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
 set -uo pipefail
 
@@ -122,10 +122,10 @@ if ! $quick; then
   step "format" checkFormat
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
+  step "fuzzing" fuzzReaders
 fi
 if $tidy; then step "tidy" checkTidy; fi
 if $all; then
-  step "fuzzing" fuzzReaders
   step "Embree 4" tests/embree4.sh
   step "MPI" checkRanks
   step "Clang" tests/clang.sh
