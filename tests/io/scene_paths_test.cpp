@@ -1,4 +1,9 @@
 // Which files a scene may name, and where shipped scenes are found.
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "scene_files.h"
 
 namespace whit {
@@ -9,10 +14,24 @@ class ScenePaths : public SceneFileTest {
   std::string errorOfModel(const std::string& path) {
     return errorOfMembers("\"scene\": [{\"model\": \"" + path + "\"}]");
   }
+  // The other tests of the program find these as they were.
   ~ScenePaths() override {
-    unsetenv("WHIT_DATA");
-    unsetenv("WHIT_SCENES");
+    for (const auto& [name, value] : given_) {
+      if (value) {
+        setenv(name, value->c_str(), 1);
+      } else {
+        unsetenv(name);
+      }
+    }
   }
+
+ private:
+  using Variable = std::pair<const char*, std::optional<std::string>>;
+  static Variable variable(const char* name) {
+    const char* value = std::getenv(name);
+    return {name, value ? std::optional<std::string>(value) : std::nullopt};
+  }
+  const Variable given_[2] = {variable("WHIT_DATA"), variable("WHIT_SCENES")};
 };
 
 TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
