@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "reference/small_scenes.h"
-#include "render/pipeline_laws.h"
+#include "render/row_of_tiles.h"
 #include "rounding.h"
-#include "simd/kernels.h"
 
 namespace whit::test {
 namespace {
@@ -95,8 +94,7 @@ Scene everything() {
   SceneBuilder builder;
   const std::int32_t map = builder.add(makeTexture(
       TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
-  Object tiles;
-  for (int i = 0; i < 6; ++i) {
+  return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
     m.vertexTint = static_cast<VertexTint>(i % 3);
     if (i >= 3) m.emissionMap = map;
@@ -106,44 +104,12 @@ Scene everything() {
     m.roughness = 0.4f;
     Mesh mesh = colouredFloor(builder.add(m));
     if (i == 5) mesh.colours.clear();
-    for (Vec3f& p : mesh.positions)
-      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centres
-    tiles.meshes.push_back(std::move(mesh));
-  }
-  builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
-  builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
-  builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
-  Camera camera;
-  camera.eye = {0, 5, 1};
-  camera.at = {0, 0, 0.25f};
-  camera.up = {0, 0, -1};
-  builder.description.cameras = {camera};
-  return builder.build();
-}
-
-constexpr std::size_t kAtEdges = 7;  // pixels, 0.1 % of the picture: another surface is hit
-
-std::size_t differences(const Image& a, const Image& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    count += !(maxComponent(abs(a.pixels[i] - b.pixels[i])) < 1e-3f);
-  }
-  return count;
+    return mesh;
+  });
 }
 
 TEST(SurfaceColours, agreeWithTheReferenceOnEveryTarget) {
-  const Scene scene = everything();
-  expectStagesAgreeOnEveryTarget(scene, smallOptions());
-  for (const std::string& target : simd::availableTargets()) {
-    RenderOptions o = smallOptions();
-    o.simd = target;
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
-    renderer.render(chooseCamera(scene, o), film);
-    renderer.renderReference(chooseCamera(scene, o), reference);
-    EXPECT_LE(differences(film.image, reference.image), kAtEdges) << target;
-  }
-  simd::chooseTarget("auto");
+  expectTheReferenceOnEveryTarget(everything(), smallOptions());
 }
 
 TEST(SurfaceColours, eachEffectLeftOutIsGoneAsInTheReference) {
@@ -152,12 +118,8 @@ TEST(SurfaceColours, eachEffectLeftOutIsGoneAsInTheReference) {
        {Effect::vertexColours, Effect::emissionMaps, Effect::textures, Effect::emission}) {
     RenderOptions o = smallOptions();
     o.disable = EffectSet().with(effect);
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
-    renderer.render(chooseCamera(scene, o), film);
-    renderer.renderReference(chooseCamera(scene, o), reference);
-    EXPECT_LE(differences(film.image, reference.image), kAtEdges)
-        << kEffectNames[static_cast<std::size_t>(effect)].name;
+    const auto name = kEffectNames[static_cast<std::size_t>(effect)].name;
+    expectThePictureOfTheReference(scene, o, std::string(name));
   }
 }
 
