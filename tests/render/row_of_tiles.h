@@ -34,7 +34,7 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   return builder.build();
 }
 
-constexpr std::size_t kPixelsAtEdges = 7;  // 0.1 % of the picture: another surface is hit
+inline constexpr std::size_t kPixelsAtEdges = 7;  // 0.1 % of the picture: another surface is hit
 
 inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptions& o,
                                            const std::string& what) {
