@@ -218,7 +218,7 @@ TEST_F(SceneItems, NestingHasALimit) {
 
 // What a few words ask for is refused before the memory is taken.
 TEST_F(SceneItems, ShapesAndPatternsKeepToTheMemoryLimit) {
-  options_.maxMemoryBytes = 8 << 20;
+  options_.maxMemoryBytes = 1 << 20;
   for (const char* item :
        {"\"vault\", \"baysX\": 1000, \"baysZ\": 1000, \"segments\": 2048", "\"grid\", \"nx\": 4096",
         "\"sphere\", \"segments\": 4096, \"rings\": 4096",

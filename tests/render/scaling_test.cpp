@@ -41,10 +41,11 @@ class Scaling : public testing::TestWithParam<std::string> {};
 
 TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
   Warnings warnings;
-  const Scene original = Scene::finalize(description(GetParam()), warnings);
+  const SceneDescription loaded = description(GetParam());
+  const Scene original = Scene::finalize(SceneDescription(loaded), warnings);
   const Image expected = render(original, smallOptions()).image;
   for (const int k : {-20, -7, 1, 20}) {
-    SceneDescription d = description(GetParam());
+    SceneDescription d = loaded;
     scale(d, k);
     const Scene scene = Scene::finalize(std::move(d), warnings);
     EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "")
@@ -54,8 +55,9 @@ TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
 
 TEST_P(Scaling, H56_lightsTimesAPowerOfTwoScaleTheImageExactly) {
   Warnings warnings;
+  const SceneDescription loaded = description(GetParam());
   const auto lit = [&](int k) {
-    SceneDescription d = description(GetParam());
+    SceneDescription d = loaded;
     // Sky and ambient do not scale with the lights.
     d.sky = Sky{};
     d.ambient = Ambient{};

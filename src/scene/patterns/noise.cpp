@@ -28,13 +28,15 @@ std::int32_t wrapped(std::int32_t i, int period) {
 }
 
 // Eight directions in the plane: enough variety, and no trigonometry. A table, because a switch on
-// random bits is mispredicted most of the time.
+// random bits is mispredicted most of the time; not one of each call, which sanitizers would fill
+// and watch millions of times.
+constexpr double kDiagonal = 0.70710678118654752440;
+constexpr double kSlopeX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
+constexpr double kSlopeY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
+
 double slope2(std::uint32_t h, double x, double y) {
-  constexpr double kDiagonal = 0.70710678118654752440;
-  constexpr double kX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
-  constexpr double kY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
   const std::uint32_t k = h & 7u;
-  return kX[k] * x + kY[k] * y;
+  return kSlopeX[k] * x + kSlopeY[k] * y;
 }
 
 // The twelve edges of a cube (Perlin 2002).
