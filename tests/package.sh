@@ -21,7 +21,8 @@ command -v debootstrap >/dev/null || leaveOut "no debootstrap (apt-get install d
 
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
-cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_TESTS=OFF >"$work/log" ||
+cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_TESTS=OFF \
+  -DWHIT_WERROR=ON >"$work/log" ||
   { cat "$work/log"; exit 1; }
 cmake --build "$build" --parallel "$(nproc)"
 (cd "$build" && cpack -G DEB -B "$work" >"$work/cpack.log") || { cat "$work/cpack.log"; exit 1; }

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Builds everything and runs every test. Exits non-zero when anything fails.
-#   tests/run.sh           formatting, Release with warnings as errors, sanitizers, fuzzing
+# Builds and tests. Exits non-zero when anything fails.
+#   tests/run.sh           formatting, thread sanitizer, address and undefined-behaviour sanitizers
+#                          with Clang and g++, fuzzing, Clang's Release, MPI, Embree 4, the Debian
+#                          package in a clean system, Release with warnings as errors
 #   tests/run.sh --quick   Release only
-#   tests/run.sh --all     Embree 4, MPI, Clang's Release, the Debian package in a clean system and
-#                          64-bit ARM under emulation as well (half an hour and more)
+#   tests/run.sh --all     every test of Clang's and g++'s other builds, clang-tidy and 64-bit ARM
+#                          under emulation as well (an hour more)
 #   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
 set -uo pipefail
 
@@ -24,10 +26,11 @@ failed=()
 
 # step NAME COMMAND...: runs it, remembers a failure, goes on.
 step() {
-  local name=$1
+  local name=$1 start=$SECONDS
   shift
   echo "== $name"
   "$@" || failed+=("$name")
+  echo "-- $name: $((SECONDS - start)) s"
 }
 
 # Formatting differs from one version to the next; the one of Debian 12 counts.
@@ -47,14 +50,15 @@ checkFormat() {
     xargs -0 --no-run-if-empty clang-format --dry-run -Werror
 }
 
+# Several sources at a time, as they are compiled: headers take most of the time.
 checkTidy() {
   if ! command -v run-clang-tidy >/dev/null; then
     echo "!! clang-tidy is not installed: the sources are NOT checked by it" >&2
     [ -z "${CI:-}" ]
     return
   fi
-  cmake --preset release -B build-tidy -DWHIT_UNITY=OFF >/dev/null &&
-    run-clang-tidy -quiet -p build-tidy '/(src|simd|viewer)/.*\.cpp$'
+  cmake --preset clang >/dev/null &&
+    run-clang-tidy -quiet -p build-clang "$root/(build-clang/src|build-clang/viewer|src|simd|viewer)/.*"
 }
 
 # buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
@@ -85,11 +89,12 @@ checkThreads() {
   done
 }
 
-# Builds that share sources share their objects.
+# Builds that share sources and options share their objects, wherever they are.
 useCompilerCache() {
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
     export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
+    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
   fi
 }
 
@@ -123,15 +128,21 @@ if ! $quick; then
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
-fi
-if $tidy; then step "tidy" checkTidy; fi
-if $all; then
-  step "Embree 4" tests/embree4.sh
+  if ! $all; then
+    # What depends most on the compiler: arithmetic, and the kernels on every SIMD target.
+    step "Clang" tests/areas.sh clang unit render
+    step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
+  fi
   step "MPI" checkRanks
-  step "Clang" tests/clang.sh
+  step "Embree 4" tests/embree4.sh
   step "package" tests/package.sh
+fi
+if $all; then
+  step "Clang" buildAndTest clang -DWHIT_WERROR=ON
+  step "g++ sanitizers" buildAndTest gcc-sanitize -DWHIT_WERROR=ON
   step "64-bit ARM" tests/aarch64.sh
 fi
+if $tidy || $all; then step "tidy" checkTidy; fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 

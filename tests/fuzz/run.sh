@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Fuzzes the readers, each for SECONDS (20), as many at a time as there are processors.
 #   tests/fuzz/run.sh [SECONDS] [READER...]
-# New inputs are gathered in build-fuzz/corpus, so that a run goes on where the last one stopped.
-# What breaks a reader is left in build-fuzz/findings: mend the reader, then keep the input in
+# New inputs are gathered in build-sanitize/corpus, so that a run goes on where the last one stopped.
+# What breaks a reader is left in build-sanitize/findings: mend the reader, then keep the input in
 # tests/fuzz/corpus. Exits 1 when something was found, 77 when there is no Clang.
 set -uo pipefail
 
@@ -20,9 +20,10 @@ if ! command -v clang++ >/dev/null; then
   echo "!! clang++ is not installed: the readers are NOT fuzzed" >&2
   exit 77
 fi
-cmake --preset fuzz >/dev/null && cmake --build --preset fuzz --parallel "$(nproc)" || exit 1
+cmake --preset debug-sanitize -DWHIT_WERROR=ON >/dev/null &&
+  cmake --build --preset debug-sanitize --parallel "$(nproc)" --target fuzzers || exit 1
 
-build=$root/build-fuzz
+build=$root/build-sanitize
 mkdir -p "$build/findings"
 TMPDIR=$(mktemp -d -p "$([ -d /dev/shm ] && echo /dev/shm || echo /tmp)" whit-fuzz-XXXXXX)
 export TMPDIR

@@ -17,8 +17,12 @@ target_include_directories(make_corpus PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
                                                ${CMAKE_CURRENT_SOURCE_DIR}/io)
 set_target_properties(make_corpus PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
-# With WHIT_FUZZ: a libFuzzer program for each reader, all built by the target `fuzzers`.
+# With WHIT_FUZZ: a libFuzzer program for each reader, all built by the target `fuzzers`. What they run
+# is instrumented; other programs of the build, which link the same objects, do without libFuzzer.
 if(WHIT_FUZZ)
+  foreach(folder core scene io readers)
+    target_compile_options(whit_${folder} PRIVATE -fsanitize=fuzzer-no-link)
+  endforeach()
   add_custom_target(fuzzers)
   foreach(reader scene obj mtl gltf ply png jpeg tga bmp hdr exr)
     add_executable(fuzz_${reader} EXCLUDE_FROM_ALL fuzz/fuzz_target.cpp)
