@@ -4,7 +4,8 @@
 # build-aarch64/debian13. Needs g++-aarch64-linux-gnu and qemu-user.
 #   tests/aarch64.sh [FILTER]    other tests of tests/render than the default ones, as googletest
 #                                filters them
-# Without the compiler, qemu or a network it says so and succeeds; with CI=true it fails.
+# Without the compiler or qemu it says so and succeeds, but with CI=true it fails; without a network it
+# exits 77.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,6 +1,12 @@
 # For scripts that build against Debian 13's libraries beside a system that has others; to be
 # sourced, after leaveOut() has been defined: it is called with the reason when there is no way.
 
+# Ends the script with 77: a mirror that is out of reach is no fault of the project.
+noNetwork() {
+  echo "!! NOT checked: $1" >&2
+  exit 77
+}
+
 # The mirror that this machine installs from, if it is Debian's; else the usual one.
 mirror() {
   apt-get indextargets --format '$(REPO_URI) $(ORIGIN) $(RELEASE)' 'Created-By: Packages' 2>/dev/null |
@@ -32,9 +38,9 @@ fetchDebian13() {
   : >"$apt/status"
   echo "deb [signed-by=$keys] $(mirror) trixie main" >"$apt/etc/sources.list"
   privateApt "$apt" "$architecture" update >&2 ||
-    leaveOut "no package lists of Debian 13 from $(mirror)"
+    noNetwork "no package lists of Debian 13 from $(mirror)"
   privateApt "$apt" "$architecture" install -y --no-install-recommends --download-only "$@" >&2 ||
-    leaveOut "no packages of Debian 13 from $(mirror)"
+    noNetwork "no packages of Debian 13 from $(mirror)"
   for package in "$apt"/cache/archives/*.deb; do
     case $package in
       */libc6-dev_* | */linux-libc-dev_* | */libcrypt-dev_*) ;;

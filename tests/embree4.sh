@@ -5,8 +5,8 @@
 #   tests/embree4.sh            fetch if not there, build, test
 #   tests/embree4.sh --fetch    fetch only
 #   tests/embree4.sh --differ   build, and compare its pictures with those of build/whit
-# Without a network, or on another machine than a 64-bit PC, it says so and succeeds; with CI=true
-# it fails.
+# On another machine than a 64-bit PC it says so and succeeds, but with CI=true it fails; without a
+# network it exits 77.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)

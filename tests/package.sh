@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes the Debian package, installs it in a clean system of the same release and uses it there:
 # tests/package.sh. Needs root and debootstrap (for the chroot) and the network (for what the package
-# depends on); without them it says so and succeeds, but with CI=true it fails.
+# depends on). Without the former it says so and succeeds, but with CI=true it fails; without the
+# latter it exits 77.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -31,7 +32,7 @@ dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
 
 clean=$work/clean
 debootstrap --variant=minbase "$VERSION_CODENAME" "$clean" "$(mirror)" >"$work/debootstrap.log" 2>&1 ||
-  { tail -5 "$work/debootstrap.log"; leaveOut "debootstrap did not finish"; }
+  { tail -5 "$work/debootstrap.log"; noNetwork "debootstrap did not finish"; }
 cp "$deb" "$clean/whit.deb"
 within() {
   chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \

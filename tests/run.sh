@@ -23,13 +23,20 @@ for word in "$@"; do
   esac
 done
 failed=()
+leftOut=()
 
-# step NAME COMMAND...: runs it, remembers a failure, goes on.
+# step NAME COMMAND...: runs it, remembers a failure, goes on. Status 77: there is no network.
 step() {
-  local name=$1 start=$SECONDS
+  local name=$1 start=$SECONDS status
   shift
   echo "== $name"
-  "$@" || failed+=("$name")
+  "$@"
+  status=$?
+  case $status in
+    0) ;;
+    77) leftOut+=("$name") ;;
+    *) failed+=("$name") ;;
+  esac
   echo "-- $name: $((SECONDS - start)) s"
 }
 
@@ -114,7 +121,11 @@ checkRanks() {
 fuzzReaders() {
   tests/fuzz/run.sh 20
   local status=$?
-  [ "$status" -eq 77 ] && [ -z "${CI:-}" ] && return 0
+  # No Clang.
+  if [ "$status" -eq 77 ]; then
+    [ -z "${CI:-}" ]
+    return
+  fi
   return "$status"
 }
 
@@ -146,6 +157,9 @@ if $tidy || $all; then step "tidy" checkTidy; fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 
+if [ ${#leftOut[@]} -gt 0 ]; then
+  echo "NOT CHECKED without a network: ${leftOut[*]}" >&2
+fi
 if [ ${#failed[@]} -gt 0 ]; then
   echo "FAILED: ${failed[*]}" >&2
   exit 1
