@@ -33,7 +33,7 @@ constexpr TargetName kTargetNames[] = {
     {HWY_SSE4, "sse4"},
     {HWY_SSSE3, "ssse3"},
     {HWY_NEON, "neon"},
-    {HWY_EMU128, "emu128"},  // the baseline with Clang: 128 bits without instructions for them
+    {HWY_EMU128, "scalar"},  // the baseline with Clang: four lanes of scalar code
     {HWY_SCALAR, "scalar"},
 #ifdef HWY_SSE2
     {HWY_SSE2, "sse2"},

@@ -28,7 +28,7 @@ std::string embreeIsa(const std::string& target) {
   if (target == "avx3" || target == "avx3_dl") return "avx512";
   if (target == "avx2") return "avx2";
   if (target == "sse4") return "sse4.2";
-  if (target == "sse2" || target == "emu128" || target == "scalar") return "sse2";
+  if (target == "sse2" || target == "scalar") return "sse2";
   return "";
 }
 
