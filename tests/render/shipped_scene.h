@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,9 +13,14 @@
 
 namespace whit::test {
 
+// Made once a process: it takes most of the time of a small picture.
 inline Scene load(const std::string& name) {
+  static std::map<std::string, Scene> scenes;
+  const auto known = scenes.find(name);
+  if (known != scenes.end()) return known->second;
   Warnings warnings;
-  return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+  return scenes.emplace(name, Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings))
+      .first->second;
 }
 
 // The default small picture: wide enough for several tiles, and not a multiple of any of them.
