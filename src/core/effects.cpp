@@ -18,6 +18,7 @@ EffectSet parseEffects(const std::string& commaSeparated) {
     }
     if (found < 0) {
       std::vector<std::string> names;
+      names.reserve(std::size(kEffectNames));
       for (const EffectName& e : kEffectNames) names.emplace_back(e.name);
       throwUsage("no effect is called '" + word + "'; nearest: '" + nearestName(word, names) + "'");
     }

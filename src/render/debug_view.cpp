@@ -210,6 +210,7 @@ std::string paintDepth(const std::vector<Watcher::Pixel>& pixels, DisplayImage& 
 // Mean amounts of the pixels, a ray or a sample each.
 std::vector<double> amountsOf(const std::vector<Watcher::Pixel>& pixels, double samples) {
   std::vector<double> amounts;
+  amounts.reserve(pixels.size());
   for (const Watcher::Pixel& p : pixels) {
     amounts.push_back(static_cast<double>(p.sum.x) / (p.count > 0 ? p.count : samples));
   }

@@ -114,7 +114,7 @@ FrameStats Renderer::Parts::settleFirstSamples(Film& film) {
 
 // In the order of the tiles, as full lists as tiles would be.
 PixelLists Renderer::Parts::edgePixels(const Crop& window) const {
-  const auto length = static_cast<std::size_t>(options.tile * options.tile);
+  const auto side = static_cast<std::size_t>(options.tile), length = side * side;
   PixelLists lists;
   for (const auto& tile : tiles) {
     for (const std::uint32_t pixel : tile) {

@@ -128,7 +128,8 @@ void Renderer::Parts::layOut(const Crop& window) {
   tiles = makeTiles(laidOut, options.tile);
   batches.clear();
   const auto workers = static_cast<std::size_t>(machine.threads);
-  std::size_t capacity = static_cast<std::size_t>(options.tile * options.tile);
+  const auto side = static_cast<std::size_t>(options.tile);
+  std::size_t capacity = side * side;
   if (options.batch == Batch::frame) {
     batches = dealOut(tiles, workers);
     capacity = kBlock;

@@ -93,6 +93,7 @@ std::vector<PlanCell> halfRing(PlanPoint centre, PlanPoint inner, PlanPoint oute
     return PlanPoint{centre[0] + radii[0] * t.cosine, centre[1] + radii[1] * t.sine};
   };
   std::vector<PlanCell> cells;
+  cells.reserve(static_cast<std::size_t>(segments));
   for (int k = 0; k < segments; ++k) {
     cells.push_back({at(inner, k), at(outer, k), at(outer, k + 1), at(inner, k + 1)});
   }
