@@ -1,8 +1,8 @@
 # For scripts that build against Debian 13's libraries beside a system that has others; to be
 # sourced, after leaveOut() has been defined: it is called with the reason when there is no way.
 
-# Ends the script with 77: a mirror that is out of reach is no fault of the project.
-noNetwork() {
+# Ends the script with 77: a mirror out of reach, or a system that forbids, is no fault of the project.
+cannot() {
   echo "!! NOT checked: $1" >&2
   exit 77
 }
@@ -38,9 +38,9 @@ fetchDebian13() {
   : >"$apt/status"
   echo "deb [signed-by=$keys] $(mirror) trixie main" >"$apt/etc/sources.list"
   privateApt "$apt" "$architecture" update >&2 ||
-    noNetwork "no package lists of Debian 13 from $(mirror)"
+    cannot "no package lists of Debian 13 from $(mirror)"
   privateApt "$apt" "$architecture" install -y --no-install-recommends --download-only "$@" >&2 ||
-    noNetwork "no packages of Debian 13 from $(mirror)"
+    cannot "no packages of Debian 13 from $(mirror)"
   for package in "$apt"/cache/archives/*.deb; do
     case $package in
       */libc6-dev_* | */linux-libc-dev_* | */libcrypt-dev_*) ;;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Makes the Debian package, installs it in a clean system of the same release and uses it there:
-# tests/package.sh. Needs root and debootstrap (for the chroot) and the network (for what the package
-# depends on). Without the former it says so and succeeds, but with CI=true it fails; without the
-# latter it exits 77.
+# tests/package.sh. Needs Debian, root and debootstrap (for the chroot) and the network (for what the package
+# depends on). Without debootstrap it says so and succeeds, but with CI=true it fails; where the system
+# has no room for a clean one, or no network, it exits 77.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -13,11 +13,12 @@ leaveOut() {
   if [ -n "${CI:-}" ]; then exit 1; fi
   exit 0
 }
-[ -r /etc/os-release ] || leaveOut "this is not Debian"
-. /etc/os-release
-[ "${ID:-}" = debian ] || leaveOut "this is not Debian"
-[ "$(id -u)" = 0 ] || leaveOut "chroot needs root"
 . "$root/tests/debian13.sh"
+[ -r /etc/os-release ] || cannot "this is not Debian"
+. /etc/os-release
+[ "${ID:-}" = debian ] || cannot "this is not Debian"
+[ "$(id -u)" = 0 ] || cannot "chroot needs root"
+chroot / true 2>/dev/null || cannot "chroot is not allowed here"
 command -v debootstrap >/dev/null || leaveOut "no debootstrap (apt-get install debootstrap)"
 
 work=$(mktemp -d)
@@ -32,7 +33,7 @@ dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
 
 clean=$work/clean
 debootstrap --variant=minbase "$VERSION_CODENAME" "$clean" "$(mirror)" >"$work/debootstrap.log" 2>&1 ||
-  { tail -5 "$work/debootstrap.log"; noNetwork "debootstrap did not finish"; }
+  { tail -5 "$work/debootstrap.log"; cannot "debootstrap did not finish"; }
 cp "$deb" "$clean/whit.deb"
 within() {
   chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \

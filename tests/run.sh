@@ -25,7 +25,7 @@ done
 failed=()
 leftOut=()
 
-# step NAME COMMAND...: runs it, remembers a failure, goes on. Status 77: there is no network.
+# step NAME COMMAND...: runs it, remembers a failure, goes on. Status 77: this system has no way to it.
 step() {
   local name=$1 start=$SECONDS status
   shift
@@ -158,7 +158,7 @@ if $tidy || $all; then step "tidy" checkTidy; fi
 step "release" buildAndTest release -DWHIT_WERROR=ON
 
 if [ ${#leftOut[@]} -gt 0 ]; then
-  echo "NOT CHECKED without a network: ${leftOut[*]}" >&2
+  echo "NOT CHECKED on this system: ${leftOut[*]}" >&2
 fi
 if [ ${#failed[@]} -gt 0 ]; then
   echo "FAILED: ${failed[*]}" >&2
