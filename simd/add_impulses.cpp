@@ -162,7 +162,8 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
-    const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
+    const V3 mirrored =
+        Normalize3(MulAdd3(lanes.ns, twice, lanes.direction), tables.shading.reciprocal);
     const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(tables, lanes.facing), lanes.live);
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
     const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f),
@@ -235,7 +236,8 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
     const V3 weight =
         Select3(lanes.hidden, {one, one, one}, Scale3({tint.x, tint.y, tint.z}, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
-    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
+    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,
+                       tables.shading.reciprocal);
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.

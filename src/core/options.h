@@ -127,6 +127,10 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("bend", "on|off",
         "impulses that normal maps send to the wrong side of their surface are turned back",
         o.shading.bend);
+  visit(
+      "reciprocal", "exact|refined|approximate",
+      "1/sqrt of the kernels' normalisations: divided, or estimated with or without a Newton step",
+      o.shading.reciprocal);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);
