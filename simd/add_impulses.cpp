@@ -82,7 +82,7 @@ HWY_INLINE Interface InterfaceOf(const ShadingTables& tables, const ImpulseLanes
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
-  VF largest;  // of the weight, for the cutoff
+  VF largest;  // of the weight, and the material's share of it, for the cutoff
   VF cone;
 };
 
@@ -162,7 +162,8 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
-    const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
+    const V3 mirrored =
+        Normalize3(MulAdd3(lanes.ns, twice, lanes.direction), tables.shading.reciprocal);
     const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(tables, lanes.facing), lanes.live);
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
     const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f),
@@ -170,7 +171,7 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
                       weight,
                       media,
                       ChildPathsAt(rays, i, kMirroredBranch),
-                      MaxComponent(weight),
+                      hn::Mul(MaxComponent(weight), mirror.w),
                       ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }
@@ -191,6 +192,8 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
         LoadImpulseLanes(tables, transmission, kMaterialScatters, rays, surfels, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
+    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
+    const VF impulseShare = reader.Columns4(16).w;
     const GlossyLobes lobes = LoadGlossyLobes(surfels, lanes.direction, lanes.ns, i);
     const VF counts = hn::IfThenElse(lobes.rough, share, one);
     const V3 origin = ChildOrigin(tables, surfels, lanes, i, 1.0f);
@@ -209,7 +212,7 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
                         Scale3(sample.weight, counts),
                         media,
                         ChildPath(path, kFirstGlossyBranch + k),
-                        MaxComponent(sample.weight),
+                        hn::Mul(MaxComponent(sample.weight), impulseShare),
                         cone};
       count += Append(child, live, cutoff, rays, i, children, count);
     }
@@ -231,11 +234,13 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
     const Interface interface = InterfaceOf(tables, lanes, rays, surfels, i);
     const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
     const V4 tint = reader.Columns4(24);
+    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, reader.Columns4(16).w);
     const VF through = hn::Sub(one, interface.reflectance);
     const V3 weight =
         Select3(lanes.hidden, {one, one, one}, Scale3({tint.x, tint.y, tint.z}, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
-    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
+    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,
+                       tables.shading.reciprocal);
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
@@ -252,7 +257,7 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cuto
                       weight,
                       hn::Load(du, surfels.mediaBehind + i),
                       ChildPathsAt(rays, i, kRefractedBranch),
-                      MaxComponent(weight),
+                      hn::Mul(MaxComponent(weight), impulseShare),
                       ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
   }

@@ -77,7 +77,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
       hn::Store(zero, d, unshadowed.visible + i);
       continue;
     }
-    const VF inverseDistance = hn::Div(one, hn::Sqrt(distanceSquared));
+    const VF inverseDistance = InverseSqrt(distanceSquared, choices.reciprocal);
     const V3 l = Scale3(toLight, inverseDistance);
     const VF nl = Dot(ns, l);
     V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),

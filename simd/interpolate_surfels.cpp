@@ -116,7 +116,7 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const Weights w{hn::Sub(hn::Sub(one, u), v), u, v};
   V3 edge1 = Sub3(t.p1, t.p0), edge2 = Sub3(t.p2, t.p0);
   V3 position = Interpolate3(w, t.p0, t.p1, t.p2);
-  V3 ng = GeometricNormal(edge1, edge2);
+  V3 ng = GeometricNormal(edge1, edge2, tables.shading.reciprocal);
   V3 ns = ng;
   if constexpr ((kBits & kSmooth) != 0) ns = SmoothNormal(tables, triangle, w, ng);
   // Rounding error of the interpolated point: at most gamma(7) times this sum a component

@@ -56,11 +56,11 @@ HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3&
 
 // Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
 // products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
-HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2) {
+HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
   const V3 unit{hn::Zero(FloatTag()), hn::Zero(FloatTag()), hn::Set(FloatTag(), 1.0f)};
-  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit);
+  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit, how);
 }
 
 struct CornerNormals {
@@ -92,7 +92,7 @@ HWY_INLINE V3 VertexColour(const ShadingTables& tables, VI triangle, VF u, VF v)
 HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
                            const V3& ng) {
   const CornerNormals n = LoadNormals(tables, triangle);
-  return NormalizeOr(Interpolate3(w, n.n0, n.n1, n.n2), ng);
+  return NormalizeOr(Interpolate3(w, n.n0, n.n1, n.n2), ng, tables.shading.reciprocal);
 }
 
 struct InstanceLanes {

@@ -87,8 +87,8 @@ Knob cutoffKnob() {
                              [](O& o) -> float& { return o.cutoff; },
                              Cause::algorithm,
                              0,
-                             {0, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
-                             {3e-4f, 4e-3f, 1.6e-2f}},
+                             {0, 3e-5f, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
+                             {1e-4f, 1e-3f, 4e-3f}},
                             withoutImpulses);
   knob.values.front().idle = whereRaysBranch;
   knob.makeExact = [](O& o, const Exactness& exactness) { o.cutoff = exactness.cutoff; };
@@ -98,8 +98,9 @@ Knob cutoffKnob() {
 // Of lobes, a sample of a pixel of the reference. That has many of those.
 constexpr int kExactGlossy = 4;
 
-// Adaptive supersampling is a saving on so many samples.
-constexpr int kAdaptiveSpp = 16;
+// Of adaptive supersampling: more than the 16 that are sampled everywhere, because they make up for
+// the pixels that get few.
+constexpr int kAdaptiveSpp = 24;
 
 Knob adaptiveKnob() {
   Knob knob = knobOf<bool>({"adaptive",
@@ -152,8 +153,8 @@ std::vector<Knob> makeKnobs() {
                    [](O& o) -> int& { return o.depth; },
                    kAlgorithm,
                    kDepthLimit,
-                   {0, 1, 2, 3, 4, 8, 16},
-                   {2, 4, 8}},
+                   {0, 1, 2, 3, 4, 8, 16, 32, kDepthLimit},
+                   {4, 8, kDepthLimit}},
                   withoutImpulses),
       cutoffKnob(),
       knobOf<int>({"glossy",
@@ -242,6 +243,13 @@ std::vector<Knob> makeKnobs() {
                             {SrgbEncoding::exact, SrgbEncoding::table},
                             {}},
                            never, named<SrgbEncoding>({"exact", "table"})),
+      knobOf<Reciprocal>({"reciprocal",
+                          [](O& o) -> Reciprocal& { return o.shading.reciprocal; },
+                          kArithmetic,
+                          Reciprocal::exact,
+                          {Reciprocal::exact, Reciprocal::refined, Reciprocal::approximate},
+                          {}},
+                         never, named<Reciprocal>({"exact", "refined", "approximate"})),
       knobOf<bool>({"robust",
                     [](O& o) -> bool& { return o.robust; },
                     kArithmetic,

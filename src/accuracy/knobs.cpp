@@ -25,7 +25,7 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
 
 Exactness exactnessFor(EffectSet effects, bool full) {
   // 1e-5 is within one 8-bit code of 1e-6 in every pixel of the shipped glass scenes.
-  if (effects.has(Effect::transmission)) return {full ? 1e-5f : 1e-4f};
+  if (effects.has(Effect::transmission)) return {full ? 1e-5f : 3e-5f};
   return {0};
 }
 

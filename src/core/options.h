@@ -39,6 +39,8 @@ struct Crop {
 // Neighbouring pixels that differ by more in some 8-bit code show an edge.
 inline constexpr int kDefaultContrast = 8;
 
+inline constexpr int kDepthLimit = 64;
+
 struct RenderOptions {
   std::optional<ImageSize> size;
   std::string camera;
@@ -49,9 +51,9 @@ struct RenderOptions {
   bool adaptive = false;
   int contrast = kDefaultContrast;
   Rate impulseRate = Rate::full, shadowRate = Rate::full;
-  int depth = 8;
+  int depth = kDepthLimit;
   int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
-  float cutoff = 3.0e-4f;
+  float cutoff = 1.0e-4f;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
   std::string simd = "auto";
@@ -74,7 +76,6 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-inline constexpr int kDepthLimit = 64;
 inline constexpr int kSppLimit = 4096;
 inline constexpr int kGlossyLimit = 64;
 inline constexpr int kImageSideLimit = 65536;
@@ -127,6 +128,10 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("bend", "on|off",
         "impulses that normal maps send to the wrong side of their surface are turned back",
         o.shading.bend);
+  visit(
+      "reciprocal", "exact|refined|approximate",
+      "1/sqrt of the kernels' normalisations: divided, or estimated with or without a Newton step",
+      o.shading.reciprocal);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);

@@ -34,6 +34,12 @@ inline constexpr float kFixedOffset = 1e-3f;
 // Less than the whole, because the surface that the viewer's ray started on may be that close.
 inline constexpr float kTowardsViewer = 0.5f;
 
+// How kernels find 1 / sqrt(x), where they normalise: by division and root, both correctly rounded;
+// or by the processor's estimate, alone (approximate: 12 bits on x86-64) or after one step of
+// Newton's method (refined: 22 bits). The estimates differ among processors. The reference is exact
+// always.
+enum class Reciprocal { exact, refined, approximate };
+
 struct ShadingChoices {
   // A light that adds less than this to the pixel, at most, is left out, shadow ray and all. The
   // pixel's error is at most this times the number of such lights and surfels.
@@ -48,6 +54,10 @@ struct ShadingChoices {
   // Impulses that a bent shading normal sends to the wrong side of the surface are turned back to
   // the right one (numerics H32); else they start into the solid, or out of it.
   bool bend = true;
+
+  // For normals, and the directions of impulses and to the lights: once or twice a surfel, light
+  // and impulse. Fresnel's equations, where a root decides what is reflected totally, stay exact.
+  Reciprocal reciprocal = Reciprocal::exact;
 
   bool operator==(const ShadingChoices&) const = default;
 };

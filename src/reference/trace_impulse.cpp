@@ -113,10 +113,12 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   } else if (depth < settings_.depth) {
     const Impulses children =
         findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
-    RgbD reflected = follow(children.reflected, depth + 1, left, counts.reflection, counts,
+    const float kept = crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare();
+    const double counted = left * double{kept};
+    RgbD reflected = follow(children.reflected, depth + 1, counted, counts.reflection, counts,
                             childOf(path, kMirroredBranch));
-    reflected += reflectGlossily(surfel, crossing, depth, left, media, counts, path);
-    const RgbD refracted = follow(children.refracted, depth + 1, left, counts.refraction, counts,
+    reflected += reflectGlossily(surfel, crossing, depth, counted, media, counts, path);
+    const RgbD refracted = follow(children.refracted, depth + 1, counted, counts.refraction, counts,
                                   childOf(path, kRefractedBranch));
     radiance += reflected;
     radiance += refracted;

@@ -13,6 +13,7 @@
 //   + (1 - F) * transmission * radiance along the refracted ray
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -70,7 +71,20 @@ struct Material {
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool hasAbsorption() const { return hasTransmission() && maxComponent(absorption) > 0; }
+  // What --cutoff counts of the weights of the impulses that start here: 1, or less where they can
+  // add up to more than 1 (a mirror coat on glass). So a pixel's paths never count for more than 1
+  // together, and a cutoff c leaves 1/c of them at most, whatever the materials and the depth;
+  // times the number of samples where a lobe is sampled several times.
+  float impulseShare() const;
 };
+
+inline float Material::impulseShare() const {
+  // Fresnel's reflectance goes to the mirrored ray, the rest of it to the refracted one.
+  const float interface = hasTransmission() ? std::max(1.0f, maxComponent(transmission)) : 0.0f;
+  const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
+  const float lobe = hasGlossyReflection() ? 1.0f : 0.0f;
+  return 1 / std::max(1.0f, interface + coat + lobe);
+}
 
 inline constexpr float kMinRoughness = 0.03f;
 // A lobe of no more than this alpha reflects the scene by a single impulse.

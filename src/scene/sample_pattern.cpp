@@ -1,7 +1,10 @@
 #include "scene/sample_pattern.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace whit {
 
@@ -30,19 +33,57 @@ double squaredDistance(const Vec2f& a, const Vec2f& b) {
   return x * x + y * y;
 }
 
+// Samples that stand for the whole pixel: near the places of the pattern of as many, and above all
+// with their mean in the centre, since a pixel that is left with them would else show what lies
+// beside it. Their indices; `samples` are at least as many.
+std::array<std::size_t, kPilotSamples> choosePilots(const std::vector<Vec2f>& samples) {
+  constexpr std::size_t kNearest = 6;
+  constexpr double kWeightOfMean = 64;
+  const std::vector<Vec2f> wanted = rooks(kPilotSamples);
+  const std::size_t candidates = std::min(kNearest, samples.size());
+  std::array<std::vector<std::pair<double, std::size_t>>, kPilotSamples> near;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      near[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
+    }
+    std::partial_sort(near[k].begin(), near[k].begin() + static_cast<std::ptrdiff_t>(candidates),
+                      near[k].end());
+  }
+  std::array<std::size_t, kPilotSamples> chosen{}, best{};
+  double least = std::numeric_limits<double>::infinity();
+  const auto choose = [&](auto&& self, std::size_t k, double away, Vec2f sum) -> void {
+    if (k == chosen.size()) {
+      const Vec2f centre{kPilotSamples / 2.0f, kPilotSamples / 2.0f};
+      constexpr double kScale = kWeightOfMean / (kPilotSamples * kPilotSamples);
+      const double cost = away + kScale * squaredDistance(sum, centre);
+      if (cost < least) least = cost, best = chosen;
+      return;
+    }
+    for (std::size_t i = 0; i < candidates; ++i) {
+      const auto& [distance, at] = near[k][i];
+      chosen[k] = at;
+      const auto before = chosen.begin() + static_cast<std::ptrdiff_t>(k);
+      if (std::find(chosen.begin(), before, at) != before) continue;
+      const Vec2f& s = samples[at];
+      self(self, k + 1, away + distance, {sum.x + s.x, sum.y + s.y});
+    }
+  };
+  choose(choose, 0, 0, {0, 0});
+  return best;
+}
+
 }  // namespace
 
 std::vector<Vec2f> samplePattern(int spp) {
-  std::vector<Vec2f> samples = rooks(spp);
+  const std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kPilotSamples) return samples;
-  auto next = samples.begin();
-  for (const Vec2f& wanted : rooks(kPilotSamples)) {
-    const auto nearest = std::min_element(next, samples.end(), [&](const Vec2f& a, const Vec2f& b) {
-      return squaredDistance(a, wanted) < squaredDistance(b, wanted);
-    });
-    std::iter_swap(next++, nearest);
+  const auto pilots = choosePilots(samples);
+  std::vector<Vec2f> ordered;
+  for (const std::size_t pilot : pilots) ordered.push_back(samples[pilot]);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (std::find(pilots.begin(), pilots.end(), i) == pilots.end()) ordered.push_back(samples[i]);
   }
-  return samples;
+  return ordered;
 }
 
 }  // namespace whit

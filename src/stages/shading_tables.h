@@ -26,11 +26,11 @@ struct alignas(64) MaterialRecord {
   std::int32_t emissionMap;
   // impulses
   float mirror[3];
-  float spare1;
+  float impulseShare;
   float grazingMinusMirror[3];
-  float spare2;
+  float spare1;
   float transmission[3];
-  float spare3[5];
+  float spare2[5];
 };
 static_assert(sizeof(MaterialRecord) == 128);
 inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);

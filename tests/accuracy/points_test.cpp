@@ -36,7 +36,7 @@ TEST(Points, OneKnobAtATime) {
   expected.depth = 2;
   EXPECT_EQ(digestOf(depth->options), digestOf(expected));
   EXPECT_EQ(depth->cause, Cause::algorithm);
-  EXPECT_FALSE(find(list, "depth=8")) << "the default is the baseline";
+  EXPECT_FALSE(find(list, "depth=64")) << "the default is the baseline";
   EXPECT_TRUE(find(list, "draft"));
 }
 
@@ -68,7 +68,7 @@ TEST(Points, CombinationsAreLimitedAndRepeatable) {
   };
   EXPECT_EQ(labels(1).size(), 10u);
   for (const std::string& label : labels(1))
-    EXPECT_EQ(label.find("depth=8"), std::string::npos) << label << ": 8 is the default";
+    EXPECT_EQ(label.find("depth=64"), std::string::npos) << label << ": the default";
   EXPECT_EQ(labels(1), labels(1));
   EXPECT_NE(labels(1), labels(2));
 }

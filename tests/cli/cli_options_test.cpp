@@ -162,7 +162,7 @@ TEST(Quality, StandardIsTheDefaults) {
 TEST(Quality, PresetsGiveWayToWhatIsGiven) {
   const RenderOptions draft = parsed({"--depth", "6", "--quality", "draft"}).render;
   EXPECT_EQ(draft.depth, 6);
-  EXPECT_EQ(draft.cutoff, 1.6e-2f);
+  EXPECT_EQ(draft.cutoff, 4e-3f);
   EXPECT_EQ(draft.shading.lightCutoff, 1e-3f);
   const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
   EXPECT_EQ(reference.spp, 2);

@@ -1,0 +1,57 @@
+// --cutoff ends the doubling of rays, whatever the materials and the depth.
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+TEST(ImpulseShare, isOneWhereTheWeightsAddUpToNoMore) {
+  Material m;
+  EXPECT_EQ(m.impulseShare(), 1.0f) << "diffuse";
+  m.mirror = m.mirrorGrazing = Rgb(0.9f);
+  EXPECT_EQ(m.impulseShare(), 1.0f) << "mirror";
+  m.transmission = Rgb(1.0f);
+  EXPECT_FLOAT_EQ(m.impulseShare(), 1 / 1.9f) << "a mirror coat on glass";
+  m.mirror = m.mirrorGrazing = Rgb(0);
+  EXPECT_EQ(m.impulseShare(), 1.0f) << "glass: Fresnel's shares add up to 1";
+}
+
+// Twenty faces that pass everything on and reflect 0.9 of it as well. Counted in full, impulses
+// would double at every one of them: up to 2^16 a pixel at this depth, and 2^64 at the default one.
+TEST(ImpulseShare, raysOfCoatedGlassAreBounded) {
+  SceneBuilder builder;
+  Material coated = diffuseMaterial(0);
+  coated.transmission = Rgb(1.0f);
+  coated.ior = 1;
+  coated.mirror = coated.mirrorGrazing = Rgb(0.9f);
+  const auto material = builder.add(coated);
+  for (int i = 0; i < 10; ++i) {
+    const auto y = static_cast<float>(i);
+    builder.add(box({-500, y, -500}, {500, y + 0.5f, 500}, material));
+  }
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0, 4.75, 0};
+  builder.description.cameras[0].at = {1, 0, 0};
+  const Scene scene = builder.build();
+
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{4, 4};
+  o.depth = 16;
+  o.cutoff = 1e-2f;
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  const FrameStats packets = renderer.render(chooseCamera(scene, o), film);
+  const FrameStats reference = renderer.renderReference(chooseCamera(scene, o), film);
+  // As many paths as cutoffs go into 1, each with a ray a depth.
+  const double bound = 16 * o.depth / static_cast<double>(o.cutoff);
+  std::printf("%llu rays of 16 pixels (at most %.0f)\n",
+              static_cast<unsigned long long>(packets.allRays()), bound);
+  EXPECT_GT(packets.allRays(), 16u * 16u) << "they do branch";
+  EXPECT_LE(static_cast<double>(packets.allRays()), bound);
+  EXPECT_EQ(packets.allRays(), reference.allRays());
+}
+
+}  // namespace
+}  // namespace whit::test
