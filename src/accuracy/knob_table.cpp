@@ -87,7 +87,7 @@ Knob cutoffKnob() {
                              [](O& o) -> float& { return o.cutoff; },
                              Cause::algorithm,
                              0,
-                             {0, 3e-5f, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
+                             {0, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
                              {1e-4f, 1e-3f, 4e-3f}},
                             withoutImpulses);
   knob.values.front().idle = whereRaysBranch;

@@ -185,8 +185,8 @@ class SceneSweeper {
       return;
     }
     const bool joint = point.kind == PointKind::joint;
-    const double ms = frames.render().frameMs, baselineMs = baseline_->render().frameMs;
-    const Rounds rounds = roundsFor(ms, baselineMs, joint ? kQuick.pointMs : limits_.pointMs,
+    const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
+    const Rounds rounds = roundsFor(first, baselineMs, joint ? kQuick.pointMs : limits_.pointMs,
                                     settings_.full && !joint);
     point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
   }
