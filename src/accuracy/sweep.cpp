@@ -23,7 +23,7 @@ struct Limits {
   double pointMs;        // for timing one point
   std::size_t joint;
 };
-constexpr Limits kQuick{64, 4, 30e6, 20e6, 500, 0};
+constexpr Limits kQuick{64, 4, 30e6, 20e6, 200, 0};
 constexpr Limits kFull{256, 8, 400e6, 100e6, 4000, 40};
 
 // Work of a packet frame in units of a scalar frame of one sample, roughly.

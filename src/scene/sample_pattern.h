@@ -14,8 +14,8 @@ namespace whit {
 // the pattern is as even in the plane (Niederreiter 1992, "Random Number Generation and Quasi-Monte
 // Carlo Methods", chapter 5).
 //
-// The first kPilotSamples lie near those of the pattern of as many, their mean in the centre or next
-// to it, so that they stand for the pixel by themselves.
+// The first kPilotSamples lie near those of the pattern of as many, their mean in the centre or
+// next to it, so that they stand for the pixel by themselves.
 std::vector<Vec2f> samplePattern(int spp);
 inline constexpr int kPilotSamples = 4;
 

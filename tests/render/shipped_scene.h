@@ -23,8 +23,8 @@ inline Scene load(const std::string& name) {
       .first->second;
 }
 
-// The default small picture: wide enough for several tiles, and not a multiple of any of them. Paths
-// caught in glass multiply rounding errors with every bounce; at this depth few have parted.
+// The default small picture: wide enough for several tiles, and not a multiple of any of them.
+// Paths caught in glass multiply rounding errors with every bounce; at this depth few have parted.
 inline RenderOptions smallOptions() {
   RenderOptions o;
   o.size = ImageSize{107, 67};
