@@ -110,7 +110,7 @@ TEST(Library, FollowsThePathAndCrops) {
 
 TEST(Library, PresetsGiveWayToWhatIsSaid) {
   Renderer renderer(whittedScene());
-  EXPECT_EQ(renderer.get("depth"), "8");
+  EXPECT_EQ(renderer.get("depth"), "64");
   EXPECT_EQ(renderer.get("size"), "");
   renderer.set("depth", "3").set("quality", "fine");
   EXPECT_EQ(renderer.get("depth"), "3");
