@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds whit with Debian 13's Embree 4 and Highway 1.2 beside a system that has others, and runs
-# the tests that reach them; with another compiler than CMake's default when CXX names it. Nothing is installed: their packages are unpacked into
+# the tests that reach them; with another compiler than CMake's default when CXX names it, and then
+# those of pictures only. Nothing is installed: their packages are unpacked into
 # build-embree4/debian13, and programs start with the C library that is among them.
 #   tests/embree4.sh            fetch if not there, build, test
 #   tests/embree4.sh --fetch    fetch only
@@ -14,7 +15,8 @@ build=$root/build-embree4${CXX:+-$(basename "$CXX")}
 sysroot=$root/build-embree4/debian13
 libraries=$sysroot/usr/lib/x86_64-linux-gnu
 # What meets rays, or differs with the width of vectors.
-areas=(render hard)
+areas=(render)
+if [ -z "${CXX:-}" ]; then areas+=(hard); fi
 
 leaveOut() {
   echo "!! Embree 4 is NOT checked: $1" >&2

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
 #   tests/run.sh           formatting, thread sanitizer, address and undefined-behaviour sanitizers
-#                          with Clang and g++, fuzzing, MPI, Embree 4 with Clang in Release, the
+#                          with Clang, fuzzing, MPI, Embree 4 with Clang in Release, the
 #                          Debian package in a clean system, Release with warnings as errors
 #   tests/run.sh --quick   Release only
 #   tests/run.sh --all     every test of Clang's and g++'s other builds, clang-tidy and 64-bit ARM
@@ -151,7 +151,6 @@ if $all; then
 elif ! $quick; then
   # Neither is that of the Release build below: both at once save a build.
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
-  step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
 fi
 if $tidy || $all; then step "tidy" checkTidy; fi
 # Last, so that the last line is that of the tests as they are shipped.
