@@ -26,7 +26,8 @@ tableHead "scene, targets"
 for scene in $(tableScenes); do
   for target in "${targets[@]}"; do
     # At this depth few paths have parted by rounding alone.
-    "$whit" render "$scene" --size 480x300 --depth 8 --cutoff 3e-4 --simd "$target" -o "$work/$target.exr" --quiet
+    "$whit" render "$scene" --size 480x300 --depth 8 --cutoff 3e-4 --simd "$target" \
+      -o "$work/$target.exr" --quiet
   done
   for ((i = 0; i < ${#targets[@]}; i++)); do
     for ((j = i + 1; j < ${#targets[@]}; j++)); do

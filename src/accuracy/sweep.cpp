@@ -160,7 +160,7 @@ class SceneSweeper {
   // False: in this view the point is the baseline under another name.
   bool measurePoint(Point& point, ErrorMeter& meter) {
     FrameSource frames(scene_, camera_, point.options);
-    frames.render();  // allocates: not a time
+    frames.render();  // allocates: its time counts only where there is none for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
