@@ -1,5 +1,8 @@
 #include "accel/alpha_filter.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace whit {
 
 AlphaMaps makeAlphaMaps(const Scene& scene) {
@@ -12,17 +15,21 @@ AlphaMaps makeAlphaMaps(const Scene& scene) {
   return maps;
 }
 
-bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
-                float v) noexcept {
-  const Scene& scene = *geometry.scene;
-  const TriangleRecord& t = scene.triangles[geometry.firstTriangle + primitive];
-  const Material& material = scene.materials[t.material];
-  if (material.alphaMap == kNoTexture) return true;
-  const float w = 1.0f - u - v;
-  const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
-  const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
-  const AlphaMap& map = *(*geometry.maps)[static_cast<std::size_t>(material.alphaMap)];
-  return map.isOpaqueAt(s, r, material.alphaCutoff);
+MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first,
+                               std::uint32_t end) {
+  triangles.reserve(end - first);
+  for (std::uint32_t i = first; i < end; ++i) {
+    const TriangleRecord& t = scene.triangles[i];
+    MaskedTriangle& masked = triangles.emplace_back();
+    std::copy(std::begin(t.uv), std::end(t.uv), masked.uv);
+    masked.mask = t.material;
+  }
+  masks.resize(scene.materials.size());
+  for (std::size_t m = 0; m < masks.size(); ++m) {
+    const Material& material = scene.materials[m];
+    if (material.alphaMap == kNoTexture) continue;
+    masks[m] = {maps[static_cast<std::size_t>(material.alphaMap)].get(), material.alphaCutoff};
+  }
 }
 
 }  // namespace whit

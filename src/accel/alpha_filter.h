@@ -14,14 +14,38 @@ namespace whit {
 using AlphaMaps = std::vector<std::unique_ptr<AlphaMap>>;
 AlphaMaps makeAlphaMaps(const Scene& scene);
 
-// A geometry's triangles start at `firstTriangle` of scene.triangles.
+// What a lookup reads of a masked triangle: half a cache line, where its record for shading is a
+// whole one.
+struct alignas(32) MaskedTriangle {
+  float uv[6];
+  std::uint32_t mask;  // index into MaskedGeometry::masks
+};
+
+// A material's mask; all is opaque where there is no map.
+struct Mask {
+  const AlphaMap* map = nullptr;
+  float cutoff = 0;
+};
+
+// The masked triangles of one Embree geometry, in its order.
 struct MaskedGeometry {
-  const Scene* scene = nullptr;
-  const AlphaMaps* maps = nullptr;
-  std::uint32_t firstTriangle = 0;
+  // Those of scene.triangles from `first` to before `end`. `maps` must outlive it.
+  MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first, std::uint32_t end);
+
+  std::vector<MaskedTriangle> triangles;
+  std::vector<Mask> masks;  // one a material of the scene
 };
 
 // False where the alpha mask cuts the triangle's point (u, v).
-bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u, float v) noexcept;
+inline bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
+                       float v) noexcept {
+  const MaskedTriangle& t = geometry.triangles[primitive];
+  const Mask& mask = geometry.masks[t.mask];
+  if (!mask.map) return true;
+  const float w = 1.0f - u - v;
+  const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
+  const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
+  return mask.map->isOpaqueAt(s, r, mask.cutoff);
+}
 
 }  // namespace whit

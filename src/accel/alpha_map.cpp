@@ -16,25 +16,32 @@ struct AxisTexels {
   float fraction;
 };
 
-AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
+// Of numbers that an int holds. The library's own is a call where no instruction for it may be
+// assumed.
+int floorOf(float x) noexcept {
+  const int towardsZero = static_cast<int>(x);
+  return towardsZero - static_cast<int>(x < static_cast<float>(towardsZero));
+}
+
+inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
   // Not finite, or too large for any fraction of a texel to be left.
   if (!(std::fabs(s) <= 1048576.0f)) s = 0;
   if (wrap == Wrap::repeat) {
-    const float x = (s - std::floor(s)) * static_cast<float>(size) - 0.5f;
-    const float base = std::floor(x);
-    const int lower = static_cast<int>(base);
-    return {lower < 0 ? size - 1 : lower, lower + 1 >= size ? 0 : lower + 1, x - base};
+    const float x = (s - static_cast<float>(floorOf(s))) * static_cast<float>(size) - 0.5f;
+    const int lower = floorOf(x);
+    return {lower < 0 ? size - 1 : lower, lower + 1 >= size ? 0 : lower + 1,
+            x - static_cast<float>(lower)};
   }
   if (wrap == Wrap::mirror) {
-    const float half = s * 0.5f, phase = (half - std::floor(half)) * 2.0f;
+    const float half = s * 0.5f, phase = (half - static_cast<float>(floorOf(half))) * 2.0f;
     s = std::fmin(phase, 2.0f - phase);
   } else {
     s = std::fmin(std::fmax(s, 0.0f), 1.0f);
   }
   const float x = s * static_cast<float>(size) - 0.5f;
-  const float base = std::floor(x);
-  const int lower = static_cast<int>(base);
-  return {lower < 0 ? 0 : lower, lower + 1 >= size ? size - 1 : lower + 1, x - base};
+  const int lower = floorOf(x);
+  return {lower < 0 ? 0 : lower, lower + 1 >= size ? size - 1 : lower + 1,
+          x - static_cast<float>(lower)};
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const Accel
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
     if ((c & kMaskedBit) != 0 && options.alphaMasks) {
       masked_.push_back(std::make_unique<MaskedGeometry>(
-          MaskedGeometry{&scene, &alphaMaps_, source.firstTriangle + first}));
+          scene, alphaMaps_, source.firstTriangle + first, source.firstTriangle + end));
       rtcSetGeometryUserData(geometry, masked_.back().get());
       rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
       rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
