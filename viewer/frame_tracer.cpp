@@ -74,11 +74,12 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
 }
 
 bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
-                        const Superseded& superseded, const Publish& publish) {
+                        const Superseded& superseded, const Leaving& leaving,
+                        const Publish& publish) {
   applyOptions(request);
   frame.comparison.reset();
   frame.costs.clear();
-  if (!tracePicture(request, frame, superseded)) return false;
+  if (!tracePicture(request, frame, superseded, leaving)) return false;
   frame.scene = scene_;
   frame.request = request;
   frame.options = options_;
@@ -99,7 +100,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
-                               const Superseded& superseded) {
+                               const Superseded& superseded, const Leaving& leaving) {
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
   frame.legend.clear();
@@ -109,8 +110,11 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
     frame.legend = std::move(debug.legend);
     return true;
   }
-  if (request.interruptible && msPerSample_ * samplesOf(request) > kBandMs) {
-    if (!traceInBands(request.camera, frame, superseded)) return false;
+  const double expectedMs = msPerSample_ * samplesOf(request);
+  if (request.interruptible && expectedMs > kBandMs) {
+    if (!traceInBands(request.camera, frame, kBandMs, superseded)) return false;
+  } else if (expectedMs == 0 || expectedMs > kLongBandMs) {
+    if (!traceInBands(request.camera, frame, kLongBandMs, leaving)) return false;
   } else {
     frame.stats = renderer_->render(request.camera, frame.film);
   }
@@ -118,18 +122,22 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   return true;
 }
 
-bool FrameTracer::traceInBands(const Camera& camera, TracedFrame& frame,
-                               const Superseded& superseded) {
+bool FrameTracer::traceInBands(const Camera& camera, TracedFrame& frame, double bandMs,
+                               const std::function<bool()>& givenUp) {
   const ImageSize size = filmSizeOf(frame.film);
   sizeDisplay(frame.film);
-  const double msPerRow = msPerSample_ * size.width * options_.spp;
-  const int rows =
-      std::max(static_cast<int>(kBandMs / msPerRow) / kBandRows * kBandRows, kBandRows);
+  const auto rowsIn = [&](double msPerRow) {
+    const double rows = std::min(bandMs / msPerRow, static_cast<double>(size.height));
+    return std::max(static_cast<int>(rows) / kBandRows * kBandRows, kBandRows);
+  };
+  int rows = msPerSample_ > 0 ? rowsIn(msPerSample_ * size.width * options_.spp) : kBandRows;
   frame.stats = FrameStats();
-  for (int y = 0; y < size.height; y += rows) {
-    if (superseded()) return false;
-    sizeFilm(band_, size, Crop{0, y, size.width, std::min(y + rows, size.height)});
+  for (int y = 0, end = 0; y < size.height; y = end) {
+    if (givenUp()) return false;
+    end = std::min(y + rows, size.height);
+    sizeFilm(band_, size, Crop{0, y, size.width, end});
     const FrameStats stats = renderer_->render(camera, band_);
+    if (msPerSample_ == 0) rows = rowsIn(std::max(stats.frameMs / (end - y), 1e-3));
     copyBand(band_, frame.film);
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;

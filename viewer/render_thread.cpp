@@ -73,6 +73,11 @@ bool RenderThread::superseded() const {
   return exchange_.waiting() || quit_;
 }
 
+bool RenderThread::leaving() const {
+  const std::lock_guard lock(mutex_);
+  return quit_;
+}
+
 void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -109,7 +114,7 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
 
 void RenderThread::trace(const FrameRequest& request) {
   const bool complete = tracer_.trace(
-      request, back_, [this] { return superseded(); },
+      request, back_, [this] { return superseded(); }, [this] { return leaving(); },
       [this](const TracedFrame& frame) { publish(frame); });
   const std::lock_guard lock(mutex_);
   if (complete) {

@@ -41,6 +41,7 @@ class RenderThread {
   void trace(const FrameRequest& request);
   void publish(const TracedFrame& frame);
   bool superseded() const;
+  bool leaving() const;
 
   const std::function<void()> onChange_;
   FrameTracer tracer_;  // the tracing thread's own, as is the next

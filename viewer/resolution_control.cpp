@@ -40,7 +40,9 @@ Sharpness ResolutionControl::moving(double windowPixels, double waitMs) {
   } else {
     while (level_ < coarsest && predictMs(level_, windowPixels) > frameMs) ++level_;
   }
-  return {kScales[level_], spp_};
+  if (level_ < coarsest) return {kScales[level_], spp_};
+  const double share = frameMs / predictMs(level_, windowPixels);
+  return {kScales[level_], share < 1 ? std::max(static_cast<int>(spp_ * share), 1) : spp_};
 }
 
 Sharpness ResolutionControl::still() const {

@@ -1,7 +1,8 @@
 // How finely to trace the next frame. Pure: knows neither window nor clock.
 //
 // In motion, a scale of the window's size that holds the wanted frame rate, judged by what recent
-// samples cost. At rest, step by step: all pixels, then 4 and 16 times the samples.
+// samples cost; fewer samples where the coarsest scale does not. At rest, step by step: all pixels,
+// then 4 and 16 times the samples.
 #pragma once
 
 #include <array>

@@ -70,7 +70,7 @@ TEST_F(ComparisonTest, GrowsUntilItIsTheReference) {
     EXPECT_DOUBLE_EQ(sofar.comparison->progress(), rows / 70.0);
   };
   ASSERT_TRUE(tracer.trace(
-      request_, frame, [] { return false; }, publish));
+      request_, frame, [] { return false; }, [] { return false; }, publish));
   EXPECT_EQ(rows, 70);
   ASSERT_TRUE(frame.comparison && frame.comparison->complete());
 
@@ -93,9 +93,24 @@ TEST_F(ComparisonTest, GivesUpForSomethingElse) {
   int published = 0;
   request_.spp = 64;  // for more than one band
   const bool done = tracer.trace(
-      request_, frame, [&] { return published > 0; }, [&](const TracedFrame&) { ++published; });
+      request_, frame, [&] { return published > 0; }, [] { return false; },
+      [&](const TracedFrame&) { ++published; });
   EXPECT_FALSE(done);
   EXPECT_EQ(published, 1);
+}
+
+// Hours of work, were it not given up between two bands.
+TEST_F(ComparisonTest, FramesInMotionEndWhenNobodyLooks) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  request_.withReference = request_.interruptible = false;
+  request_.options.size = {4000, 4000};
+  request_.spp = 64;
+  int bands = 0;
+  EXPECT_FALSE(tracer.trace(
+      request_, frame, [] { return true; }, [&] { return ++bands > 2; },
+      [](const TracedFrame&) {}));
+  EXPECT_EQ(bands, 3);
 }
 
 }  // namespace

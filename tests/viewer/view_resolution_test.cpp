@@ -51,6 +51,18 @@ TEST(ResolutionControl, MoreSamplesCostMore) {
   EXPECT_EQ(scaleOf(control), 0.375);
 }
 
+TEST(ResolutionControl, FewerSamplesWhereTheCoarsestScaleIsNotEnough) {
+  ResolutionControl control(kDefaultRate, 64);
+  control.learn(1000, kPixels);
+  // A 64th of the pixels: 15.6 ms a sample, one of which fits.
+  EXPECT_EQ(scaleOf(control), kScales.back());
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1}));
+  ResolutionControl quicker(kDefaultRate, 64);
+  quicker.learn(100, kPixels);  // ten of them fit
+  EXPECT_EQ(scaleOf(quicker), kScales.back());
+  EXPECT_EQ(quicker.moving(kPixels), (Sharpness{kScales.back(), 10}));
+}
+
 TEST(ResolutionControl, DoesNotFlutter) {
   // 15 ms: holds the rate where it is, but is too close to it to be worth going back to.
   ResolutionControl control = learned(15);
