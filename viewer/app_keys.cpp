@@ -36,7 +36,8 @@ void App::attempt(const std::function<void()>& action) {
 
 void App::handleInput() {
   Input& input = window_.input;
-  if (settings_.compare == CompareMode::split && shown_.comparison && input.lookX != 0) {
+  const bool looks = input.lookX != 0 || input.lookY != 0;
+  if (settings_.compare == CompareMode::split && shown_.comparison && looks) {
     split_ = std::clamp(split_ + input.lookX / std::max(window_.pixels().width, 1), 0.0, 1.0);
     input.lookX = input.lookY = 0;
     showPicture();
@@ -94,7 +95,11 @@ void App::handleKey(int key) {
       reload();
       break;
     case GLFW_KEY_F12:
-      if (shown_.scene) say("saved " + savePicture(shown_, command()) + " (.png, .exr, .json)");
+      if (!shown_.scene) break;
+      say("saved " + savePicture(shown_, command()) +
+          (shown_.request.view == DebugView::none
+               ? " (.png, .exr, .json)"
+               : " (.png: the view; .exr, .json: the picture below it)"));
       break;
     case GLFW_KEY_C:
       if (!shown_.scene) break;

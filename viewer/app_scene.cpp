@@ -34,6 +34,7 @@ void App::watchSceneFile(double seconds) {
 }
 
 void App::reload() {
+  if (!opening_.empty()) return open(opening_);  // not shown yet: the name is still the old one's
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene.h"
+
 namespace whit::view {
 
 void CameraControl::set(const Camera& camera) {
@@ -34,7 +36,8 @@ void CameraControl::writeCamera() {
 }
 
 bool CameraControl::step(const CameraMotion& m, double seconds) {
-  speed_ *= std::pow(kWheelFactor, m.wheel);
+  speed_ = std::clamp(speed_ * std::pow(kWheelFactor, m.wheel), firstSpeed_ / kSpeedRange,
+                      firstSpeed_ * kSpeedRange);
   const double arrows = kRadiansPerSecond * seconds;
   const double right = m.lookX * kRadiansPerPixel + m.turnRight * arrows;
   const double up = -m.lookY * kRadiansPerPixel + m.turnUp * arrows;
@@ -48,8 +51,10 @@ bool CameraControl::step(const CameraMotion& m, double seconds) {
   }
   const Vec3d direction =
       normalized(forward() * m.forward + right_ * m.right + up_ * m.up);  // zero when at rest
-  const bool moves = direction != Vec3d() && seconds > 0;
-  if (moves) eye_ += direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
+  const Vec3d there = eye_ + direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
+  const bool moves = direction != Vec3d() && seconds > 0 &&
+                     maxComponent(abs(there)) + distance_ < static_cast<double>(kLargestCoordinate);
+  if (moves) eye_ = there;
   if (!turns && !orbits && !moves) return false;
   writeCamera();
   return true;

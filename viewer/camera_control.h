@@ -17,6 +17,7 @@ struct CameraMotion {
 
 inline constexpr double kFastFactor = 4;
 inline constexpr double kWheelFactor = 1.25;           // of speed, a notch
+inline constexpr double kSpeedRange = 1e6;             // times what it was at first, up or down
 inline constexpr double kRadiansPerPixel = 0.004;      // mouse
 inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
 inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
@@ -24,14 +25,17 @@ inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays
 class CameraControl {
  public:
   // `speed` in scene units a second.
-  CameraControl(const Camera& camera, double speed) : speed_(speed) { set(camera); }
+  CameraControl(const Camera& camera, double speed) : firstSpeed_(speed), speed_(speed) {
+    set(camera);
+  }
 
   void set(const Camera& camera);
   // The camera of the last set(), bit for bit, until something moves it.
   const Camera& camera() const { return camera_; }
   double speed() const { return speed_; }
 
-  // Turns first, then moves. Whether the camera changed.
+  // Turns first, then moves, but not out of the range of coordinates that scenes have. Whether the
+  // camera changed.
   bool step(const CameraMotion& motion, double seconds);
 
  private:
@@ -40,7 +44,7 @@ class CameraControl {
   void writeCamera();
 
   Camera camera_;
-  double speed_;
+  double firstSpeed_, speed_;
   // In double, so that slow motion far from the origin does not stall.
   Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length
   double elevation_ = 0;    // of the view over the plane perpendicular to up_, radians

@@ -35,8 +35,13 @@ void append(std::string& list, const std::string& word) {
 }  // namespace
 
 void KnobCosts::learn(const TracedFrame& frame) {
-  if (!frame.costs.empty()) measured_ = frame.costs;
   const FrameRequest& request = frame.request;
+  if (!frame.costs.empty()) {
+    measured_ = frame.costs;
+    measuredFor_ = request;
+  } else if (!comparable(measuredFor_, request)) {
+    measured_.clear();
+  }
   if (!request.interruptible || request.spp != request.options.spp) return;
   const auto before = std::exchange(baseline_, Baseline{request, frame.stats});
   if (!before || before->request.options.size != request.options.size ||

@@ -24,7 +24,8 @@ class KnobCosts {
   // The last change of each option, by its name; of several at once, "a, b".
   const std::map<std::string, KnobChange>& changes() const { return changes_; }
   const std::string& lastChanged() const { return lastChanged_; }  // empty: nothing yet
-  // The last ones that were measured; null where there are none of that name.
+  // What was measured of the view and scene that the last frame shows; null where there is none of
+  // that name.
   const KnobCost* measured(const std::string& name) const;
 
  private:
@@ -36,6 +37,7 @@ class KnobCosts {
   std::map<std::string, KnobChange> changes_;
   std::string lastChanged_;
   std::vector<KnobCost> measured_;
+  FrameRequest measuredFor_;
 };
 
 }  // namespace whit::view

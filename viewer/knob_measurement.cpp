@@ -13,12 +13,22 @@ namespace {
 constexpr int kTurns = 3;
 
 // The cheapest setting that still makes a picture of the scene.
-constexpr std::array<std::pair<const char*, const char*>, 6> kCheapest{{{"depth", "0"},
-                                                                        {"cutoff", "0.004"},
-                                                                        {"light-cutoff", "0.004"},
-                                                                        {"fresnel", "schlick"},
-                                                                        {"offset", "fixed"},
-                                                                        {"effects", "auto"}}};
+constexpr std::array<std::pair<const char*, const char*>, 15> kCheapest{
+    {{"depth", "0"},
+     {"cutoff", "0.004"},
+     {"light-cutoff", "0.004"},
+     {"impulse-rate", "half"},
+     {"shadow-rate", "half"},
+     {"glossy", "0"},
+     {"fresnel", "schlick"},
+     {"texture-filter", "nearest"},
+     {"offset", "fixed"},
+     {"terminator", "off"},
+     {"bend", "off"},
+     {"reciprocal", "approximate"},
+     {"film", "float"},
+     {"srgb", "table"},
+     {"effects", "auto"}}};
 
 struct Candidate {
   std::string name, other;
@@ -79,6 +89,10 @@ std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& opti
     for (int turn = 0; turn < kTurns; ++turn) {
       if (superseded()) return {};
       then.take(renderer, candidate.options, camera, film);
+      if (superseded()) {
+        renderer.setOptions(options);
+        return {};
+      }
       now.take(renderer, options, camera, film);
     }
     costs.push_back({candidate.name, candidate.other, now.quickest, then.quickest,

@@ -198,6 +198,9 @@ bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  // Where it would hide most of the picture it begins as its title.
+  ImGui::SetNextWindowCollapsed(ImGui::GetIO().DisplaySize.x < 1.5f * width,
+                                ImGuiCond_FirstUseEver);
   bool edited = false;
   if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);

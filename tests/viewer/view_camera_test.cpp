@@ -116,6 +116,21 @@ TEST(CameraControl, WheelChangesSpeedOnly) {
   EXPECT_DOUBLE_EQ(control.speed(), 3 * kWheelFactor * kWheelFactor);
 }
 
+TEST(CameraControl, StaysWhereScenesCanBe) {
+  CameraControl control(facingOrigin(), 3);
+  CameraMotion motion;
+  motion.wheel = 1e4;
+  control.step(motion, 0);
+  EXPECT_DOUBLE_EQ(control.speed(), 3 * kSpeedRange);
+  motion.wheel = 0;
+  motion.right = 1;
+  motion.fast = true;
+  for (int i = 0; i < 100; ++i) control.step(motion, 1e15);
+  EXPECT_TRUE(isFinite(control.camera().eye));
+  EXPECT_TRUE(isFinite(control.camera().at));
+  EXPECT_FALSE(control.step(motion, 1e15));
+}
+
 TEST(CameraControl, CreepsFarFromTheOrigin) {
   Camera camera = facingOrigin();
   camera.eye.x = camera.at.x = 1e6f;

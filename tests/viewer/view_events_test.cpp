@@ -28,6 +28,7 @@ void expectSameColumns(const RawImage& a, const RawImage& b, int x0, int x1) {
 TEST_F(Viewer, TheReferenceIsBesideThePicture) {
   const cli::Outcome outcome = play(
       "key H\nkey X\nwait 30 frames\nwait sharp\nscreenshot half.png\nmouse left 20 0\n"
+      "mouse left 0 7\n"
       "wait 2 frames\nscreenshot moved.png\nkey C\nkey X\nwait 2 frames\nscreenshot heat.png\n"
       "key X\nwait 2 frames\nwait sharp\nscreenshot frame.png\nkey C\n",
       {"--size", "96x64", "--spp", "1"});
@@ -62,13 +63,26 @@ TEST_F(Viewer, DroppedFilesOpen) {
   text.replace(text.find("0, 2, 6"), 7, "1, 3, 7");
   std::ofstream(folder_ / "other.json") << text;
   const cli::Outcome outcome = play(
-      "key H\nwait sharp\ndrop other.json\nwait 60 frames\nwait sharp\nscreenshot shown.png\n"
+      "key H\nwait sharp\ndrop other.json\nwait 60 frames\nwait sharp\nscreenshot "
+      "shown.png\n"
       "key C\n",
       {"--size", "120x80"});
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_NE(lines[0].find("other.json"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("--eye=1,3,7"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+// Reading again before the dropped scene is there means that one.
+TEST_F(Viewer, ADroppedSceneReadAgainIsTheOneNamed) {
+  const cli::Outcome outcome = play(
+      "key H\nkey N\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
+      "screenshot shown.png\nkey C\n");
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_EQ(lines[0].find("whit render whitted "), 0u) << lines[0];
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }

@@ -75,5 +75,19 @@ TEST(KnobCosts, OnlyLikeFramesAreCompared) {
   EXPECT_TRUE(costs.changes().empty());
 }
 
+TEST(KnobCosts, WhatWasMeasuredIsOfOneViewOnly) {
+  KnobCosts costs;
+  TracedFrame frame = frameOf(withDepth(8), 20);
+  frame.costs = {{"depth", "0", frame.stats, frame.stats}};
+  costs.learn(frame);
+  EXPECT_NE(costs.measured("depth"), nullptr);
+  TracedFrame again = frameOf(withDepth(2), 12);  // another setting of the same view
+  costs.learn(again);
+  EXPECT_NE(costs.measured("depth"), nullptr);
+  again.request.camera.eye.x = 1;
+  costs.learn(again);
+  EXPECT_EQ(costs.measured("depth"), nullptr);
+}
+
 }  // namespace
 }  // namespace whit::view
