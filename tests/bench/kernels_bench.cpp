@@ -67,7 +67,10 @@ void time(benchmark::State& state, BenchTile& tile, const Job& job, const std::s
   const std::vector<std::uint32_t> expected = tile.bits();
   for (auto _ : state) job.run(tile);
   tile.run();
-  if (tile.bits() != expected) return state.SkipWithError("the same input gave other bits");
+  if (tile.bits() != expected) {
+    verdicts[target] = job.kernel + ": the same input gave other bits";
+    return state.SkipWithError(verdicts[target].c_str());
+  }
   const auto rays = static_cast<double>(job.rays(tile));
   state.counters["per_ray"] = benchmark::Counter(
       rays, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
