@@ -116,7 +116,8 @@ std::uint64_t Renderer::memoryBytes() const {
   const Parts& p = *parts_;
   std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
   for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
-  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity();
+  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity() +
+         p.contrasting.capacity() + (p.pilots ? p.pilots->bytes() : 0);
   sum +=
       p.firstSamples.image.pixels.capacity() * sizeof(Rgb) + p.firstSamples.display.rgba.capacity();
   return sum;
@@ -269,6 +270,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   }
   p.tables.shading = options.shading;
   p.replan(plan);
+  if (options.spp != p.options.spp) p.pilots.reset();
   takeOver(options, p.options);
 }
 
