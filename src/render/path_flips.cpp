@@ -88,19 +88,14 @@ class RecordingIntersector : public reference::Intersector {
 
 }  // namespace
 
-PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
   Renderer::Parts& p = renderer.parts();
   Film scratch = film;
-  FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
-  SignatureObserver observer(film.image.window, p.plan.traceShadows, p.plan.groups.instances);
-  p.renderObserved(job, observer);
-
+  const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   const reference::Settings settings = p.referenceSettings();
-  PathComparison result{scratch.image, film.image, {}, 0};
-  result.flipped.resize(film.image.pixels.size());
+  ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
-  std::atomic<std::uint64_t> flips{0};
   p.pool->run([&](int) {
     const RecordingIntersector intersector(*p.accel);
     const reference::Tracer tracer(p.scene, intersector, settings);
@@ -108,15 +103,36 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
     for (int y = nextRow++; y < window.y1; y = nextRow++) {
       for (int x = window.x0; x < window.x1; ++x) {
         intersector.signature = 0;
-        Rgb& pixel = result.reference.at(x, y);
-        pixel = Rgb(tracer.pixel(job.camera, x, y, counts));
-        if (intersector.signature == observer.signature(x, y)) continue;
-        result.flipped[static_cast<std::size_t>(&pixel - result.reference.pixels.data())] = 1;
-        ++flips;
+        paths.image.at(x, y) = Rgb(tracer.pixel(job.camera, x, y, counts));
+        paths.signatures[paths.image.index(x, y)] = intersector.signature;
       }
     }
   });
-  result.flips = flips;
+  return paths;
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+  return comparePaths(renderer, camera, film, traceReferencePaths(renderer, camera, film));
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,
+                            const ReferencePaths& reference) {
+  Renderer::Parts& p = renderer.parts();
+  Film scratch = film;
+  FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
+  const Crop& window = film.image.window;
+  SignatureObserver observer(window, p.plan.traceShadows, p.plan.groups.instances);
+  p.renderObserved(job, observer);
+  PathComparison result{scratch.image, reference.image, {}, 0};
+  result.flipped.resize(film.image.pixels.size());
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      const std::size_t i = film.image.index(x, y);
+      if (reference.signatures[i] == observer.signature(x, y)) continue;
+      result.flipped[i] = 1;
+      ++result.flips;
+    }
+  }
   return result;
 }
 
