@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/worker_pool.h"
@@ -53,8 +54,13 @@ struct Renderer::Parts {
   // task(first row, last row) of the traced window for each worker; the time is updateImage's.
   void shareRows(FrameStats& stats, const std::function<void(int, int)>& task);
   PixelLists markedPixels(const Crop& window, const std::vector<std::uint8_t>& marks) const;
-  // One worker, tile by tile, with an observer looking on.
-  FrameStats renderObserved(FrameJob& job, StageObserver& observer);
+  // Tile by tile, as many workers as there are observers: each looks on at one. No more of them
+  // than tracers.
+  FrameStats renderObserved(const FrameJob& job, std::span<StageObserver* const> observers);
+  FrameStats renderObserved(const FrameJob& job, StageObserver& observer) {
+    StageObserver* const one[] = {&observer};
+    return renderObserved(job, one);
+  }
 
   const Scene& scene;
   RenderOptions options;
