@@ -150,8 +150,8 @@ TEST(AdaptiveError, comesNearThatOfAllSamplesForAThirdOfTheRays) {
   EXPECT_LE(rays, 1.0 / 3);
 }
 
-// Where edges are few, near the error of 16 samples everywhere for a third of their rays: at 256x256
-// below it (1.3e-4 and 1.7e-4) for 0.29. Without a look at the neighbours' pilots it is twice that.
+// Where edges are few, near the error of 16 samples everywhere for a third of their rays: at
+// 256x256 below it (1.3e-4 and 1.7e-4) for 0.29.
 TEST(AdaptiveError, isNearThatOf16SamplesForAThirdOfTheRays) {
   const Scene scene = load("whitted");
   const auto picture = [&](int spp, bool adaptive) {
