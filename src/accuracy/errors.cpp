@@ -8,7 +8,6 @@
 #include "core/display.h"
 #include "core/quantile.h"
 #include "io/image_file.h"
-#include "render/path_flips.h"
 
 namespace whit::accuracy {
 
@@ -24,8 +23,9 @@ double ulpsApart(const Rgb& a, const Rgb& b) {
 
 }  // namespace
 
-ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film) {
-  PathComparison paths = comparePaths(renderer, camera, film);
+ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film,
+                                const ReferencePaths& reference) {
+  PathComparison paths = comparePaths(renderer, camera, film, reference);
   ArithmeticError error;
   error.flips = paths.flips;
   const double pixels = static_cast<double>(paths.flipped.size());
@@ -90,7 +90,23 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   point.totalHdrFlip = hdrFlip.get();
   point.sampling = sampling.get();
   point.algorithm = algorithm.get();
-  if (arithmetic) point.arithmetic = arithmeticError(frames.renderer, camera_, frames.film);
+  if (!arithmetic) return;
+  point.arithmetic =
+      arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
+}
+
+const ReferencePaths& ErrorMeter::referencePaths(const Point& point, FrameSource& frames) {
+  const RenderOptions defaults;
+  RenderOptions seen = point.options;
+  seen.shading.reciprocal = defaults.shading.reciprocal;
+  seen.film = defaults.film;
+  seen.srgb = defaults.srgb;
+  seen.packet = defaults.packet;
+  const std::string digest = digestOf(seen);
+  const auto found = referencePaths_.find(digest);
+  if (found != referencePaths_.end()) return found->second;
+  return referencePaths_.emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
+      .first->second;
 }
 
 std::string ErrorMeter::pngOf(const Image& image) const {

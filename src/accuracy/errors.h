@@ -8,6 +8,7 @@
 #include "accuracy/reference_cache.h"
 #include "accuracy/timing.h"
 #include "metrics/hdr_flip.h"
+#include "render/path_flips.h"
 
 namespace whit::accuracy {
 
@@ -29,6 +30,8 @@ class ErrorMeter {
 
  private:
   const Image& withoutApproximations(const Point& point, const Image& own);
+  // Of the point's own options; points that the scalar reference does not tell apart share it.
+  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames);
 
   const Scene& scene_;
   Camera camera_;
@@ -37,8 +40,10 @@ class ErrorMeter {
   const ReferencePicture *reference_, *exact_;
   HdrFlip hdrFlip_;                            // against the reference
   std::map<std::string, Image> exactPackets_;  // by digest of their options
+  std::map<std::string, ReferencePaths> referencePaths_;
 };
 
-ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film);
+ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film,
+                                const ReferencePaths& reference);
 
 }  // namespace whit::accuracy

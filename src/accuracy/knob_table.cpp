@@ -121,7 +121,7 @@ Knob contrastKnob() {
                            [](O& o) -> int& { return o.contrast; },
                            Cause::sampling,
                            kDefaultContrast,
-                           {kDefaultContrast, 4, 16, 32},
+                           {kDefaultContrast, 4, 16, 24},
                            {}},
                           never);
   for (KnobValue& value : knob.values) {

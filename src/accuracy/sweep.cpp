@@ -26,6 +26,9 @@ struct Limits {
 constexpr Limits kQuick{64, 4, 30e6, 20e6, 200, 0};
 constexpr Limits kFull{256, 8, 400e6, 100e6, 4000, 40};
 
+// Single frames of points that one frame of the baseline serves, where frames take long.
+constexpr int kUsesOfBaseline = 2;
+
 // Work of a packet frame in units of a scalar frame of one sample, roughly.
 constexpr double kPacketFrameWork = 0.1;
 
@@ -180,15 +183,27 @@ class SceneSweeper {
   void time(Point& point, FrameSource& frames) {
     const double first = frames.stats.frameMs;
     if (point.options.mode == Mode::reference || first > limits_.pointMs) {
-      point.timing = timingOf({first});
-      point.timing.ratio = first / baseline_->render().frameMs;
+      takeSingleFrame(point, first);
       return;
     }
     const bool joint = point.kind == PointKind::joint;
     const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
     const Rounds rounds = roundsFor(first, baselineMs, joint ? kQuick.pointMs : limits_.pointMs,
                                     settings_.full && !joint);
-    point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
+    if (rounds.count == 1) {
+      takeSingleFrame(point, frames.render().frameMs);
+    } else {
+      point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
+    }
+  }
+
+  // Beside one of the baseline, of which every other point has a new one.
+  void takeSingleFrame(Point& point, double ms) {
+    if (singleFrames_++ % kUsesOfBaseline == 0) {
+      baselineMs_.push_back(baseline_->render().frameMs);
+    }
+    point.timing = timingOf({ms});
+    point.timing.ratio = ms / baselineMs_.back();
   }
 
   // Of the same picture.
@@ -242,6 +257,7 @@ class SceneSweeper {
   std::unique_ptr<FrameSource> baseline_;
   double raysPerSample_ = 0;
   std::vector<double> baselineMs_;
+  int singleFrames_ = 0;  // of points, taken so far
   SceneSweep sweep_;
 };
 

@@ -21,7 +21,7 @@ namespace whit::reference {
 struct Settings {
   int spp = 1;
   // Several samples only where findEdges says so, in the picture of pixels' centres as it would be
-  // displayed, and all of them only where the pilot samples differ.
+  // displayed, and all of them only where the pilot samples do.
   bool adaptive = false;
   int contrast = kDefaultContrast;
   // Of pixels of one sample, the default or the first of adaptive ones.
@@ -67,9 +67,8 @@ class Tracer {
                     RayCounts& counts, PrimaryShare* share = nullptr, Path path = {}) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
-  // The same, but only the pilot samples where those differ by no more than settings.contrast as
-  // they would be displayed.
-  RgbD pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  // Through one place of the sample pattern.
+  RgbD sample(const CameraFrame& camera, int x, int y, std::size_t number, RayCounts& counts) const;
   // Through the pixel's centre alone, lending or borrowing: those that lend come first.
   RgbD centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
                         RayCounts& counts) const;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "core/film.h"
 #include "reference/eye_media.h"
 #include "reference/reference.h"
+#include "scene/pilots.h"
 
 namespace whit::reference {
 
@@ -66,7 +69,32 @@ RayCounts traceCentres(const Tracer& tracer, const CameraFrame& frame, const Set
   return counts;
 }
 
-// The centres of all pixels first, then more samples where that picture has edges.
+// Pixels at edges: the mean of the pilot samples, and those samples' codes.
+RayCounts tracePilots(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+                      const Crop& window, const std::vector<std::uint8_t>& edges,
+                      FirstPicture& first, Pilots& pilots, Progress* progress) {
+  const double scale = std::exp2(static_cast<double>(settings.exposure));
+  const int samples = std::min(settings.spp, kPilotSamples);
+  const auto trace = [&](int x, int y, RayCounts& counts) {
+    PilotSamples& own = pilots.at(x, y);
+    for (int s = 0; s < samples; ++s) {
+      const auto number = static_cast<std::size_t>(s);
+      const RgbD value = tracer.sample(frame, x, y, number, counts);
+      own.total += (value - own.total) / (s + 1.0);
+      const auto codes = displayCodes(Rgb(value), scale, settings.toneCurve, settings.srgb);
+      own.codes[number] = codes[0] | std::uint32_t{codes[1]} << 8 | std::uint32_t{codes[2]} << 16;
+    }
+    first.image.at(x, y) = keptAs(settings.film, Rgb(own.total));
+  };
+  return forEachRow(window, settings.threads, progress, [&](int y, RayCounts& counts) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      if (edges[first.image.index(x, y)] != 0) trace(x, y, counts);
+    }
+  });
+}
+
+// The centres of all pixels first; where that picture has edges then the pilot samples, and all
+// where these differ.
 RayCounts renderInPasses(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                          Image& image, Progress* progress) {
   FirstPicture first;
@@ -75,17 +103,29 @@ RayCounts renderInPasses(const Tracer& tracer, const CameraFrame& frame, const S
   first.surfaces.resize(first.image.pixels.size());
   RayCounts counts = traceCentres(tracer, frame, settings, first, progress);
   std::vector<std::uint8_t> edges(first.image.pixels.size());
+  std::optional<Pilots> pilots;
   if (settings.adaptive) {
     const DisplayImage display =
         toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
     findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
+    pilots.emplace(first.image.window, edges, samplePattern(std::max(settings.spp, kPilotSamples)));
+    counts +=
+        tracePilots(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
+                    edges, first, *pilots, progress);
   }
+  const auto refined = [&](int x, int y, RayCounts& rowCounts) {
+    RgbD mean = pilots->at(x, y).total;
+    for (int s = kPilotSamples; s < settings.spp; ++s) {
+      const auto number = static_cast<std::size_t>(s);
+      mean += (tracer.sample(frame, x, y, number, rowCounts) - mean) / (s + 1.0);
+    }
+    return keptAs(settings.film, Rgb(mean));
+  };
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      const bool edge = edges[first.image.index(x, y)] != 0;
-      image.at(x, y) =
-          edge ? keptAs(settings.film, Rgb(tracer.pixelByContrast(frame, x, y, rowCounts)))
-               : first.image.at(x, y);
+      const bool more = settings.spp > kPilotSamples && edges[first.image.index(x, y)] != 0 &&
+                        pilots->differ(x, y, settings.contrast);
+      image.at(x, y) = more ? refined(x, y, rowCounts) : first.image.at(x, y);
     }
   });
   return counts;

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "core/display.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"
 #include "reference/impulses.h"
@@ -185,30 +183,14 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   RgbD mean;
   double taken = 0;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
-    mean += (sampled(camera, x, y, samples_[s], s, counts) - mean) / ++taken;
+    mean += (sample(camera, x, y, s, counts) - mean) / ++taken;
   }
   return mean;
 }
 
-RgbD Tracer::pixelByContrast(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  const double scale = std::exp2(static_cast<double>(settings_.exposure));
-  std::array<std::uint8_t, 3> lowest{255, 255, 255}, highest{};
-  RgbD mean;
-  int taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
-    const RgbD value = sampled(camera, x, y, samples_[s], s, counts);
-    mean += (value - mean) / ++taken;
-    if (taken > kPilotSamples) continue;
-    const auto codes = displayCodes(Rgb(value), scale, settings_.toneCurve, settings_.srgb);
-    int spread = 0;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      lowest[channel] = std::min(lowest[channel], codes[channel]);
-      highest[channel] = std::max(highest[channel], codes[channel]);
-      spread = std::max(spread, highest[channel] - lowest[channel]);
-    }
-    if (taken == kPilotSamples && spread <= settings_.contrast) break;
-  }
-  return mean;
+RgbD Tracer::sample(const CameraFrame& camera, int x, int y, std::size_t number,
+                    RayCounts& counts) const {
+  return sampled(camera, x, y, samples_[number], number, counts);
 }
 
 RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const {

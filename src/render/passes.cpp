@@ -1,6 +1,7 @@
 // Frames of several passes. What happens to a pixel in the later ones depends on whole pictures of
 // the earlier ones and on nothing else, so that the result is the same for any tiles and threads.
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "render/renderer_parts.h"
@@ -8,6 +9,10 @@
 namespace whit {
 
 namespace {
+
+// Pixels that are traced together after the first pass. Fewer than a tile has: they are few, of
+// many samples, and no worker is to wait long for another's last list.
+constexpr std::size_t kListLength = 256;
 
 // Those pixels of the lists that lend, or those that borrow.
 PixelLists fieldsOf(const PixelLists& lists, bool lenders) {
@@ -38,22 +43,15 @@ FrameStats Renderer::Parts::renderInPasses(FrameJob& job, std::vector<RayLog>* l
     firstSamples.image = Image(film.image.width, film.image.height, laidOut);
     sizeDisplay(firstSamples);
     surfaces.resize(kept.pixels.size());
-    edges.resize(surfaces.size());
     shares.reset();
+    pilots.reset();
   }
-  if (!adaptive()) std::fill(edges.begin(), edges.end(), std::uint8_t{0});
+  contrasting.assign(surfaces.size(), 0);
   FrameStats stats = renderCentres(job, logs);
+  if (adaptive()) stats.add(refine(job, logs));
   stats.nonFinitePixels = 0;  // of pictures that are kept only
-  stats.add(settleFirstSamples(film));
-  if (!adaptive()) return stats;
-  PixelLists lists = edgePixels(film.image.window);
-  PixelLists dealt;
-  if (options.batch == Batch::frame) dealt = dealOut(lists, tracers.size());
-  padForVectors(lists);
-  padForVectors(dealt);
-  FrameJob more = job;
-  more.contrast = options.contrast;
-  stats.add(renderLists(more, lists, dealt, logs));
+  keepFirstSamples(film, stats);
+  if (adaptive()) stats.add(renderMarked(job, film.image.window, contrasting, logs));
   return stats;
 }
 
@@ -80,48 +78,93 @@ FrameStats Renderer::Parts::renderCentres(FrameJob& job, std::vector<RayLog>* lo
   return stats;
 }
 
-FrameStats Renderer::Parts::settleFirstSamples(Film& film) {
+FrameStats Renderer::Parts::refine(FrameJob& job, std::vector<RayLog>* logs) {
+  FrameStats stats;
+  edges.resize(surfaces.size());
+  shareRows(stats, [&](int begin, int end) {
+    findEdges(firstSamples.display, surfaces, options.contrast, begin, end, edges);
+  });
+  const std::vector<Vec2f> pattern = job.samples;
+  if (!pilots) pilots.emplace(laidOut, edges, samplePattern(std::max(options.spp, kPilotSamples)));
+  FrameJob first = job;
+  first.samples.resize(std::min<std::size_t>(pattern.size(), kPilotSamples));
+  first.film = &firstSamples;
+  first.pilots = &*pilots;
+  const Crop& window = job.film->image.window;
+  const Crop around = grown(window, 1, job.film->image.width, job.film->image.height);
+  stats.add(renderMarked(first, around, edges, logs));
+  if (pattern.size() <= kPilotSamples) return stats;
+  shareRows(stats, [&](int begin, int end) {
+    for (int y = std::max(laidOut.y0 + begin, window.y0); y < std::min(laidOut.y0 + end, window.y1);
+         ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        const std::size_t i = firstSamples.image.index(x, y);
+        contrasting[i] = edges[i] != 0 && pilots->differ(x, y, options.contrast);
+      }
+    }
+  });
+  job.pilots = &*pilots;
+  job.firstSample = kPilotSamples;
+  return stats;
+}
+
+FrameStats Renderer::Parts::renderMarked(FrameJob& job, const Crop& window,
+                                         const std::vector<std::uint8_t>& marks,
+                                         std::vector<RayLog>* logs) {
+  PixelLists lists = markedPixels(window, marks), dealt;
+  if (options.batch == Batch::frame) dealt = dealOut(lists, tracers.size());
+  padForVectors(lists);
+  padForVectors(dealt);
+  return renderLists(job, lists, dealt, logs);
+}
+
+void Renderer::Parts::keepFirstSamples(Film& film, FrameStats& stats) {
   const Image& from = firstSamples.image;
   Image& to = film.image;
-  std::vector<FrameStats> stats(tracers.size());
-  pool->run([&](int worker) {
-    FrameStats mine;
-    StageClock clock(mine);
-    const auto share = [&](int w) { return from.windowHeight() * w / machine.threads; };
-    if (adaptive()) {
-      findEdges(firstSamples.display, surfaces, options.contrast, share(worker), share(worker + 1),
-                edges);
-    }
-    for (int row = share(worker); row < share(worker + 1); ++row) {
-      const int y = from.window.y0 + row;
-      if (y < to.window.y0 || y >= to.window.y1) continue;
+  std::atomic<std::uint64_t> nonFinite{0};
+  shareRows(stats, [&](int begin, int end) {
+    std::uint64_t mine = 0;
+    for (int y = std::max(laidOut.y0 + begin, to.window.y0);
+         y < std::min(laidOut.y0 + end, to.window.y1); ++y) {
       for (int x = to.window.x0; x < to.window.x1; ++x) {
         const std::size_t source = from.index(x, y), target = to.index(x, y);
-        if (edges[source] != 0) continue;
+        if (contrasting[source] != 0) continue;
         const Rgb value = to.pixels[target] = from.pixels[source];
-        mine.nonFinitePixels += !isFinite(value);
+        mine += !isFinite(value);
         if (!film.wantDisplay) continue;
         std::memcpy(&film.display.rgba[4 * target], &firstSamples.display.rgba[4 * source], 4);
       }
     }
-    clock.lap(Stage::updateImage, 0);
-    stats[static_cast<std::size_t>(worker)] = mine;
+    nonFinite += mine;
   });
-  FrameStats sum;
-  for (const FrameStats& s : stats) sum.add(s);
-  return sum;
+  stats.nonFinitePixels += nonFinite;
 }
 
-// In the order of the tiles, as full lists as tiles would be.
-PixelLists Renderer::Parts::edgePixels(const Crop& window) const {
-  const auto side = static_cast<std::size_t>(options.tile), length = side * side;
+void Renderer::Parts::shareRows(FrameStats& stats, const std::function<void(int, int)>& task) {
+  std::vector<FrameStats> parts(tracers.size());
+  pool->run([&](int worker) {
+    FrameStats mine;
+    StageClock clock(mine);
+    const auto share = [&](int w) { return (laidOut.y1 - laidOut.y0) * w / machine.threads; };
+    task(share(worker), share(worker + 1));
+    clock.lap(Stage::updateImage, 0);
+    parts[static_cast<std::size_t>(worker)] = mine;
+  });
+  for (const FrameStats& part : parts) stats.add(part);
+}
+
+// In the order of the tiles, so that neighbours stay together.
+PixelLists Renderer::Parts::markedPixels(const Crop& window,
+                                         const std::vector<std::uint8_t>& marks) const {
   PixelLists lists;
   for (const auto& tile : tiles) {
     for (const std::uint32_t pixel : tile) {
       const int x = static_cast<int>(pixel & 0xFFFFu), y = static_cast<int>(pixel >> 16);
       const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
-      if (!inside || edges[firstSamples.image.index(x, y)] == 0) continue;
-      if (lists.empty() || lists.back().size() == length) lists.emplace_back().reserve(length);
+      if (!inside || marks[firstSamples.image.index(x, y)] == 0) continue;
+      if (lists.empty() || lists.back().size() == kListLength) {
+        lists.emplace_back().reserve(kListLength);
+      }
       lists.back().push_back(pixel);
     }
   }

@@ -23,15 +23,17 @@ std::uint64_t hitEvent(std::uint32_t triangle, std::uint32_t instance) {
 }
 std::uint64_t shadowEvent(bool visible) { return mixed(visible ? 0x51 : 0x52); }
 
-// A pixel's signature: the sum of its events, whatever their order.
+// A pixel's signature: the sum of its events, whatever their order. Observers of workers that share
+// the tiles write to the same signatures, one a pixel of the window.
 class SignatureObserver : public StageObserver {
  public:
-  SignatureObserver(const Crop& window, bool tracesShadows, bool instances)
+  SignatureObserver(const Crop& window, bool tracesShadows, bool instances,
+                    std::vector<std::uint64_t>& signatures)
       : window_(window),
         width_(static_cast<std::size_t>(window.x1 - window.x0)),
         tracesShadows_(tracesShadows),
         instances_(instances),
-        signatures_(width_ * static_cast<std::size_t>(window.y1 - window.y0)) {}
+        signatures_(signatures) {}
 
   void after(Stage stage, const ChunkView& chunk) override {
     tracker_.follow(stage, chunk);
@@ -49,22 +51,18 @@ class SignatureObserver : public StageObserver {
     }
   }
 
-  std::uint64_t signature(int x, int y) const { return signatures_[index(x, y)]; }
-
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - window_.y0) * width_ +
-           static_cast<std::size_t>(x - window_.x0);
-  }
   std::uint64_t& at(std::uint32_t pixel) {
-    return signatures_[index(static_cast<int>(pixel & 0xFFFFu), static_cast<int>(pixel >> 16))];
+    const std::size_t x = (pixel & 0xFFFFu) - static_cast<std::size_t>(window_.x0);
+    const std::size_t y = (pixel >> 16) - static_cast<std::size_t>(window_.y0);
+    return signatures_[y * width_ + x];
   }
 
   Crop window_;
   std::size_t width_;
   bool tracesShadows_, instances_;
   PixelTracker tracker_;
-  std::vector<std::uint64_t> signatures_;
+  std::vector<std::uint64_t>& signatures_;
 };
 
 class RecordingIntersector : public reference::Intersector {
@@ -88,19 +86,14 @@ class RecordingIntersector : public reference::Intersector {
 
 }  // namespace
 
-PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
   Renderer::Parts& p = renderer.parts();
   Film scratch = film;
-  FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
-  SignatureObserver observer(film.image.window, p.plan.traceShadows, p.plan.groups.instances);
-  p.renderObserved(job, observer);
-
+  const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   const reference::Settings settings = p.referenceSettings();
-  PathComparison result{scratch.image, film.image, {}, 0};
-  result.flipped.resize(film.image.pixels.size());
+  ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
-  std::atomic<std::uint64_t> flips{0};
   p.pool->run([&](int) {
     const RecordingIntersector intersector(*p.accel);
     const reference::Tracer tracer(p.scene, intersector, settings);
@@ -108,15 +101,36 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
     for (int y = nextRow++; y < window.y1; y = nextRow++) {
       for (int x = window.x0; x < window.x1; ++x) {
         intersector.signature = 0;
-        Rgb& pixel = result.reference.at(x, y);
-        pixel = Rgb(tracer.pixel(job.camera, x, y, counts));
-        if (intersector.signature == observer.signature(x, y)) continue;
-        result.flipped[static_cast<std::size_t>(&pixel - result.reference.pixels.data())] = 1;
-        ++flips;
+        paths.image.at(x, y) = Rgb(tracer.pixel(job.camera, x, y, counts));
+        paths.signatures[paths.image.index(x, y)] = intersector.signature;
       }
     }
   });
-  result.flips = flips;
+  return paths;
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+  return comparePaths(renderer, camera, film, traceReferencePaths(renderer, camera, film));
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,
+                            const ReferencePaths& reference) {
+  Renderer::Parts& p = renderer.parts();
+  Film scratch = film;
+  const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
+  std::vector<std::uint64_t> signatures(film.image.pixels.size());
+  std::vector<SignatureObserver> observers(p.tracers.size(),
+                                           SignatureObserver(film.image.window, p.plan.traceShadows,
+                                                             p.plan.groups.instances, signatures));
+  std::vector<StageObserver*> onlookers;
+  for (SignatureObserver& observer : observers) onlookers.push_back(&observer);
+  p.renderObserved(job, onlookers);
+  PathComparison result{scratch.image, reference.image, {}, 0};
+  result.flipped.resize(signatures.size());
+  for (std::size_t i = 0; i < signatures.size(); ++i) {
+    result.flipped[i] = signatures[i] != reference.signatures[i];
+    result.flips += result.flipped[i];
+  }
   return result;
 }
 

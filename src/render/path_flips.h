@@ -18,4 +18,14 @@ struct PathComparison {
 };
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film);
 
+// The reference's part of it. What changes nothing but the kernels (packet width, reciprocals, how
+// the film is kept) leaves it as it is, so that renderers may share it.
+struct ReferencePaths {
+  Image image;
+  std::vector<std::uint64_t> signatures;  // of the events along a pixel's paths, as image.pixels
+};
+ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film);
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,
+                            const ReferencePaths& reference);
+
 }  // namespace whit

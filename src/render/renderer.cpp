@@ -116,7 +116,8 @@ std::uint64_t Renderer::memoryBytes() const {
   const Parts& p = *parts_;
   std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
   for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
-  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity();
+  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity() +
+         p.contrasting.capacity() + (p.pilots ? p.pilots->bytes() : 0);
   sum +=
       p.firstSamples.image.pixels.capacity() * sizeof(Rgb) + p.firstSamples.display.rgba.capacity();
   return sum;
@@ -225,16 +226,24 @@ FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs
   return stats;
 }
 
-FrameStats Renderer::Parts::renderObserved(FrameJob& job, StageObserver& observer) {
-  job.observer = &observer;
-  FrameStats stats;
+FrameStats Renderer::Parts::renderObserved(const FrameJob& job,
+                                           std::span<StageObserver* const> observers) {
+  std::atomic<std::size_t> next{0};
+  std::vector<FrameStats> stats(observers.size());
   const Clock::time_point start = Clock::now();
   pool->run([&](int worker) {
-    if (worker != 0) return;
-    for (const auto& tile : tiles) tracers[0].trace(job, tile, stats, nullptr);
+    const auto w = static_cast<std::size_t>(worker);
+    if (w >= observers.size()) return;
+    FrameJob mine = job;
+    mine.observer = observers[w];
+    for (std::size_t i = next++; i < tiles.size(); i = next++) {
+      tracers[w].trace(mine, tiles[i], stats[w], nullptr);
+    }
   });
-  stats.frameMs = since(start);
-  return stats;
+  FrameStats sum;
+  for (const FrameStats& s : stats) sum.add(s);
+  sum.frameMs = since(start);
+  return sum;
 }
 
 void Renderer::Parts::replan(const Plan& next) {
@@ -269,6 +278,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   }
   p.tables.shading = options.shading;
   p.replan(plan);
+  if (options.spp != p.options.spp) p.pilots.reset();
   takeOver(options, p.options);
 }
 

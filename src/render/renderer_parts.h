@@ -1,7 +1,9 @@
 // What a Renderer holds.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/worker_pool.h"
@@ -40,14 +42,25 @@ struct Renderer::Parts {
                          std::vector<RayLog>* logs);
   void replan(const Plan& next);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
-  // The centre of every pixel first; with --adaptive then the pilot samples at edges, and all where
-  // those still differ.
+  // The centre of every pixel first; with --adaptive then more where that picture has edges.
   FrameStats renderInPasses(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats renderCentres(FrameJob& job, std::vector<RayLog>* logs);
-  FrameStats settleFirstSamples(Film& film);  // finds the edges, keeps the rest
-  PixelLists edgePixels(const Crop& window) const;
-  // One worker, tile by tile, with an observer looking on.
-  FrameStats renderObserved(FrameJob& job, StageObserver& observer);
+  // The pilot samples of the pixels at edges, then all samples where those differ.
+  FrameStats refine(FrameJob& job, std::vector<RayLog>* logs);
+  FrameStats renderMarked(FrameJob& job, const Crop& window, const std::vector<std::uint8_t>& marks,
+                          std::vector<RayLog>* logs);
+  // Takes over what is not traced anew.
+  void keepFirstSamples(Film& film, FrameStats& stats);
+  // task(first row, last row) of the traced window for each worker; the time is updateImage's.
+  void shareRows(FrameStats& stats, const std::function<void(int, int)>& task);
+  PixelLists markedPixels(const Crop& window, const std::vector<std::uint8_t>& marks) const;
+  // Tile by tile, as many workers as there are observers: each looks on at one. No more of them
+  // than tracers.
+  FrameStats renderObserved(const FrameJob& job, std::span<StageObserver* const> observers);
+  FrameStats renderObserved(const FrameJob& job, StageObserver& observer) {
+    StageObserver* const one[] = {&observer};
+    return renderObserved(job, one);
+  }
 
   const Scene& scene;
   RenderOptions options;
@@ -64,10 +77,12 @@ struct Renderer::Parts {
   std::vector<TileTracer> tracers;  // one a worker; none after another plan
   std::size_t tracerCapacity = 0;   // rays, of each
 
-  // Frames of several passes: the picture of the first.
+  // Frames of several passes: the picture of the first, then of the pilot samples as well; and a
+  // mark a pixel, where those are traced and where all are.
   Film firstSamples;
   std::vector<PixelSurface> surfaces;
-  std::vector<std::uint8_t> edges;
+  std::vector<std::uint8_t> edges, contrasting;
+  std::optional<Pilots> pilots;
   std::optional<LightShares> shares;  // at half rate
   PixelLists lenders, borrowers;      // the pixels of `tiles`, or of `batches`
   bool fieldsOfBatches = false;       // which of the two

@@ -86,7 +86,7 @@ BufferBytes TileTracer::bufferBytes() const {
 }
 
 std::size_t TileTracer::bytes() const {
-  return bufferBytes().sum() + sums_.capacity() * sizeof(double) +
+  return bufferBytes().sum() + sums_.capacity() * sizeof(RgbD) +
          codes_.capacity() * sizeof(std::uint32_t);
 }
 

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <barrier>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "render/renderer.h"
 #include "render/stage_clock.h"
 #include "scene/light_shares.h"
+#include "scene/pilots.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
@@ -65,8 +65,10 @@ struct FrameJob {
   FilmPrecision precision = FilmPrecision::single;
   SrgbEncoding srgb = SrgbEncoding::exact;
   Film* film = nullptr;
-  // Pixels whose first kPilotSamples differ by no more display codes than this get no more samples.
-  std::optional<int> contrast;
+  // Of adaptive sampling: where the samples go, or when the first ones were traced before, whence
+  // these come.
+  Pilots* pilots = nullptr;
+  std::size_t firstSample = 0;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;
   // Half rates, with the surfaces: pixels that lend are traced before those that borrow.
@@ -101,11 +103,9 @@ class TileTracer {
   };
   struct Pass;  // one sample of one batch
 
-  // Samples [first, end) of the pattern, into sums_.
-  void addSamples(Pass& pass, std::size_t first, std::size_t end);
-  void widenSpread(const Pass& pass, bool first);
-  void settleWhereSamplesAgree(Pass& pass);
-  void average(const std::vector<double>& sums, std::size_t samples);
+  // The job's samples, averaged.
+  void traceSamples(Pass& pass);
+  void keepCodes(const Pass& pass);
   void traceSample(Pass& pass);
   void shadeChunk(Pass& pass, std::size_t depth);
   void findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays);
@@ -134,10 +134,7 @@ class TileTracer {
   ColumnStore<ShadowColumns> shadows_;
   std::size_t shadowCount_ = 0;
   std::uint32_t materialFlags_ = 0;  // kMaterial flags of the chunk's surfels, all together
-  std::vector<double> sums_;         // 3 a pixel, when there are several samples
-  // Of pilot samples: the codes' bounds a pixel, and the pixels that are done and to go on with.
-  std::vector<std::uint32_t> lowest_, highest_, settled_, contrasting_;
-  std::vector<double> settledSums_;
+  std::vector<RgbD> sums_;           // a pixel each, when there are several samples
   // Half rates, a pixel each: who lends, and radiance without impulses of those that lend.
   std::vector<Lenders> lenders_;
   std::vector<Rgb> local_;
