@@ -70,6 +70,7 @@ class Accel {
   // nothing are therefore traced again, one by one, in directions a unit in the last place away:
   // there they are so rare that it costs nothing. They count once. Not while tracing.
   void setEnclosed(bool enclosed) { enclosed_ = enclosed; }
+  bool enclosed() const { return enclosed_; }
 
   // Single rays, for the reference's candidates.
   bool closest(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,

@@ -2,6 +2,7 @@
 #include <limits>
 #include <vector>
 
+#include "accel/bad_rays.h"
 #include "accel/embree_scene.h"
 #include "accel/parts.h"
 #include "accel/trace_packets.h"
@@ -49,6 +50,8 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
     hits[packet].hit.geomID[lane] = hits[packet].hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
     hits[packet].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
   }
+  for (Ray& packet : shadows) leaveOutBadRays<kWidth>(packet, scene.reach());
+  for (RayHit& packet : hits) leaveOutBadRays<kWidth>(packet.ray, scene.reach());
   QueryContext context(stream.coherent);
   const bool together = stream.coherent && scene.streamWidth() == kWidth;
   const auto start = TraceClock::now();
@@ -62,10 +65,12 @@ double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
 
 double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
   const std::size_t n = stream.rays.size() / kFloatsPerRay;
-  std::vector<RTCRayHit> rays(n, RTCRayHit{});
+  std::vector<RTCRayHit> rays;
+  rays.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const float* r = &stream.rays[i * kFloatsPerRay];
-    RTCRayHit& ray = rays[i];
+    if (!isTraceable(scene.reach(), r[0], r[1], r[2], r[3], r[4], r[5])) continue;
+    RTCRayHit& ray = rays.emplace_back();
     ray.ray.org_x = r[0];
     ray.ray.org_y = r[1];
     ray.ray.org_z = r[2];

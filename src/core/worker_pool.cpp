@@ -12,13 +12,20 @@
 namespace whit {
 
 WorkerPool::WorkerPool(int workers) : workers_(workers), start_(workers), finish_(workers) {
-  try {
-    for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
-  } catch (const std::system_error& error) {
+  const auto turnBack = [&] {
     // Those who have come go home; the others are not waited for.
     for (int i = static_cast<int>(threads_.size()) + 1; i < workers; ++i) start_.arrive_and_drop();
     sendHome();
+  };
+  try {
+    threads_.reserve(static_cast<std::size_t>(workers));
+    for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
+  } catch (const std::system_error& error) {
+    turnBack();
     throwLimit("cannot start " + std::to_string(workers) + " threads: " + error.what());
+  } catch (...) {
+    turnBack();
+    throw;
   }
 }
 

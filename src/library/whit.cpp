@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -83,7 +84,10 @@ Scene loadScene(const std::string& name, const LoadOptions& options, const char*
   return guarded([&] {
     whit::LoadOptions load;
     load.allowOutside = options.allowOutside;
-    load.maxMemoryBytes = static_cast<std::uint64_t>(std::max(options.maxMemoryGb, 0.0) * 1e9);
+    // A NaN is no memory; more than 64 bits hold is as much as they do.
+    constexpr double kMostGb = 1.8e10;
+    const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
+    load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
     load.threads = options.threads;
     load.shippedScenes = shippedScenes;
     auto data = std::make_shared<Scene::Data>(options.strict);

@@ -14,7 +14,9 @@ Vec3f latticeDirection(int i, int n) {
   return Vec3f(Vec3d{r * std::cos(turn), y, r * std::sin(turn)});
 }
 
-bool seesSomethingAllAround(const Accel& accel, const Vec3f& eye) {
+}  // namespace
+
+bool isEnclosed(const Accel& accel, const Vec3f& eye) {
   constexpr int kDirections = 256;
   for (int i = 0; i < kDirections; ++i) {
     std::uint32_t triangle = kMiss, instance = kMiss;
@@ -26,14 +28,12 @@ bool seesSomethingAllAround(const Accel& accel, const Vec3f& eye) {
   return true;
 }
 
-}  // namespace
-
 bool isEnclosed(const Scene& scene, const Accel& accel) {
   for (const Camera& camera : scene.cameras) {
-    if (!seesSomethingAllAround(accel, camera.eye)) return false;
+    if (!isEnclosed(accel, camera.eye)) return false;
   }
   for (const Keyframe& key : scene.cameraPath) {
-    if (!seesSomethingAllAround(accel, key.camera.eye)) return false;
+    if (!isEnclosed(accel, key.camera.eye)) return false;
   }
   return true;
 }

@@ -5,7 +5,9 @@
 
 namespace whit {
 
-// True if 256 rays from every camera and keyframe, evenly in all directions, meet something.
+// True if 256 rays from there, evenly in all directions, meet something.
+bool isEnclosed(const Accel& accel, const Vec3f& eye);
+// Of every camera and keyframe.
 bool isEnclosed(const Scene& scene, const Accel& accel);
 
 }  // namespace whit

@@ -45,6 +45,7 @@ reference::Settings Renderer::Parts::referenceSettings() const {
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
   Parts& p = *parts_;
   const auto start = std::chrono::steady_clock::now();
+  p.lookFrom(camera.eye);
   const EmbreeIntersector intersector(*p.accel);
   const reference::RayCounts counts =
       reference::render(p.scene, intersector, camera, p.referenceSettings(), film.image, progress);

@@ -97,7 +97,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.packet = options.packet;
   accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
-  p.accel->setEnclosed(options.robust && options.retry && isEnclosed(scene, *p.accel));
+  p.enclosed = options.robust && options.retry && isEnclosed(scene, *p.accel);
   p.tables = buildTables(scene, p.plan.effects, options.shading, p.machine.threads);
   p.pool.emplace(p.machine.threads);
   p.machine.simd = simd::chosenTarget();
@@ -154,8 +154,16 @@ void sizeDisplay(Film& film) {
   film.display.rgba.resize(film.image.pixels.size() * 4);
 }
 
+void Renderer::Parts::lookFrom(const Vec3f& eye) {
+  if (!enclosed || lookedFrom == eye) return;
+  lookedFrom = eye;
+  accel->setEnclosed(false);
+  accel->setEnclosed(isEnclosed(*accel, eye));
+}
+
 FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& window) {
   layOut(window);
+  lookFrom(camera.eye);
   sizeDisplay(film);
   FrameJob job;
   job.plan = &plan;
@@ -201,9 +209,11 @@ FrameStats Renderer::Parts::renderBatches(FrameJob& job, const PixelLists& lists
   pool->run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
     FrameStats mine;
+    // Also when memory runs out: the others may have deeper queues, and would wait for ever.
+    const std::unique_ptr<std::barrier<>, void (*)(std::barrier<>*)> leave(
+        &stageBarrier, [](std::barrier<>* barrier) { barrier->arrive_and_drop(); });
     tracers[w].trace(job, lists[w], mine, nullptr);
     stats[w] = mine;
-    stageBarrier.arrive_and_drop();  // the others may have deeper queues
   });
   job.stageBarrier = nullptr;
   FrameStats sum;

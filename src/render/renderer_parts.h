@@ -32,6 +32,9 @@ struct Renderer::Parts {
   Crop tracedWindow(const Film& film) const;
   // A job over the tiles of `window`.
   FrameJob makeJob(const Camera& camera, Film& film, const Crop& window);
+  // Rays that find nothing are retried only if the eye, too, is where the scene is closed: outside,
+  // most of them find nothing for good.
+  void lookFrom(const Vec3f& eye);
   void layOut(const Crop& window);  // tiles and tracers, when the window has changed
   // The lists one by one, each by the next worker that is free; their rays go to logs of their own
   // behind those that are there.
@@ -67,6 +70,8 @@ struct Renderer::Parts {
   Plan plan;
   ShadingTables tables;
   std::optional<Accel> accel;
+  bool enclosed = false;  // the scene is closed around its cameras, and rays are to be retried
+  std::optional<Vec3f> lookedFrom;  // where the last frame's eye was
   std::optional<WorkerPool> pool;
   Machine machine;
   double buildMs = 0;

@@ -1,0 +1,37 @@
+// Where rays that find nothing are traced once more.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "render/renderer_parts.h"
+#include "shipped_scene.h"
+
+namespace whit {
+namespace {
+
+TEST(Enclosure, HoldsForEyesWithinOnly) {
+  const char* source = std::getenv("WHIT_SOURCE_DIR");
+  const std::string folder = source ? source : ".";
+  const Scene scene = test::load(folder + "/scenes/hard/closed-room.json");
+  RenderOptions options;
+  options.size = ImageSize{16, 16};
+  options.threads = 1;
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera inside = scene.cameras.front();
+  Camera outside = inside;
+  outside.eye = scene.upper + (scene.upper - scene.lower) * 10.0f;
+  const auto enclosedFrom = [&](const Camera& camera) {
+    renderer.render(camera, film);
+    return renderer.parts().accel->enclosed();
+  };
+  EXPECT_TRUE(enclosedFrom(inside));
+  EXPECT_FALSE(enclosedFrom(outside));
+  EXPECT_TRUE(enclosedFrom(inside));
+  renderer.renderReference(outside, film);
+  EXPECT_FALSE(renderer.parts().accel->enclosed());
+}
+
+}  // namespace
+}  // namespace whit
