@@ -88,8 +88,8 @@ HWY_INLINE VF MipLevel(VF texels) {
 }
 
 // Not inlined: frames that do not mix levels shall not carry this along.
-HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live, const TexturePoints& at,
-                              size_t slot, MapQueue& queue) {
+inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live,
+                                     const TexturePoints& at, size_t slot, MapQueue& queue) {
   const FloatTag d;
   const IntTag di;
   queue.level.any[slot] = !hn::AllFalse(d, live);
@@ -136,7 +136,8 @@ struct MapHits {
 };
 
 // The second coordinates where the flags of the lane's material have `bySecond`.
-HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits, uint32_t bySecond) {
+inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits,
+                                     uint32_t bySecond) {
   const UintTag du;
   const TableReader reader(tables.materials.data(), kMaterialStride, hits.material, hits.live);
   const VU flags = hn::And(hn::BitCast(du, reader.Columns4(12).z), hn::Set(du, bySecond));
@@ -160,8 +161,8 @@ HWY_INLINE TexturePoints PointsAt(const ShadingTables& tables, const MapHits& hi
   return at;
 }
 
-HWY_NOINLINE void QueueEmissionByOwnUvs(const ShadingTables& tables, const MapHits& hits,
-                                        VF mapBits, size_t slot, BlockTextures& block) {
+inline HWY_NOINLINE void QueueEmissionByOwnUvs(const ShadingTables& tables, const MapHits& hits,
+                                               VF mapBits, size_t slot, BlockTextures& block) {
   const UvLanes uv = UvsOfMap(tables, hits, kMaterialEmissionBySecondUvs);
   QueueMap(tables, mapBits, hits.live, PointsAt(tables, hits, uv), slot, block.emission);
 }
@@ -172,8 +173,9 @@ struct NormalSpace {
   VF handedness, flip;
 };
 
-HWY_NOINLINE void QueueNormalByOwnUvs(const ShadingTables& tables, const MapHits& hits, VF mapBits,
-                                      const NormalSpace& space, size_t slot, BlockTextures& block) {
+inline HWY_NOINLINE void QueueNormalByOwnUvs(const ShadingTables& tables, const MapHits& hits,
+                                             VF mapBits, const NormalSpace& space, size_t slot,
+                                             BlockTextures& block) {
   const UvLanes uv = UvsOfMap(tables, hits, kMaterialNormalBySecondUvs);
   const TangentFrame frame =
       FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);

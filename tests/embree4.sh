@@ -16,7 +16,11 @@ sysroot=$root/build-embree4/debian13
 libraries=$sysroot/usr/lib/x86_64-linux-gnu
 # What meets rays, or differs with the width of vectors.
 areas=(render)
-if [ -z "${CXX:-}" ]; then areas+=(hard); fi
+batches=()
+case ${CXX:-} in
+  "") areas+=(hard) ;;
+  *clang*) batches=(-DCMAKE_UNITY_BUILD_BATCH_SIZE=0) ;;
+esac
 
 leaveOut() {
   echo "!! Embree 4 is NOT checked: $1" >&2
@@ -32,7 +36,7 @@ configure() {
   embree=$(echo "$libraries"/cmake/embree-4*)
   flags="-Wl,--allow-shlib-undefined,--disable-new-dtags,-rpath,$libraries"
   flags+=",--dynamic-linker,$libraries/ld-linux-x86-64.so.2"
-  cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_WERROR=ON \
+  cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_WERROR=ON "${batches[@]}" \
     -DWHIT_EMBREE=4 -Dembree_DIR="$embree" -Dhwy_DIR="$libraries/cmake/hwy" \
     -DCMAKE_EXE_LINKER_FLAGS="$flags" >/dev/null
 }

@@ -1,25 +1,22 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
-#   tests/run.sh           formatting, thread sanitizer, address and undefined-behaviour sanitizers
-#                          with Clang, fuzzing, MPI, Embree 4 with Clang in Release, the
+#   tests/run.sh           formatting, clang-tidy, thread sanitizer, address and undefined-behaviour
+#                          sanitizers with Clang, fuzzing, MPI, Embree 4 with Clang in Release, the
 #                          Debian package in a clean system, Release with warnings as errors
 #   tests/run.sh --quick   Release only
-#   tests/run.sh --all     every test of Clang's and g++'s other builds, clang-tidy and 64-bit ARM
-#                          under emulation as well (an hour more)
-#   tests/run.sh --tidy    clang-tidy over the sources as well (many minutes)
+#   tests/run.sh --all     every test of Clang's and g++'s other builds, a deeper clang-tidy and
+#                          64-bit ARM under emulation as well (an hour more)
 set -uo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root" || exit 1
 quick=false
-tidy=false
 all=false
 for word in "$@"; do
   case $word in
     --quick) quick=true ;;
-    --tidy) tidy=true ;;
     --all) all=true ;;
-    *) echo "tests/run.sh: unknown option '$word' (--quick, --tidy, --all)" >&2; exit 2 ;;
+    *) echo "tests/run.sh: unknown option '$word' (--quick, --all)" >&2; exit 2 ;;
   esac
 done
 failed=()
@@ -55,18 +52,6 @@ checkFormat() {
   fi
   find src simd tests viewer \( -name '*.cpp' -o -name '*.h' \) -print0 2>/dev/null |
     xargs -0 --no-run-if-empty clang-format --dry-run -Werror
-}
-
-# Several sources at a time, as they are compiled: headers take most of the time.
-checkTidy() {
-  if ! command -v run-clang-tidy >/dev/null; then
-    echo "!! clang-tidy is not installed: the sources are NOT checked by it" >&2
-    [ -z "${CI:-}" ]
-    return
-  fi
-  cmake --preset clang >/dev/null &&
-    run-clang-tidy -quiet -p build-clang -checks=-bugprone-suspicious-include \
-      "$root/(build-clang/src|build-clang/viewer|src|simd|viewer)/.*"
 }
 
 # buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
@@ -135,8 +120,11 @@ if ! $quick; then groups+=(check); fi
 if $all; then groups+=(wide); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 useCompilerCache
+deep=
+if $all; then deep=--deep; fi
 if ! $quick; then
   step "format" checkFormat
+  step "tidy" tests/tidy.sh $deep
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
@@ -152,7 +140,6 @@ elif ! $quick; then
   # Neither is that of the Release build below: both at once save a build.
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
 fi
-if $tidy || $all; then step "tidy" checkTidy; fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 

@@ -22,7 +22,7 @@ constexpr double kMessageSeconds = 4;
 
 }  // namespace
 
-App::App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
          std::optional<ScriptPlayer> script, Window& window)
     : options_(options),
       scene_(scene),

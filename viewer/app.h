@@ -18,7 +18,7 @@ namespace whit::view {
 
 class App {
  public:
-  App(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+  App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
       std::optional<ScriptPlayer> script, Window& window);
 
   // Until the user or the script quits. Errors are shown and survived; with a script that does not

@@ -74,11 +74,11 @@ void printLatency(const LatencyMeter& meter) {
               cli::quantile(frames, 1), frames.size());
 }
 
-void measureLatency(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+void measureLatency(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
                     Window& window) {
   std::string text;
   for (int round = 0; round < kLatencyRounds; ++round) text += kLatencyScript;
-  App app(options, std::move(scene), ScriptPlayer(parseScript(text, "benchmark")), window);
+  App app(options, scene, ScriptPlayer(parseScript(text, "benchmark")), window);
   app.run();
   printLatency(app.latency());
 }
@@ -110,11 +110,11 @@ void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window
 
 }  // namespace
 
-void runBenchmark(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+void runBenchmark(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
                   Window& window) {
   window.setVsync(false);
   flyBenchmark(options, *scene, window);
-  measureLatency(options, std::move(scene), window);
+  measureLatency(options, scene, window);
 }
 
 void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& window) {

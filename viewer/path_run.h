@@ -15,7 +15,7 @@ namespace whit::view {
 // Shows kBenchmarkFrames frames along the path (around the point looked at, if there is none) as
 // fast as they come, and prints to standard output what tracing and displaying took. Then presses
 // keys at rest and in motion, and prints how soon the picture changed.
-void runBenchmark(const ViewOptions& options, std::shared_ptr<cli::OpenScene> scene,
+void runBenchmark(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
                   Window& window);
 inline constexpr int kBenchmarkFrames = 120;
 

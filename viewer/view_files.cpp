@@ -31,7 +31,7 @@ std::string freeName(const std::string& scene) {
   for (int i = 1; i <= kPictureLimit; ++i) {
     char number[16];
     std::snprintf(number, sizeof number, "%04d", i);
-    const std::string name = scene + "-" + number;
+    std::string name = scene + "-" + number;
     const auto taken = [&](const char* extension) {
       return std::filesystem::exists(name + extension);
     };
@@ -82,7 +82,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
 
 std::string savePicture(const TracedFrame& frame, const std::string& command) {
   const cli::WriteScope scope;
-  const std::string name = freeName(frame.scene->scene.name);
+  std::string name = freeName(frame.scene->scene.name);
   cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
   cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
   writeCamera(name + ".json", frame.request.camera, command);

@@ -31,7 +31,8 @@ std::vector<Box> candidates(const LabelRequest& r, double gap) {
   centred(r.x - gap - w / 2, r.y);
   centred(r.x, r.y - gap - h / 2);
   centred(r.x, r.y + gap + h / 2);
-  for (double away = gap + 4; away < 150; away += 6) {
+  for (int ring = 0; ring < 24; ++ring) {
+    const double away = gap + 4 + 6 * ring;
     for (int step = 0; step < 16; ++step) {
       const double angle = step * 3.14159265358979 / 8;
       const double c = std::cos(angle), s = std::sin(angle);
@@ -46,6 +47,7 @@ std::vector<Box> candidates(const LabelRequest& r, double gap) {
 std::vector<PlacedLabel> placeLabels(const std::vector<LabelRequest>& requests, const Box& area,
                                      double pointRadius) {
   std::vector<Box> taken;
+  taken.reserve(2 * requests.size());
   for (const LabelRequest& r : requests)
     taken.push_back(shifted({-pointRadius, -pointRadius, pointRadius, pointRadius}, r.x, r.y));
   std::vector<PlacedLabel> placed;

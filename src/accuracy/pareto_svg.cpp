@@ -25,8 +25,9 @@ struct LogScale {
 
 std::vector<double> ticksBetween(double least, double most) {
   std::vector<double> ticks;
-  for (double decade = std::pow(10, std::floor(std::log10(least)) - 1); decade <= most;
-       decade *= 10) {
+  const int last = static_cast<int>(std::floor(std::log10(most)));
+  for (int power = static_cast<int>(std::floor(std::log10(least))) - 1; power <= last; ++power) {
+    const double decade = std::pow(10, power);
     for (const double step : {1.0, 2.0, 5.0}) {
       const double tick = step * decade;
       if (tick >= least * 0.999 && tick <= most * 1.001) ticks.push_back(tick);

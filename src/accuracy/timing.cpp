@@ -8,8 +8,8 @@ namespace {
 
 std::vector<double> timeBlock(FrameSource& source, const Rounds& rounds) {
   for (int i = 0; i < rounds.warmUp; ++i) source.render();
-  std::vector<double> ms;
-  for (int i = 0; i < rounds.frames; ++i) ms.push_back(source.render().frameMs);
+  std::vector<double> ms(static_cast<std::size_t>(rounds.frames));
+  for (double& frame : ms) frame = source.render().frameMs;
   return ms;
 }
 

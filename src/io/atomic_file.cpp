@@ -37,7 +37,7 @@ std::string createBeside(const std::string& path) {
   for (;;) {
     const std::string name =
         ".whit-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
-    const std::string temporary = (folder / name).string();
+    std::string temporary = (folder / name).string();
     const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file >= 0) {
       ::close(file);

@@ -12,7 +12,7 @@
 
 namespace whit {
 
-struct GltfFile {
+struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string name;  // for errors
   Json json;         // an object
   bool hasBinary = false;

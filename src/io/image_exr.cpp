@@ -161,7 +161,7 @@ ExrPixels decodeExr(const std::string& path, const ImageLimits& limits) {
     const Layout layout = layoutOf(path, header);
     const std::size_t channels = layout.channels.size();
     checkSizes(path, header, channels, limits);
-    const Box2i display = header.displayWindow(), data = header.dataWindow();
+    const Box2i &display = header.displayWindow(), &data = header.dataWindow();
     const Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
                      {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
     if (kept.isEmpty()) throwBadScene(path, "its data window lies outside its display window");

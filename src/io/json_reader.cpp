@@ -103,7 +103,7 @@ std::string JsonValue::text() const {
 
 std::string JsonValue::word(const std::vector<std::string>& choices) const {
   if (isText()) {
-    const std::string chosen = text();
+    std::string chosen = text();
     if (std::find(choices.begin(), choices.end(), chosen) != choices.end()) return chosen;
   }
   std::string list;

@@ -19,7 +19,7 @@ inline constexpr double kLargestNumber = 1e18;
 
 // What all values of one file share. Numbers may be written "$name", "$name*0.5" or "$name/2", with
 // a parameter's name.
-struct JsonDocument {
+struct JsonDocument {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string file;
   Json root;
   std::map<std::string, double> parameters;

@@ -125,7 +125,7 @@ class Normaliser {
     std::string options;
     std::size_t at = 1;
     while (at < words.size() && words[at].size() > 1 && words[at][0] == '-') {
-      const std::string option = words[at];
+      const std::string& option = words[at];
       const std::size_t most = option == "-s" || option == "-o" || option == "-t" ? 3
                                : option == "-mm"                                  ? 2
                                                                                   : 1;

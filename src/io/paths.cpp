@@ -101,7 +101,7 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
   } else {
     path = folder / text;
   }
-  const fs::path result = realPath(path);
+  fs::path result = realPath(path);
   if (!allowOutside_ && !inside(result)) {
     throwBadScene(where, "\"" + text +
                              "\" leaves the scene's folder and $WHIT_DATA (--allow-outside "
@@ -151,11 +151,11 @@ SceneName parseSceneName(const std::string& name) {
 }
 
 fs::path findScene(const std::string& file, const std::string& shippedScenes) {
-  const fs::path path(file);
+  fs::path path(file);
   if (path.has_extension() || path.has_parent_path()) return path;
   const std::vector<fs::path> folders = sceneFolders(shippedScenes);
   for (const fs::path& folder : folders) {
-    const fs::path candidate = folder / (file + ".json");
+    fs::path candidate = folder / (file + ".json");
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate;
   }

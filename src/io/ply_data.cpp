@@ -71,8 +71,8 @@ double PlyData::binaryNumber(PlyType type) {
 std::uint64_t PlyData::listLength(const PlyProperty& property) {
   const double length = number(property.countType);
   const std::size_t least = format_ == PlyHeader::Format::ascii ? 2 : bytesOf(property.type);
-  const double most = static_cast<double>((text_.size() - at_ + 1) / least);
-  if (!(length >= 0 && length <= most)) {
+  const std::size_t most = (text_.size() - at_ + 1) / least;
+  if (!(length >= 0 && length <= static_cast<double>(most))) {
     throwBadScene(place(), "expected a list that fits into the rest of the file");
   }
   return static_cast<std::uint64_t>(length);

@@ -58,6 +58,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
   const auto found = entries.find(name.text());
   if (found != entries.end()) return found;
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const auto& [known, entry] : entries) names.push_back(known);
   const std::string nearest = nearestName(name.text(), names);
   name.fail("the name of a " + kind +

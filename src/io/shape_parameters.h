@@ -41,6 +41,7 @@ class JsonShapeParameters : public ShapeParameters {
 template <typename Generator>
 Generator findGenerator(const JsonValue& name, const std::map<std::string, Generator>& generators) {
   std::vector<std::string> names;
+  names.reserve(generators.size());
   for (const auto& [known, generator] : generators) names.push_back(known);
   return generators.at(name.word(names));
 }

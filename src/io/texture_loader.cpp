@@ -57,6 +57,7 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
   }
   if (!newUses.empty()) {
     std::vector<std::optional<Texture>*> targets;
+    targets.reserve(newSlots.size());
     for (const std::int32_t slot : newSlots) {
       targets.push_back(&slots_[static_cast<std::size_t>(slot)]);
     }

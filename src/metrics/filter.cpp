@@ -32,9 +32,10 @@ Plane filterAlongY(const Plane& plane, const Taps& taps) {
   const int radius = static_cast<int>(taps.size() / 2);
   Plane out(plane.width, plane.height);
   for (int y = 0; y < plane.height; ++y) {
-    for (int i = -radius; i <= radius; ++i)
-      addScaled(out.row(y), plane.row(std::clamp(y + i, 0, plane.height - 1)),
-                taps[static_cast<std::size_t>(i + radius)], plane.width);
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+      const int from = y - radius + static_cast<int>(i);
+      addScaled(out.row(y), plane.row(std::clamp(from, 0, plane.height - 1)), taps[i], plane.width);
+    }
   }
   return out;
 }

@@ -41,6 +41,7 @@ std::vector<double> exposuresFor(const Image& reference) {
   const double stop = std::log2(target / quantile(lit, 0.5));
   const int count = std::max(2, static_cast<int>(std::ceil(stop - start)));
   std::vector<double> exposures;
+  exposures.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) exposures.push_back(start + (stop - start) * i / (count - 1));
   return exposures;
 }

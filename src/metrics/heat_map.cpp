@@ -51,10 +51,9 @@ class ScalePainter {
   void set(int x, int y, const Colour& colour) {
     for (int dy = 0; dy < zoom_; ++dy)
       for (int dx = 0; dx < zoom_; ++dx) {
-        const std::size_t row = static_cast<std::size_t>(top_ + y * zoom_ + dy);
-        const std::size_t column = static_cast<std::size_t>(x * zoom_ + dx);
-        std::copy(colour.begin(), colour.end(),
-                  image_.rgba.data() + 4 * (row * static_cast<std::size_t>(image_.width) + column));
+        const int row = top_ + y * zoom_ + dy, column = x * zoom_ + dx;
+        const std::size_t pixel = static_cast<std::size_t>(row) * image_.width + column;
+        std::copy(colour.begin(), colour.end(), image_.rgba.data() + 4 * pixel);
       }
   }
 

@@ -49,8 +49,9 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
     squares += static_cast<std::uint64_t>(d * d);
   }
   if (squares == 0) return std::numeric_limits<double>::infinity();
-  const double values = static_cast<double>(a.rgba.size() / 4 * 3);
-  return 10 * std::log10(255.0 * 255.0 * values / static_cast<double>(squares));
+  const std::size_t values = a.rgba.size() / 4 * 3;
+  return 10 *
+         std::log10(255.0 * 255.0 * static_cast<double>(values) / static_cast<double>(squares));
 }
 
 void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference& difference) {

@@ -75,10 +75,11 @@ std::array<std::size_t, kPilotSamples> choosePilots(const std::vector<Vec2f>& sa
 }  // namespace
 
 std::vector<Vec2f> samplePattern(int spp) {
-  const std::vector<Vec2f> samples = rooks(spp);
+  std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kPilotSamples) return samples;
   const auto pilots = choosePilots(samples);
   std::vector<Vec2f> ordered;
+  ordered.reserve(samples.size());
   for (const std::size_t pilot : pilots) ordered.push_back(samples[pilot]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (std::find(pilots.begin(), pilots.end(), i) == pilots.end()) ordered.push_back(samples[i]);

@@ -38,10 +38,10 @@ inline Mesh unshared(const Mesh& mesh) {
 inline Mesh grid() {
   Mesh mesh;
   mesh.materials = {0};
-  constexpr int kCells = 64;
+  constexpr int kCells = 64, kHalf = kCells / 2;
   for (int y = 0; y <= kCells; ++y) {
     for (int x = 0; x <= kCells; ++x) {
-      mesh.positions.emplace_back(Vec3d(x - kCells / 2, 0, y - kCells / 2));
+      mesh.positions.emplace_back(Vec3d(x - kHalf, 0, y - kHalf));
     }
   }
   for (std::uint32_t y = 0; y < kCells; ++y) {

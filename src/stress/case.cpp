@@ -54,7 +54,7 @@ std::vector<Setup> setupsOf(Runs runs) {
 
 Finding runCase(const Case& c, const Setup& setup) {
   simd::chooseTarget(setup.simd);
-  const Finding finding = c.run(setup);
+  Finding finding = c.run(setup);
   simd::chooseTarget("auto");
   return finding;
 }

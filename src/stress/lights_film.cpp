@@ -64,6 +64,7 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   Finding finding(0);
   SceneBuilder builder;
   std::vector<std::uint32_t> texels;
+  texels.reserve(static_cast<std::size_t>(width));
   for (int i = 0; i < width; ++i) texels.push_back(i % 2 ? 0x3fffffffu : 0u);
   Texture texture = makeTexture(TexelFormat::colour, width, 1, texels);
   texture.wrapU = texture.wrapV = wrap;

@@ -43,6 +43,7 @@ Finding lengthAfter64Reflections(const Setup& setup) {
   const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), mirrorMaterial(1));
   Numbers numbers(52);
   std::vector<ProbeRay> rays;
+  rays.reserve(64);
   for (int i = 0; i < 64; ++i) rays.push_back({{0.1f, 0.2f, 0.3f}, Vec3f(numbers.direction())});
   Probe probe(scene, setup);
   for (int bounce = 0; bounce < 64; ++bounce) {

@@ -220,6 +220,7 @@ Finding slabShift(const Setup& setup) {
   Probe probe(scene, setup);
   const Vec3d d{std::sqrt(0.75), -0.5, 0};
   std::vector<ProbeRay> rays;
+  rays.reserve(64);
   for (int i = 0; i < 64; ++i) {
     rays.push_back({Vec3f(Vec3d{-1 + i / 64.0, 1, i / 40.0 - 0.8}), Vec3f(d)});
   }
