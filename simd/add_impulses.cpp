@@ -78,7 +78,6 @@ HWY_INLINE Interface InterfaceOf(const ShadingTables& tables, const ImpulseLanes
                              ior(hn::Load(du, surfels.mediaBehind + i)), lanes.cosine);
 }
 
-// Appends the children of the lanes that are worth tracing; returns how many.
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
@@ -86,6 +85,7 @@ struct Child {
   VF cone;
 };
 
+// Appends the children of the lanes that are worth tracing; returns how many.
 HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayColumns& rays,
                          size_t i, const RayColumns& children, size_t at) {
   const FloatTag d;
@@ -122,7 +122,8 @@ HWY_INLINE VF ConesAt(const SurfelColumns& surfels, size_t i) {
   return surfels.cone ? hn::Load(d, surfels.cone + i) : hn::Zero(d);
 }
 
-// A reflected direction, lifted where a bent normal would send it below the surface (numerics H32).
+// A reflected direction, lifted where a bent normal would send it below the surface (hard case
+// H32).
 HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
   const FloatTag d;
   const VF height = Dot(r, ng);
@@ -220,10 +221,9 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
   return count - first;
 }
 
-size_t AddRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
+size_t AddRefractions(const ShadingTables& tables, EffectSet /*effects*/, float cutoff,
                       const RayColumns& rays, const SurfelColumns& surfels, size_t n,
                       const RayColumns& children, size_t first) {
-  (void)effects;
   const FloatTag d;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f);

@@ -1,5 +1,5 @@
 // Dielectric reflectance in factored form: no difference of nearly equal numbers, exact for ior
-// ratios near and at 1 (numerics H37-H41).
+// ratios near and at 1 (hard cases H37-H41).
 #if defined(WHIT_SIMD_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_FRESNEL_INL_H_
 #undef WHIT_SIMD_FRESNEL_INL_H_

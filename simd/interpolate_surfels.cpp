@@ -27,7 +27,6 @@ constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
 HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VF mediumBits,
                            MF entering, size_t i, const SurfelColumns& surfels) {
   const UintTag du;
-  const FloatTag d;
   const VU stack = hn::Load(du, rays.media + i);
   const VU medium = hn::BitCast(du, mediumBits);
   const auto dielectric = hn::Ne(medium, hn::Zero(du));
@@ -39,7 +38,6 @@ HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, 
   hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,
             surfels.flags + i);
   hn::Store(behind, du, surfels.mediaBehind + i);
-  (void)d;
 }
 
 // exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.

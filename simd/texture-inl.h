@@ -20,7 +20,7 @@ struct AxisTexels {
 };
 
 // `s` in texture coordinates, `size` in texels. Indices are in range for every finite s, also where
-// rounding takes s - floor(s) to exactly 1 (numerics H69).
+// rounding takes s - floor(s) to exactly 1 (hard case H69).
 HWY_INLINE AxisTexels RepeatAxis(VF s, VF size) {
   const FloatTag d;
   const IntTag di;

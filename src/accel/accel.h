@@ -66,7 +66,7 @@ class Accel {
                     TraceMeter& meter) const noexcept;
 
   // Robust traversal lets no ray through an edge, but about one in a thousand through a corner that
-  // it meets exactly (numerics H14). In a scene that is closed around its cameras rays that find
+  // it meets exactly (hard case H14). In a scene that is closed around its cameras rays that find
   // nothing are therefore traced again, one by one, in directions a unit in the last place away:
   // there they are so rare that it costs nothing. They count once. Not while tracing.
   void setEnclosed(bool enclosed) { enclosed_ = enclosed; }

@@ -1,5 +1,5 @@
 // Rays that Embree cannot take: it ends the program at a NaN or beyond its range of coordinates
-// (numerics H28).
+// (hard case H28).
 #pragma once
 
 #include <cmath>

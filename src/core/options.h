@@ -1,6 +1,5 @@
 // Every option of a render, declared once: forEachOption() is visited by the command-line parser,
-// by
-// --help, and by the metadata written into images, so that none of them can disagree.
+// by --help, and by the metadata written into images, so that none of them can disagree.
 #pragma once
 
 #include <array>

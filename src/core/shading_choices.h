@@ -18,10 +18,10 @@ enum class TextureFilter { nearest, bilinear, trilinear };
 
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {
-  // The surfel's own bound on the rounding error of its position (numerics of makeSurfel). On the
+  // The surfel's own bound on the rounding error of its position (see makeSurfel). On the
   // viewer's side, kTowardsViewer of it back along the ray as well: the way there is clear, so a
   // point that has been rounded onto or beyond a wall which meets the surface in an edge comes back
-  // inside of that, and no light leaks in (numerics H7).
+  // inside of that, and no light leaks in (hard case H7).
   bound,
   // kFixedOffset, whatever the size of the scene.
   fixed,
@@ -52,7 +52,7 @@ struct ShadingChoices {
   bool terminator = false;
 
   // Impulses that a bent shading normal sends to the wrong side of the surface are turned back to
-  // the right one (numerics H32); else they start into the solid, or out of it.
+  // the right one (hard case H32); else they start into the solid, or out of it.
   bool bend = true;
 
   // For normals, and the directions of impulses and to the lights: once or twice a surfel, light

@@ -7,7 +7,7 @@
 namespace whit::reference {
 
 // The media whose surfaces a ray from the point leaves without having entered them first, the one
-// left first in the low byte; at most four (numerics H47). 0 without Effect::transmission.
+// left first in the low byte; at most four (hard case H47). 0 without Effect::transmission.
 MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
                        const Vec3d& point);
 

@@ -26,7 +26,7 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
                       const ShadingChoices& choices = {});
 
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
-// below: shading normals would send some through to the wrong side (numerics: H32). Less than the
+// below: shading normals would send some through to the wrong side (hard case H32). Less than the
 // viewer's own elevation, so that reflections are left alone where the normals agree; of refracted
 // rays, those are moved that leave a dense medium within 0.6 degrees of the surface.
 double smallestElevation(const Surfel& surfel);

@@ -41,7 +41,7 @@ struct TextureLookup {
 // from the viewer, or disagree with the geometric one about a light; whoever uses it must check.
 //
 // `offset` bounds the rounding error of a float hit point interpolated from float corners:
-// 32 * 2^-24 times the sum of the magnitudes that go into it (numerics: H1-H4; after the error
+// 32 * 2^-24 times the sum of the magnitudes that go into it (hard cases H1-H4; after the error
 // bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
                   const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup = {});

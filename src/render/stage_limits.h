@@ -13,7 +13,7 @@ inline constexpr double kPositionLimit = 4;   // three products, against the lar
 inline constexpr double kLiftLimit = 8;       // three products of two positions' difference
 inline constexpr double kNormalLimit = 4;  // cross product by differences of products, normalised
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
-// the contrast between two of them it is a visible number of ulps of the colour (numerics H68).
+// the contrast between two of them it is a visible number of ulps of the colour (hard case H68).
 inline constexpr double kTexturedLimit = 4096;
 inline constexpr double kSkyLimit = 512;  // likewise, for azimuth and elevation
 // A footprint that is wrong by so many ulps moves the lookup between mip levels, whose contrast may

@@ -32,7 +32,7 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time);
 // What the ray generator needs, worked out once a frame in double: the direction through image
 // position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
 // normalised. Directions never come from a difference of world positions, so a camera far from the
-// origin loses nothing (numerics: H75). Orthographic rays have the direction forward and start as
+// origin loses nothing (hard case H75). Orthographic rays have the direction forward and start as
 // far aside of the eye.
 struct CameraFrame {
   Vec3d eye, forward, right, up;

@@ -8,7 +8,7 @@ namespace whit {
 namespace {
 
 // From here on a float has 19 bits or fewer for the fraction: less than 1/32 texel at 16384 texels
-// (numerics H68).
+// (hard case H68).
 constexpr float kFarUv = 16;
 
 void recentre(float* coordinate) {

@@ -17,7 +17,7 @@ struct MaterialUse {
 MaterialUse useOf(const Material& material, const std::vector<Texture>& textures);
 
 // Twice the area along the normal. Differences of floats and their products lose next to nothing in
-// double, so that zero means collinear corners (numerics H23, H24).
+// double, so that zero means collinear corners (hard cases H23, H24).
 inline Vec3d areaVector(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const Vec3d origin(a);
   return cross(Vec3d(b) - origin, Vec3d(c) - origin);

@@ -85,7 +85,7 @@ struct Groups {
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
-// must start (numerics H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
+// must start (hard cases H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
 // refracted child; the material's emission is multiplied by `emission`; `lift` is added to the
 // position where shadow rays start; `cone` is the width that the ray's cone has reached, and its
 // children's start with.

@@ -1,4 +1,4 @@
-// Refracted impulses through slabs and stacks of slabs (numerics H10, H38, H42, H44, H45).
+// Refracted impulses through slabs and stacks of slabs (hard cases H10, H38, H42, H44, H45).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -125,7 +125,7 @@ TEST_F(NestedTest, GapHoldsVacuum) {
               shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 0.75}}), kOffsetsOfFourFaces);
 }
 
-// numerics H44, up to the rounding of one sum.
+// Hard cases H44, up to the rounding of one sum.
 TEST(Energy, ReflectedAndRefractedAddUpToOne) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, builder.add(glassMaterial(1.5f))));
@@ -175,7 +175,7 @@ TEST(Energy, RefractedRaysGoThrough) {
   EXPECT_GT(turnedBack, 100) << "the sweep was meant to reach the case";
 }
 
-// numerics H38: glass of the vacuum's index is not there at all, bit for bit.
+// Hard case H38: glass of the vacuum's index is not there at all, bit for bit.
 TEST(IndexOne, IsInvisible) {
   SceneBuilder builder;
   builder.add(test::box({-1, -1, -1}, {1, 1, 1}, builder.add(glassMaterial(1))));

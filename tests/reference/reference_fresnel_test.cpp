@@ -1,4 +1,4 @@
-// Fresnel's and Snell's laws (numerics H37-H41).
+// Fresnel's and Snell's laws (hard cases H37-H41).
 #include "reference/fresnel.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(Fresnel, IsReciprocal) {
   }
 }
 
-// numerics H38
+// Hard case H38
 TEST(Fresnel, EqualIndicesDoNothing) {
   const Vec3d n{0, 1, 0};
   for (const double c : {0.0, 1e-300, 1e-9, 1e-4, 0.5, 1.0}) {
@@ -64,7 +64,7 @@ TEST(Fresnel, EqualIndicesDoNothing) {
   }
 }
 
-// numerics H39: nearly equal indices keep all digits, 1e-12 relative.
+// Hard case H39: nearly equal indices keep all digits, 1e-12 relative.
 TEST(Fresnel, NearlyEqualIndices) {
   for (const double delta : {1e-4, 1e-5, 1e-7}) {
     for (const double c : {0.01, 0.3, 1.0}) {
@@ -75,7 +75,7 @@ TEST(Fresnel, NearlyEqualIndices) {
   }
 }
 
-// numerics H37
+// Hard case H37
 TEST(Fresnel, CriticalAngle) {
   const double critical = std::sqrt(1 - 1 / (1.5 * 1.5));
   EXPECT_NEAR(critical, 0.745355992500, 1e-12);
@@ -133,7 +133,7 @@ TEST(Reflection, TurnsOverTheNormalPart) {
   }
 }
 
-// numerics H52
+// Hard case H52
 TEST(Reflection, KeepsUnitLength) {
   test::Numbers numbers(7);
   Vec3d d = numbers.direction();

@@ -1,4 +1,4 @@
-// Glass in a white room, and tinted glass (numerics H43, H49, H50).
+// Glass in a white room, and tinted glass (hard cases H43, H49, H50).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using test::SceneBuilder;
 using test::steep;
 
 // Light that comes in at normal incidence: all of it comes back, save what is still inside at the
-// deepest impulse (numerics H43).
+// deepest impulse (hard case H43).
 TEST(Furnace, SlabLosesOnlyTheTail) {
   SceneBuilder builder;
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
@@ -62,7 +62,7 @@ TEST(Furnace, BoxVanishes) {
 // magnitudes, at most 4 + 1 + 4.
 constexpr double kOffsetsOfTwoFaces = 2 * 32 * 9 / 16777216.0;
 
-// numerics H50: exp(-sigma * length of the path inside).
+// Hard case H50: exp(-sigma * length of the path inside).
 TEST(Absorption, DependsOnThePathInside) {
   SceneBuilder builder;
   Material tinted = glassMaterial(1);
@@ -82,7 +82,7 @@ TEST(Absorption, DependsOnThePathInside) {
   }
 }
 
-// An interface without a far side: absorbed is what is absorbed at all (numerics H49).
+// An interface without a far side: absorbed is what is absorbed at all (hard case H49).
 TEST(Absorption, OpenSurfaceLeadsToInfinity) {
   SceneBuilder builder;
   Material tinted = glassMaterial(1);

@@ -64,7 +64,7 @@ TEST(GenerateRay, PassesThroughTheImagePlane) {
   EXPECT_LT(length(towards(200, 100) - Vec3d{0, 0, -1}), 1e-15);
 }
 
-// numerics H76
+// Hard case H76
 TEST(Pixel, MeanOfEqualSamplesIsExact) {
   SceneBuilder builder;
   builder.sky(0.1f);
@@ -144,7 +144,7 @@ TEST(Render, CropIsPartOfTheImage) {
   EXPECT_EQ(progress.last, 1);
 }
 
-// Scaling everything by a power of two changes not one bit (numerics H61a).
+// Scaling everything by a power of two changes not one bit (hard case H61a).
 TEST(Render, PowerOfTwoScaleChangesNothing) {
   const Scene scene = stillLife();
   Image original(20, 12);

@@ -1,4 +1,4 @@
-// Reflected impulses: directions, weights, depth and cutoff (numerics H10, H32, H52, H62, H64,
+// Reflected impulses: directions, weights, depth and cutoff (hard cases H10, H32, H52, H62, H64,
 // H79).
 #include "reference/impulses.h"
 
@@ -57,7 +57,7 @@ TEST(Mirror, StartsAboveTheSurface) {
   EXPECT_NEAR(found.reflected.ray.direction.y, 0.8, 1e-15);
 }
 
-// numerics H79: no view is too flat.
+// Hard case H79: no view is too flat.
 TEST(Mirror, GrazingViewsReflectUpwards) {
   const Scene scene = sceneOf(mirrorMaterial(1));
   for (const double elevation : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9}) {
@@ -68,7 +68,7 @@ TEST(Mirror, GrazingViewsReflectUpwards) {
   }
 }
 
-// numerics H32: a tilted shading normal never sends light into the surface.
+// Hard case H32: a tilted shading normal never sends light into the surface.
 TEST(Lift, KeepsReflectionsAboveTheSurface) {
   const Scene scene = sceneOf(mirrorMaterial(1));
   test::Numbers numbers(11);
@@ -105,7 +105,7 @@ TEST(Lift, IsContinuousAndIdempotent) {
   EXPECT_EQ(lifted(flat, up, 0.01), flat) << "not a bit changes where nothing is to be done";
 }
 
-// numerics H33
+// Hard case H33
 TEST(Lift, ViewBehindTheShadingNormal) {
   Material m = mirrorMaterial(0.5f);
   m.transmission = Rgb(1.0f);
@@ -138,7 +138,7 @@ TEST(MirrorFloor, ShowsTheSkyUpsideDown) {
   }
 }
 
-// A closed box of glowing mirrors: a geometric series in the reflectance (numerics H62).
+// A closed box of glowing mirrors: a geometric series in the reflectance (hard case H62).
 class HallOfMirrors : public ::testing::Test {
  protected:
   static Scene hall(float reflectance) {
@@ -171,7 +171,8 @@ TEST_F(HallOfMirrors, SumsTheSeries) {
   }
 }
 
-// numerics H64: what contributes less than the cutoff is not traced, and no more than that is lost.
+// Hard case H64: what contributes less than the cutoff is not traced, and no more than that is
+// lost.
 TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
   const Scene scene = hall(0.5f);
   Settings settings = test::uncut(64);
@@ -188,7 +189,7 @@ TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
   EXPECT_EQ(seenWith(2, 0), 1);
 }
 
-// Towards edges and corners, off by less than a float can tell (numerics H7). Exactly on an edge
+// Towards edges and corners, off by less than a float can tell (hard case H7). Exactly on an edge
 // the reflected ray would start on the other wall, which it then does not meet.
 TEST_F(HallOfMirrors, CornersDoNotLeak) {
   const Scene scene = hall(1);

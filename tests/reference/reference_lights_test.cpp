@@ -61,7 +61,7 @@ TEST(Lights, AddUpAndKeepTheirColours) {
   EXPECT_NEAR(seen.z, 0.25 / kPi * 3, 1e-12);
 }
 
-// numerics H65: near the light its radius bounds the radiance; at the light there is none.
+// Hard case H65: near the light its radius bounds the radiance; at the light there is none.
 TEST(Lights, NearTheSurfaceStayFinite) {
   for (const float height : {1e-2f, 1e-6f, 1e-30f, 0.0f}) {
     SceneBuilder builder;
@@ -88,7 +88,7 @@ TEST(Lights, BehindTheSurfaceGiveNothing) {
   EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
 }
 
-// numerics H36: both normals must see the light.
+// Hard case H36: both normals must see the light.
 TEST(Lights, BehindEitherNormalGiveNothing) {
   Surfel s;
   s.diffuse = RgbD(1.0);
@@ -144,7 +144,7 @@ TEST_F(ShadowTest, GlassCastsOne) {
   EXPECT_EQ(seenAt(screenWith(test::glassMaterial(1.5f)), -3), 0);
 }
 
-// numerics H8: a light on a ceiling lights the floor; one just behind it does not.
+// Hard case H8: a light on a ceiling lights the floor; one just behind it does not.
 TEST(Shadows, LightOnASurface) {
   for (const float height : {2.0f, std::nextafter(2.0f, 1.0f), 2.001f}) {
     SceneBuilder builder;
@@ -157,7 +157,7 @@ TEST(Shadows, LightOnASurface) {
   }
 }
 
-// numerics H6, H7, H66: no light leaves a closed box, none comes in, and inside all is lit.
+// Hard cases H6, H7, H66: no light leaves a closed box, none comes in, and inside all is lit.
 TEST(Shadows, ClosedBoxesAreTight) {
   test::Numbers numbers(9);
   SceneBuilder inside, outside;

@@ -78,7 +78,7 @@ TEST(Surfel, InterpolatesNormals) {
                    0);
 }
 
-// numerics H34: where normals cancel, the face's serves.
+// Hard case H34: where normals cancel, the face's serves.
 TEST(Surfel, CancellingNormals) {
   SceneBuilder builder;
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
@@ -87,7 +87,7 @@ TEST(Surfel, CancellingNormals) {
   expectVectorNear(s.shadingNormal, {0, 1, 0}, 0);
 }
 
-// Facing is decided by the geometric normal alone (numerics H33).
+// Facing is decided by the geometric normal alone (hard case H33).
 TEST(Surfel, ShadingNormalMayLookAway) {
   SceneBuilder builder;
   const Vec3f tilted{0.8f, 0.6f, 0};
@@ -172,7 +172,7 @@ TEST_F(NormalMapTest, MirroredInstance) {
                    {0, 0.8, -0.6}, kCoding);
 }
 
-// numerics H11: an instance is its mesh, moved beforehand.
+// Hard case H11: an instance is its mesh, moved beforehand.
 TEST(Surfel, InstancesMatchBakedGeometry) {
   const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
                      Affine::scaling({-1000, 0.5, 2});

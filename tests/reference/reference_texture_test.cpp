@@ -1,4 +1,4 @@
-// Bilinear lookups (numerics H68, H69).
+// Bilinear lookups (hard cases H68, H69).
 #include "reference/texture_sampling.h"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ TEST(Triangle, MissesBesideAndBehind) {
   EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {0, 0, 1}}, kUnit)) << "t = 0 is no hit";
 }
 
-// numerics H21
+// Hard case H21
 TEST(Triangle, RayInThePlaneMisses) {
   EXPECT_FALSE(intersectTriangle({{-1, 0.25, 0}, {1, 0, 0}}, kUnit));
   EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {1, 0, 0}}, kUnit));
@@ -74,8 +74,8 @@ Mesh facetedSphere(const Vec3d& centre, double radius, int rings, int sectors) {
   return mesh;
 }
 
-// numerics H12-H14: from inside a closed mesh every ray hits, also through edges and corners, also
-// far from the origin.
+// Hard cases H12-H14: from inside a closed mesh every ray hits, also through edges and corners,
+// also far from the origin.
 TEST(Triangle, ClosedMeshHasNoGaps) {
   for (const Vec3d& centre : {Vec3d{0, 0, 0}, Vec3d{148376, 1234, -223423}}) {
     SceneBuilder builder;
@@ -102,7 +102,7 @@ TEST(Triangle, ClosedMeshHasNoGaps) {
   }
 }
 
-// numerics H3: the point by weights lies on the triangle, whatever the distance of the eye.
+// Hard case H3: the point by weights lies on the triangle, whatever the distance of the eye.
 TEST(Triangle, RefinedHitStaysOnTheTriangle) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 0.5f, 0));

@@ -89,7 +89,7 @@ TEST_F(SpotLight, ShinesAlongItsDirectionOfAnyLength) {
   EXPECT_EQ(seenAt(light, 33), 0);
 }
 
-// numerics H67: cosines within a few ulps of the edges, and cones so narrow that they have no
+// Hard case H67: cosines within a few ulps of the edges, and cones so narrow that they have no
 // width.
 TEST(SpotCone, H67_fallsOffMonotonicallyBetweenItsCones) {
   for (const auto& [inner, outer] : {std::pair(0.0f, 90.0f), std::pair(44.999f, 45.0f),
@@ -144,7 +144,7 @@ TEST(DirectionalLight, ShadowsReachToTheEndOfTheScene) {
   }
 }
 
-// numerics H67: at a right angle to the surface, and from behind it.
+// Hard case H67: at a right angle to the surface, and from behind it.
 TEST(DirectionalLight, H67_givesNothingFromTheHorizonOrBelow) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));

@@ -1,4 +1,4 @@
-// --terminator: where the light ends on a smooth surface of flat facets (numerics H35).
+// --terminator: where the light ends on a smooth surface of flat facets (hard case H35).
 #include <gtest/gtest.h>
 
 #include <cmath>
