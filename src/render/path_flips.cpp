@@ -123,6 +123,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
                                            SignatureObserver(film.image.window, p.plan.traceShadows,
                                                              p.plan.groups.instances, signatures));
   std::vector<StageObserver*> onlookers;
+  onlookers.reserve(observers.size());
   for (SignatureObserver& observer : observers) onlookers.push_back(&observer);
   p.renderObserved(job, onlookers);
   PathComparison result{scratch.image, reference.image, {}, 0};
