@@ -131,7 +131,7 @@ void Accel::checkShadows(const ShadowColumns& shadows, std::size_t n, bool coher
                                      shadows.dirY, shadows.dirZ, shadows.tFar};
     meter.log->append(true, coherent, columns, n);
   }
-  switch (parts_->packet) {
+  switch (parts_->shadowPacket(coherent)) {
     case 16:
       return traceShadows<16>(parts_->embree, shadows, n, coherent, visible, meter);
     case 8:

@@ -64,9 +64,9 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   const auto has = [this](RTCDeviceProperty what) {
     return rtcGetDeviceProperty(device_, what) != 0;
   };
-  const bool eightWide = has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) &&
-                         !has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
-  if (kStreams && eightWide) streamWidth_ = 8;
+  const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
+  if (kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) streamWidth_ = 8;
+  mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && !scene.instances.empty();
   rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
   triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);

@@ -42,6 +42,12 @@ class EmbreeScene {
   // coherent (rtcIntersectNM), 0: none. That takes packets as wide as the CPU, and was measured on
   // AVX2 only: a twentieth less time inside Embree.
   int streamWidth() const { return streamWidth_; }
+  // Whether rtcOccluded16 may never return when its rays are said to be coherent. For AVX-512 and
+  // scenes of instances, Debian's Embree 3.13.5 is compiled such that the mask of rays left to
+  // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): where the
+  // stack held something else than zero before, its loop has no end. Packets of 8 are safe, and so
+  // are rays that are not said to be coherent.
+  bool coherentOcclusionMayHang(int packet) const { return packet == 16 && mayHang_; }
 
  private:
   void addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options);
@@ -58,6 +64,7 @@ class EmbreeScene {
   float reach_ = kLargestCoordinate;
   bool plain_ = false;
   int streamWidth_ = 0;
+  bool mayHang_ = false;
 };
 
 }  // namespace whit

@@ -112,7 +112,7 @@ void RayLog::append(bool occlusion, bool coherent, const float* const columns[7]
 double Accel::replay(const RayLog& log) const {
   double sum = 0;
   for (const RayLog::Stream& stream : log.streams()) {
-    switch (parts_->packet) {
+    switch (stream.occlusion ? parts_->shadowPacket(stream.coherent) : parts_->packet) {
       case 16:
         sum += replayStream<16>(parts_->embree, stream);
         break;

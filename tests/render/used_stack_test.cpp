@@ -1,0 +1,89 @@
+// Embree's calls return whatever the stack below them was used for before.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <vector>
+
+#include "accel/accel.h"
+#include "shipped_scene.h"
+#include "stages/columns.h"
+
+namespace whit {
+namespace {
+
+// Seconds after which a call that does not return ends the program.
+constexpr unsigned kPatience = 60;
+constexpr std::size_t kRays = 40;  // not a multiple of a packet
+
+// Leaves ones where the functions called next keep their variables.
+[[gnu::noinline]] void useStack() {
+  volatile unsigned char used[1 << 16];
+  for (volatile unsigned char& byte : used) byte = 0xff;
+}
+
+class UsedStack : public testing::TestWithParam<int> {
+ protected:
+  // A scene of instances: see EmbreeScene::coherentOcclusionMayHang.
+  UsedStack() : scene_(test::load("mirrors")), accel_(scene_, optionsOf(GetParam())) {
+    rays_.allocate(kRays, Groups{});
+    hits_.allocate(kRays, Groups{});
+    shadows_.allocate(kRays, Groups{});
+    alarm(kPatience);
+  }
+  ~UsedStack() override { alarm(0); }
+
+  static AccelOptions optionsOf(int packet) {
+    AccelOptions options;
+    options.threads = 1;
+    options.packet = packet;
+    return options;
+  }
+  // From above the scene and away from it, side by side: rays that no part of it stops.
+  template <typename Columns>
+  void aim(const Columns& rays) {
+    const Vec3f middle = 0.5f * (scene_.lower + scene_.upper), size = scene_.upper - scene_.lower;
+    for (std::size_t i = 0; i < kRays; ++i) {
+      rays.orgX[i] = middle.x + 0.01f * size.x * static_cast<float>(i);
+      rays.orgY[i] = scene_.upper.y + size.y;
+      rays.orgZ[i] = middle.z;
+      rays.dirX[i] = rays.dirZ[i] = 0;
+      rays.dirY[i] = 1;
+    }
+  }
+
+  const Scene scene_;
+  const Accel accel_;
+  RayTally tally_;
+  TraceMeter meter_{&tally_, 0, nullptr};
+  ColumnStore<RayColumns> rays_;
+  ColumnStore<HitColumns> hits_;
+  ColumnStore<ShadowColumns> shadows_;
+};
+
+TEST_P(UsedStack, OcclusionReturns) {
+  aim(*shadows_);
+  for (std::size_t i = 0; i < kRays; ++i) {
+    shadows_->tFar[i] = 10 * (scene_.upper.y - scene_.lower.y);
+    shadows_->slot[i] = static_cast<std::uint32_t>(i);
+  }
+  for (const bool coherent : {true, false}) {
+    std::vector<float> visible(kRays, -1.0f);
+    useStack();
+    accel_.checkShadows(*shadows_, kRays, coherent, visible.data(), meter_);
+    EXPECT_EQ(visible, std::vector<float>(kRays, 1.0f));
+  }
+}
+
+TEST_P(UsedStack, IntersectionReturns) {
+  aim(*rays_);
+  for (const bool coherent : {true, false}) {
+    useStack();
+    accel_.findHits(*rays_, kRays, coherent, *hits_, meter_);
+    for (std::size_t i = 0; i < kRays; ++i) EXPECT_EQ(hits_->triangle[i], kMiss) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Packets, UsedStack, testing::Values(1, 4, 8, 16));
+
+}  // namespace
+}  // namespace whit
