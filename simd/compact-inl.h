@@ -12,11 +12,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// AVX-512 has an instruction for it. Elsewhere Highway 1.0.3 looks its permutation up in a table
-// that GCC copies to the stack for every vector, which took three quarters of the light kernel's
-// time; here the permutation is fetched once and serves all columns.
+// AVX-512 has an instruction for it, used in registers: storing straight to memory takes Zen 4 some
+// 100 cycles. Elsewhere Highway 1.0.3 looks its permutation up in a table that GCC copies to the
+// stack for every vector, which took three quarters of the light kernel's time; here the
+// permutation is fetched once and serves all columns.
 #define WHIT_COMPACT_BY_TABLE (HWY_TARGET != HWY_SCALAR && HWY_TARGET > HWY_AVX3)
 
+// Writes whole vectors; what lies behind the live lanes is overwritten by the next one.
 class Compactor {
  public:
 #if WHIT_COMPACT_BY_TABLE
@@ -24,7 +26,6 @@ class Compactor {
     const FloatTag d;
     count_ = hn::CountTrue(d, live);
   }
-  // Writes a whole vector; what lies behind the live lanes is overwritten by the next one.
   HWY_INLINE void Store(VF v, float* to) const {
     hn::StoreU(hn::TableLookupLanes(v, order_), FloatTag(), to);
   }
@@ -38,10 +39,12 @@ class Compactor {
     const FloatTag d;
     count_ = hn::CountTrue(d, live);
   }
-  HWY_INLINE void Store(VF v, float* to) const { hn::CompressStore(v, live_, FloatTag(), to); }
+  HWY_INLINE void Store(VF v, float* to) const {
+    hn::StoreU(hn::Compress(v, live_), FloatTag(), to);
+  }
   HWY_INLINE void Store(VU v, uint32_t* to) const {
     const UintTag du;
-    hn::CompressStore(v, hn::RebindMask(du, live_), du, to);
+    hn::StoreU(hn::Compress(v, hn::RebindMask(du, live_)), du, to);
   }
 #endif
   HWY_INLINE void Store(const V3& v, float* x, float* y, float* z, size_t at) const {
