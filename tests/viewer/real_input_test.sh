@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# The viewer under a window manager, with keys and mouse as the X server delivers them.
+#   tests/viewer/real_input_test.sh WHIT-VIEW
+# Exit 77: a program it needs is not installed.
+set -euo pipefail
+
+view=$1
+for program in Xvfb xdotool openbox; do
+  if ! command -v "$program" >/dev/null; then
+    echo "!! $program is not installed: real input is NOT checked" >&2
+    exit 77
+  fi
+done
+work=$(mktemp -d)
+children=()
+finish() {
+  kill "${children[@]}" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$work"
+}
+trap finish EXIT
+export HOME=$work XDG_CONFIG_HOME=$work XDG_CACHE_HOME=$work  # nobody's settings
+
+fail() {
+  echo "real_input_test: $*" >&2
+  cat "$work/out" "$work/err" >&2
+  exit 1
+}
+# within COMMAND...: until it succeeds; the seconds are for machines that do other work as well.
+within() {
+  local end=$((SECONDS + 60))
+  until "$@"; do
+    [ $SECONDS -lt $end ] || fail "not within a minute: $*"
+    sleep 0.05
+  done
+}
+has() { [ -s "$1" ]; }
+managed() { xdotool get_num_desktops >/dev/null; }  # only a window manager knows
+printed() { [ "$(grep -c '^whit render' "$work/out")" -ge "$1" ]; }
+# The view as the viewer prints it when asked; into $view_now.
+prints=0
+look() {
+  prints=$((prints + 1))
+  xdotool key c
+  within printed $prints
+  view_now=$(grep '^whit render' "$work/out" | tail -n 1)
+}
+option() { sed -n "s/.* --$1=\([^ ]*\).*/\1/p" <<<"$view_now"; }
+size() { xdotool getwindowgeometry --shell "$window" | sed -n 's/^\(WIDTH\|HEIGHT\)=//p' | paste -sd x; }
+isSize() { [ "$(size)" = "$1" ]; }
+shows() {
+  look
+  [ "$(option size)" = "$1" ]
+}
+# changed OPTION BEFORE WHAT
+changed() { [ "$(option "$1")" != "$2" ] || fail "$3 did not change --$1 $2"; }
+
+Xvfb -displayfd 3 -screen 0 1024x700x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
+children+=($!)
+within has "$work/display"
+DISPLAY=:$(cat "$work/display")
+export DISPLAY
+openbox >/dev/null 2>&1 &
+children+=($!)
+within managed 2>/dev/null
+"$view" matte --size 320x200 --quiet >"$work/out" 2>"$work/err" &
+viewer=$!
+children+=($viewer)
+window=$(timeout 60 xdotool search --sync --onlyvisible --name '^whit' | head -n 1) ||
+  fail "no window"
+xdotool windowactivate --sync "$window"
+
+look
+before=$(option eye)
+xdotool keydown w sleep 0.3 keyup w
+look
+changed eye "$before" "holding W"
+before=$(option eye)
+xdotool keydown shift keydown d sleep 0.3 keyup d keyup shift
+look
+changed eye "$before" "holding Shift and D"
+before=$(option at)
+xdotool mousemove --window "$window" 200 150 mousedown 1 sleep 0.2 mousemove_relative -- 40 15 \
+  sleep 0.2 mouseup 1
+look
+changed at "$before" "dragging with the left button"
+before=$(option eye)
+xdotool mousemove --window "$window" 200 150 mousedown 3 sleep 0.2 mousemove_relative -- 60 0 \
+  sleep 0.2 mouseup 3
+look
+changed eye "$before" "dragging with the right button"
+
+first=$(size)
+xdotool key f
+within isSize 1024x700
+within shows 1024x700
+xdotool key f
+within isSize "$first"
+within shows "$first"
+
+xdotool windowminimize --sync "$window"
+sleep 0.5
+xdotool windowmap --sync "$window" windowactivate --sync "$window"
+xdotool windowsize --sync "$window" 500 400
+within isSize 500x400
+within shows 500x400
+
+xdotool key Escape
+status=0
+wait $viewer || status=$?
+[ $status -eq 0 ] || fail "Escape ended it with status $status"
+[ ! -s "$work/err" ] || fail "it said something on standard error"
+echo "real_input_test: keys, both buttons, full screen, minimised, resized: as expected"
