@@ -63,12 +63,13 @@ buildAndTest() {
     ctest --preset "$preset" --parallel $((2 * $(nproc)))
 }
 
-# The worker pool, and the viewer's tracing thread with all that it runs. Embree and TBB are not
+# The worker pool, the viewer's tracing thread with all that it runs, and its window's loop. Embree and TBB are not
 # instrumented and would be blamed for their own locks: what happens inside them is ignored, what
 # our code does is not.
 checkThreads() {
   local areas=(unit) area
   local filter='WorkerPool*:RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
+  filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimisedAndResized'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
   if [ -d build-tsan/viewer/CMakeFiles/whit_view.dir ]; then
     areas+=(viewer)
