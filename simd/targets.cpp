@@ -43,6 +43,13 @@ constexpr TargetName kTargetNames[] = {
 #endif
 };
 
+constexpr std::int64_t namedTargets() {
+  std::int64_t bits = 0;
+  for (const TargetName& target : kTargetNames) bits |= target.bit;
+  return bits;
+}
+static_assert((HWY_TARGETS & ~namedTargets()) == 0, "a compiled target has no name for --simd");
+
 // What the CPU has, whatever has been chosen since.
 std::int64_t detectedTargets() {
   static const std::int64_t detected = [] {

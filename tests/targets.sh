@@ -16,7 +16,7 @@ trap 'rm -rf "$work"' EXIT
 
 # Best first. The last candidates are those that other machines have.
 targets=()
-for target in avx3 avx2 sse4 neon scalar; do
+for target in avx3 avx2 sse4 sse2 neon scalar; do
   if "$whit" render matte --size 8x8 --simd $target -o "$work/try.exr" --quiet 2>/dev/null; then
     targets+=("$target")
   fi

@@ -59,34 +59,30 @@ std::string deviceConfiguration(const AccelOptions& options) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
-  device_ = rtcNewDevice(deviceConfiguration(options).c_str());
+  device_.reset(rtcNewDevice(deviceConfiguration(options).c_str()));
   if (!device_) throwNoDevice(options);
   const auto has = [this](RTCDeviceProperty what) {
-    return rtcGetDeviceProperty(device_, what) != 0;
+    return rtcGetDeviceProperty(device(), what) != 0;
   };
   const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
   if (kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) streamWidth_ = 8;
   mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && !scene.instances.empty();
-  rtcSetDeviceMemoryMonitorFunction(device_, countMemory, &bytes_);
+  rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
   triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
-    scenes_.push_back(rtcNewScene(device_));
-    rtcSetSceneFlags(scenes_[i], options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(scenes_[i], buildQuality(options.quality));
+    scenes_.emplace_back(rtcNewScene(device()));
+    RTCScene made = scenes_[i].get();
+    rtcSetSceneFlags(made, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneBuildQuality(made, buildQuality(options.quality));
     addGeometry(i, scene, options);
-    if (i != 0) commit(scenes_[i], progress);
+    if (i != 0) commit(made, progress);
   }
   if (options.instances) addInstances(scene);
-  commit(scenes_[0], progress);
+  commit(top(), progress);
   const Geometry& world = scene.geometries[0];
   plain_ = scene.instances.empty() && world.firstTriangle == 0 &&
            world.classBegin[1] == world.index.size();
-}
-
-EmbreeScene::~EmbreeScene() {
-  for (RTCScene scene : scenes_) rtcReleaseScene(scene);
-  rtcReleaseDevice(device_);
 }
 
 void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options) {
@@ -99,7 +95,8 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const Accel
       triangleBase_[(1 + k) * kTriangleClasses + c] = source.firstTriangle + first;
     }
     if (first == end) continue;
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    RTCGeometry geometry = held.get();
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                source.position.data(), 0, sizeof(Vec3f), source.position.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
@@ -114,8 +111,7 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const Accel
       rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scenes_[index], geometry, c);
-    rtcReleaseGeometry(geometry);
+    rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
   }
 }
 
@@ -125,13 +121,13 @@ void EmbreeScene::addInstances(const Scene& scene) {
     const Affine& m = instance.toWorld;
     reach_ = std::min(reach_, instanceReach(m));
     const Vec3f columns[4] = {Vec3f(m.x), Vec3f(m.y), Vec3f(m.z), Vec3f(m.p)};
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, scenes_[instance.geometry]);
+    const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
+    RTCGeometry geometry = held.get();
+    rtcSetGeometryInstancedScene(geometry, scenes_[instance.geometry].get());
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
     rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scenes_[0], geometry, kFirstInstanceId + static_cast<unsigned>(k));
-    rtcReleaseGeometry(geometry);
+    rtcAttachGeometryByID(top(), geometry, kFirstInstanceId + static_cast<unsigned>(k));
   }
 }
 
@@ -142,7 +138,7 @@ void EmbreeScene::commit(RTCScene scene, Progress* progress) {
 }
 
 void EmbreeScene::requireNoError(const char* doing) const {
-  const RTCError error = rtcGetDeviceError(device_);
+  const RTCError error = rtcGetDeviceError(device());
   if (error == RTC_ERROR_NONE) return;
   const std::string what = std::string("Embree failed while ") + doing;
   if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "accel/accel.h"
@@ -18,15 +19,27 @@ inline constexpr unsigned kFirstInstanceId = kTriangleClasses;
 // Ray masks: shadow rays do not see triangles that cast no shadow.
 inline constexpr unsigned kSeenMask = 1, kShadowMask = 2;
 
+// What Embree counts references to, given back by whoever lets go of it.
+template <auto release>
+struct Release {
+  template <typename T>
+  void operator()(T* held) const {
+    release(held);
+  }
+};
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcReleaseDevice>>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>>;
+using GeometryHandle =
+    std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
+
 class EmbreeScene {
  public:
   EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress);
-  ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  RTCScene top() const { return scenes_[0]; }
-  RTCDevice device() const { return device_; }
+  RTCScene top() const { return scenes_[0].get(); }
+  RTCDevice device() const { return device_.get(); }
   std::uint64_t memoryBytes() const { return bytes_; }
 
   // The number of the first triangle that an Embree geometry holds, by class, for the world and for
@@ -55,12 +68,12 @@ class EmbreeScene {
   void commit(RTCScene scene, Progress* progress);
   void requireNoError(const char* doing) const;
 
-  RTCDevice device_ = nullptr;
-  std::vector<RTCScene> scenes_;  // one a Scene::geometries
+  std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
   AlphaMaps alphaMaps_;
   std::vector<std::unique_ptr<MaskedGeometry>> masked_;
   std::vector<std::uint32_t> triangleBase_;
-  std::atomic<std::uint64_t> bytes_{0};
+  DeviceHandle device_;
+  std::vector<SceneHandle> scenes_;  // one a Scene::geometries
   float reach_ = kLargestCoordinate;
   bool plain_ = false;
   int streamWidth_ = 0;

@@ -21,7 +21,7 @@ struct RunSummary {
   EffectSet effects;
   std::uint64_t triangles = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;  // counted ones, at least one
+  std::vector<FrameStats> frames;  // counted ones; none: all images were there
   std::vector<double> floorMs;     // empty without --floor
   std::string imageHash;           // of the last frame: accuracy::digestOf(image)
   std::vector<FarmFrame> shares;   // how the frames were shared; empty for one process

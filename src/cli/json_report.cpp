@@ -64,24 +64,14 @@ Json machineJson(const Machine& machine) {
           {"embree", machine.embree}, {"compiler", facts.compiler}, {"commit", facts.commit}};
 }
 
-Json runJson(const RunSummary& run) {
+namespace {
+
+void addFrames(const RunSummary& run, Json& json) {
   const std::vector<double> times = frameTimes(run);
   const FrameStats& frame = medianFrame(run);
-  Json json{{"scene", run.scene},
-            {"size", Json::array({run.width, run.height})},
-            {"threads", run.machine.threads},
-            {"packet", run.machine.packet},
-            {"simd", run.machine.simd}};
-  json.update(settingsJson(run.options));
-  json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
-  json["effects"] = effectNames(run.effects);
-  json["triangles"] = run.triangles;
-  json["frames"] = run.frames.size();
   json["frame_ms"] = {
       {"median", frame.frameMs}, {"min", quantile(times, 1e-9)}, {"p95", quantile(times, 0.95)}};
   json["fps"] = frame.frameMs > 0 ? 1e3 / frame.frameMs : 0;
-  json["build_ms"] = run.buildMs;
-  json["load_ms"] = run.loadMs;
   json["stages_ms"] = stagesJson(frame);
   json["embree_ms"] = frame.embreeMs();
   json["outside_embree_ms"] = outsideEmbreeMs(run);
@@ -94,13 +84,31 @@ Json runJson(const RunSummary& run) {
   }
   json["nonfinite"] = frame.nonFinitePixels;
   json["image_hash"] = run.imageHash;
-  json["peak_rss_mb"] = peakRssMb();
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);
     json["floor_ms"] = floor;
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
   if (!run.shares.empty()) json["farm"] = farmJson(run.shares[medianFrameIndex(run)]);
+}
+
+}  // namespace
+
+Json runJson(const RunSummary& run) {
+  Json json{{"scene", run.scene},
+            {"size", Json::array({run.width, run.height})},
+            {"threads", run.machine.threads},
+            {"packet", run.machine.packet},
+            {"simd", run.machine.simd}};
+  json.update(settingsJson(run.options));
+  json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
+  json["effects"] = effectNames(run.effects);
+  json["triangles"] = run.triangles;
+  json["frames"] = run.frames.size();
+  json["build_ms"] = run.buildMs;
+  json["load_ms"] = run.loadMs;
+  json["peak_rss_mb"] = peakRssMb();
+  if (!run.frames.empty()) addFrames(run, json);
   return json;
 }
 

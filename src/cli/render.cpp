@@ -154,8 +154,9 @@ int render(const Words& words, Farm& farm) {
     writePath(job, open->scene, writer, progress.get());
   }
   progress.reset();
-  if (!farm.leads() || writer.run().frames.empty()) return 0;  // all were there
-  if (!job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
+  if (!farm.leads()) return 0;
+  const bool traced = !writer.run().frames.empty();  // else all images were there
+  if (traced && !job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
   if (!job.json.empty()) {
     Json json = runJson(writer.run());
     json["files"] = writer.written();

@@ -134,7 +134,7 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
         o.packet);
-  visit("simd", "auto|avx3|avx2|sse4|neon|scalar", "kernel target, and the Embree ISA with it",
+  visit("simd", "auto|avx3|avx2|sse4|sse2|neon|scalar", "kernel target, and the Embree ISA with it",
         o.simd);
   visit("mode", "packets|reference",
         "vector pipeline in float, or the scalar recursive reference in double", o.mode);

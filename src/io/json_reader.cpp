@@ -19,9 +19,15 @@ std::string printed(double x) {
   return buffer;
 }
 
-std::string rangeText(double low, double high) {
+// Asked of what is no number, where a bound that no scene comes near would only be noise.
+std::string kindText(double low, double high) {
   if (low <= -kLargestNumber && high >= kLargestNumber) return "a number";
   if (high >= kLargestNumber) return "a number not below " + printed(low);
+  return "a number from " + printed(low) + " to " + printed(high);
+}
+
+// Asked of a number that is out of range: both bounds, whichever it is beyond.
+std::string rangeText(double low, double high) {
   return "a number from " + printed(low) + " to " + printed(high);
 }
 
@@ -74,7 +80,7 @@ double JsonValue::expression(const std::string& text) const {
 }
 
 double JsonValue::number(double low, double high) const {
-  if (!isNumber()) fail(rangeText(low, high));
+  if (!isNumber()) fail(kindText(low, high));
   const double value =
       isText() ? expression(value_->get_ref<const std::string&>()) : value_->get<double>();
   if (!(value >= low && value <= high)) fail(rangeText(low, high));
@@ -83,7 +89,8 @@ double JsonValue::number(double low, double high) const {
 
 int JsonValue::integer(int low, int high) const {
   const std::string expected =
-      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+      low == high ? std::to_string(low)
+                  : "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
   if (!isNumber()) fail(expected);
   double value = number();
   if (isText()) value = std::round(value);  // "$triangles/3" means the nearest

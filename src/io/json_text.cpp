@@ -37,6 +37,15 @@ class Watcher {
     return true;
   }
 
+  // The value that is being parsed, as file#/pointer.
+  std::string where() const {
+    std::string pointer = file_ + "#";
+    for (const Level& level : levels_) {
+      pointer += '/' + (level.isArray ? std::to_string(level.index) : escapePointer(level.key));
+    }
+    return pointer;
+  }
+
  private:
   struct Level {
     bool isArray = false;
@@ -62,13 +71,6 @@ class Watcher {
     if (level.keys.size() > kJsonMembersLimit) {
       throwBadScene(where(), "more than " + std::to_string(kJsonMembersLimit) + " members");
     }
-  }
-  std::string where() const {
-    std::string pointer = file_ + "#";
-    for (const Level& level : levels_) {
-      pointer += '/' + (level.isArray ? std::to_string(level.index) : escapePointer(level.key));
-    }
-    return pointer;
   }
 
   std::string file_;
@@ -101,8 +103,8 @@ Json parseJson(const std::string& text, const std::string& file) {
     return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
   } catch (const Json::parse_error& error) {
     throwBadScene(placeOfByte(text, file, error.byte), reason(error.what()));
-  } catch (const Json::exception& error) {  // a number beyond double
-    throwBadScene(file, reason(error.what()));
+  } catch (const Json::out_of_range&) {  // thrown by the parser for such a number alone
+    throwBadScene(watcher.where(), "expected a number that a double can hold");
   }
 }
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -18,14 +20,22 @@ namespace {
 
 using RowTask = std::function<void(int y, RayCounts& counts)>;
 
-// Every row of the window once, shared among threads.
+// Every row of the window once, shared among threads. What is thrown for one of them ends all, and
+// the first of it reaches the caller.
 RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const RowTask& task) {
   std::atomic<int> nextRow{window.y0}, rowsDone{0};
+  std::exception_ptr failure;
+  std::once_flag failed;
   const auto work = [&](RayCounts& counts) {
-    for (int y = nextRow++; y < window.y1; y = nextRow++) {
-      task(y, counts);
-      const double fraction = static_cast<double>(++rowsDone) / (window.y1 - window.y0);
-      reportProgress(progress, "tracing the reference", fraction);
+    try {
+      for (int y = nextRow++; y < window.y1; y = nextRow++) {
+        task(y, counts);
+        const double fraction = static_cast<double>(++rowsDone) / (window.y1 - window.y0);
+        reportProgress(progress, "tracing the reference", fraction);
+      }
+    } catch (...) {
+      std::call_once(failed, [&] { failure = std::current_exception(); });
+      nextRow = window.y1;
     }
   };
   const auto workers = static_cast<std::size_t>(std::max(1, threads));
@@ -35,6 +45,7 @@ RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const 
     for (std::size_t i = 1; i < workers; ++i) helpers.emplace_back(work, std::ref(counts[i]));
     work(counts[0]);
   }
+  if (failure) std::rethrow_exception(failure);
   RayCounts sum;
   for (const RayCounts& c : counts) sum += c;
   return sum;

@@ -95,7 +95,10 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   accel.instances = p.plan.effects.has(Effect::instances);
   accel.threads = p.machine.threads;
   accel.packet = options.packet;
-  accel.isa = options.simd == "auto" ? "" : embreeIsa(simd::chosenTarget());
+  // Also when the target was chosen by itself: kernels of another target than the processor's best,
+  // as in sanitized builds, would else meet an Embree that asking for that target by name does not
+  // give.
+  accel.isa = embreeIsa(simd::chosenTarget());
   p.accel.emplace(scene, accel, progress);
   p.enclosed = options.robust && options.retry && isEnclosed(scene, *p.accel);
   p.tables = buildTables(scene, p.plan.effects, options.shading, p.machine.threads);

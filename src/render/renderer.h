@@ -26,7 +26,7 @@ struct Film {
 
 // What the pipeline runs on, after "auto" has been resolved.
 struct Machine {
-  std::string simd;    // kernel target: avx3, avx2, sse4, ssse3, scalar, neon
+  std::string simd;    // kernel target: avx3, avx2, sse4, sse2, neon, scalar
   std::string embree;  // version and ISA, "3.13.5 avx2"
   int packet = 8;
   int threads = 1;

@@ -156,5 +156,16 @@ TEST_F(JsonResults, RenderWritesAFile) {
   EXPECT_EQ(json["files"], Json({image}));
 }
 
+TEST_F(JsonResults, RenderOfNothingButWhatIsThere) {
+  const std::string image = folder_ / "a.png";
+  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--resume"}).status, 0);
+  const Json json = resultOf({"render", tiny_, "-o", image, "--resume"});
+  EXPECT_EQ(json["scene"], "tiny");
+  EXPECT_EQ(json["frames"], 0);
+  EXPECT_EQ(json["files"], Json::array());
+  EXPECT_FALSE(json.contains("frame_ms"));
+  expectKeys(json, {"size", "threads", "load_ms", "build_ms", "machine"});
+}
+
 }  // namespace
 }  // namespace whit::cli

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <mutex>
+#include <stdexcept>
 
 #include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
@@ -47,6 +48,14 @@ class CountingProgress : public Progress {
 
  private:
   std::mutex mutex_;
+};
+
+// Whoever asks for progress may end the work by an exception, from any thread.
+class FailingProgress : public Progress {
+ public:
+  void report(const std::string&, double fraction) override {
+    if (fraction > 0.4) throw std::runtime_error("enough");
+  }
 };
 
 TEST(GenerateRay, PassesThroughTheImagePlane) {
@@ -142,6 +151,20 @@ TEST(Render, CropIsPartOfTheImage) {
   }
   EXPECT_EQ(progress.reports, 13);
   EXPECT_EQ(progress.last, 1);
+}
+
+TEST(Render, WhatIsThrownForARowReachesTheCaller) {
+  const Scene scene = stillLife();
+  const BruteForce intersector(scene);
+  for (const int threads : {1, 2, 5}) {
+    Settings settings;
+    settings.threads = threads;
+    FailingProgress progress;
+    Image image(17, 13);
+    EXPECT_THROW(render(scene, intersector, scene.cameras[0], settings, image, &progress),
+                 std::runtime_error)
+        << threads;
+  }
 }
 
 // Scaling everything by a power of two changes not one bit (hard case H61a).

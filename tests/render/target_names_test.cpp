@@ -1,0 +1,38 @@
+// Whatever Highway's version makes of the kernels can be asked for by its name.
+#include <gtest/gtest.h>
+
+#include "core/option_values.h"
+#include "simd/kernel_variants.h"
+#include "simd/kernels.h"
+
+namespace whit {
+namespace {
+
+// As the command line would take it.
+std::string takenBySimd(const std::string& text) {
+  RenderOptions options;
+  forEachOption(options,
+                [&](const std::string& name, const char* placeholder, const char*, auto& field) {
+                  if (name == "simd") parseValue(renderOptionSpec(name, placeholder), text, field);
+                });
+  return options.simd;
+}
+
+TEST(TargetNames, EveryCompiledTargetIsAWordOfTheOption) {
+  ASSERT_FALSE(simd::compiledTargets().empty());
+  for (const std::string& target : simd::compiledTargets()) {
+    EXPECT_NO_THROW(EXPECT_EQ(takenBySimd(target), target)) << target;
+  }
+  EXPECT_ANY_THROW(takenBySimd("mmx"));
+}
+
+TEST(TargetNames, WhatIsAskedForRuns) {
+  for (const std::string& target : simd::availableTargets()) {
+    EXPECT_TRUE(simd::chooseTarget(target)) << target;
+    EXPECT_EQ(simd::chosenTarget(), target);
+  }
+  simd::chooseTarget("auto");
+}
+
+}  // namespace
+}  // namespace whit
