@@ -70,7 +70,6 @@ const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& 
 void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   point.stats = frames.stats;
   const Image& image = frames.film.image;
-  const Image& unapproximated = withoutApproximations(point, image);
   const auto against = [&](const Image& a, const Image& b) {
     return std::async(std::launch::async, [&a, &b, &image, &point, this] {
       const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
@@ -79,8 +78,6 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   };
   auto hdrFlip = std::async(std::launch::async, [&] { return hdrFlip_.mean(image); });
   auto total = against(image, reference_->image);
-  auto sampling = against(unapproximated, reference_->image);
-  auto algorithm = against(image, unapproximated);
   // The sampling of the point is the baseline's where the exact options are.
   if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
       digestOf(exactAtSameSamples(base_, exactness_))) {
@@ -88,8 +85,12 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   }
   point.total = total.get();
   point.totalHdrFlip = hdrFlip.get();
-  point.sampling = sampling.get();
-  point.algorithm = algorithm.get();
+  if (point.cause != Cause::arithmetic) {
+    const Image& unapproximated = withoutApproximations(point, image);
+    auto sampling = against(unapproximated, reference_->image);
+    point.algorithm = against(image, unapproximated).get();
+    point.sampling = sampling.get();
+  }
   if (!arithmetic) return;
   point.arithmetic =
       arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));

@@ -19,7 +19,8 @@ class ErrorMeter {
   ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
              const Exactness& exactness, ReferenceCache& cache, int samples, Progress* progress);
 
-  // Fills in the point's errors from its last frame, with what arithmetic does if `arithmetic`.
+  // Fills in the point's errors from its last frame, with what arithmetic does if `arithmetic`. A
+  // knob of arithmetic leaves those of sampling and algorithm as they are: not filled in.
   void measure(Point& point, FrameSource& frames, bool arithmetic);
   // Fills in its pictures. Not for more than a few hundred points: they stay in memory.
   void depict(Point& point, const Image& image) const;

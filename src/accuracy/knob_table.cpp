@@ -25,6 +25,7 @@ struct Row {
   Cause cause;
   T exact;
   std::vector<T> values, joint;
+  std::vector<T> spare = {};
 };
 
 template <typename T>
@@ -35,8 +36,11 @@ Knob knobOf(const Row<T>& row, Idle idle, const std::function<std::string(T)>& l
   };
   knob.makeExact = [apply = set(row.exact)](RenderOptions& o, const Exactness&) { apply(o); };
   for (const T& value : row.values) {
-    const bool joint = std::count(row.joint.begin(), row.joint.end(), value) > 0;
-    knob.values.push_back({label(value), set(value), joint, nullptr, {}});
+    const auto isIn = [&value](const std::vector<T>& values) {
+      return std::find(values.begin(), values.end(), value) != values.end();
+    };
+    knob.values.push_back(
+        {label(value), set(value), isIn(row.joint), nullptr, {}, isIn(row.spare)});
   }
   return knob;
 }
@@ -88,7 +92,8 @@ Knob cutoffKnob() {
                              Cause::algorithm,
                              0,
                              {0, 1e-4f, 3e-4f, 1e-3f, 4e-3f, 1.6e-2f},
-                             {1e-4f, 1e-3f, 4e-3f}},
+                             {1e-4f, 1e-3f, 4e-3f},
+                             {3e-4f}},
                             withoutImpulses);
   knob.values.front().idle = whereRaysBranch;
   knob.makeExact = [](O& o, const Exactness& exactness) { o.cutoff = exactness.cutoff; };
@@ -144,9 +149,14 @@ std::vector<Knob> makeKnobs() {
   constexpr Cause kSampling = Cause::sampling, kAlgorithm = Cause::algorithm,
                   kArithmetic = Cause::arithmetic;
   return {
-      knobOf<int>(
-          {"spp", [](O& o) -> int& { return o.spp; }, kSampling, 1, {1, 2, 4, 8, 16}, {1, 4, 16}},
-          never),
+      knobOf<int>({"spp",
+                   [](O& o) -> int& { return o.spp; },
+                   kSampling,
+                   1,
+                   {1, 2, 4, 8, 16},
+                   {1, 4, 16},
+                   {2}},
+                  never),
       adaptiveKnob(),
       contrastKnob(),
       knobOf<int>({"depth",
@@ -154,7 +164,8 @@ std::vector<Knob> makeKnobs() {
                    kAlgorithm,
                    kDepthLimit,
                    {0, 1, 2, 3, 4, 8, 16, 32, kDepthLimit},
-                   {4, 8, kDepthLimit}},
+                   {4, 8, kDepthLimit},
+                   {1, 3, 16, 32}},
                   withoutImpulses),
       cutoffKnob(),
       knobOf<int>({"glossy",
@@ -162,14 +173,16 @@ std::vector<Knob> makeKnobs() {
                    kSampling,
                    kExactGlossy,
                    {0, 1, 4, 16},
-                   {}},
+                   {},
+                   {1, 4, 16}},
                   withoutGlossyReflection),
       knobOf<float>({"light-cutoff",
                      [](O& o) -> float& { return o.shading.lightCutoff; },
                      kAlgorithm,
                      0,
                      {0, 1e-4f, 1e-3f, 4e-3f},
-                     {0, 4e-3f}},
+                     {0, 4e-3f},
+                     {1e-4f}},
                     withoutLights),
       knobOf<FresnelModel>({"fresnel",
                             [](O& o) -> FresnelModel& { return o.shading.fresnel; },
@@ -183,7 +196,8 @@ std::vector<Knob> makeKnobs() {
                             kAlgorithm,
                             OffsetMethod::bound,
                             {OffsetMethod::bound, OffsetMethod::fixed, OffsetMethod::wachterBinder},
-                            {}},
+                            {},
+                            {OffsetMethod::fixed, OffsetMethod::wachterBinder}},
                            withoutSecondaryRays,
                            named<OffsetMethod>({"bound", "fixed", "wachter-binder"})),
       knobOf<bool>({"terminator",
@@ -191,14 +205,16 @@ std::vector<Knob> makeKnobs() {
                     kAlgorithm,
                     false,
                     {false, true},
-                    {}},
+                    {},
+                    {true}},
                    withoutSmoothShadows),
       knobOf<bool>({"bend",
                     [](O& o) -> bool& { return o.shading.bend; },
                     kAlgorithm,
                     true,
                     {true, false},
-                    {}},
+                    {},
+                    {false}},
                    withoutBentImpulses),
       knobOf<TextureFilter>(
           {"texture-filter",
@@ -227,28 +243,32 @@ std::vector<Knob> makeKnobs() {
                     kArithmetic,
                     Mode::reference,
                     {Mode::packets, Mode::reference},
-                    {}},
+                    {},
+                    {Mode::reference}},
                    never, named<Mode>({"packets", "reference"})),
       knobOf<FilmPrecision>({"film",
                              [](O& o) -> FilmPrecision& { return o.film; },
                              kArithmetic,
                              FilmPrecision::single,
                              {FilmPrecision::single, FilmPrecision::half, FilmPrecision::eightBit},
-                             {}},
+                             {},
+                             {FilmPrecision::half, FilmPrecision::eightBit}},
                             never, named<FilmPrecision>({"float", "half", "8bit"})),
       knobOf<SrgbEncoding>({"srgb",
                             [](O& o) -> SrgbEncoding& { return o.srgb; },
                             kArithmetic,
                             SrgbEncoding::exact,
                             {SrgbEncoding::exact, SrgbEncoding::table},
-                            {}},
+                            {},
+                            {SrgbEncoding::table}},
                            never, named<SrgbEncoding>({"exact", "table"})),
       knobOf<Reciprocal>({"reciprocal",
                           [](O& o) -> Reciprocal& { return o.shading.reciprocal; },
                           kArithmetic,
                           Reciprocal::exact,
                           {Reciprocal::exact, Reciprocal::refined, Reciprocal::approximate},
-                          {}},
+                          {},
+                          {Reciprocal::refined, Reciprocal::approximate}},
                          never, named<Reciprocal>({"exact", "refined", "approximate"})),
       knobOf<bool>({"robust",
                     [](O& o) -> bool& { return o.robust; },
@@ -257,25 +277,37 @@ std::vector<Knob> makeKnobs() {
                     {true, false},
                     {true, false}},
                    never),
-      knobOf<bool>(
-          {"retry", [](O& o) -> bool& { return o.retry; }, kArithmetic, true, {true, false}, {}},
-          never),
+      knobOf<bool>({"retry",
+                    [](O& o) -> bool& { return o.retry; },
+                    kArithmetic,
+                    true,
+                    {true, false},
+                    {},
+                    {false}},
+                   never),
       knobOf<BvhQuality>({"bvh",
                           [](O& o) -> BvhQuality& { return o.bvh; },
                           kArithmetic,
                           BvhQuality::medium,
                           {BvhQuality::low, BvhQuality::medium, BvhQuality::high},
-                          {}},
+                          {},
+                          {BvhQuality::low, BvhQuality::high}},
                          never, named<BvhQuality>({"low", "medium", "high"})),
-      knobOf<int>(
-          {"packet", [](O& o) -> int& { return o.packet; }, kArithmetic, 0, {1, 4, 8, 16}, {}},
-          never),
+      knobOf<int>({"packet",
+                   [](O& o) -> int& { return o.packet; },
+                   kArithmetic,
+                   0,
+                   {1, 4, 8, 16},
+                   {},
+                   {1, 4, 8, 16}},
+                  never),
       knobOf<EffectChoice>({"effects",
                             [](O& o) -> EffectChoice& { return o.effects; },
                             kArithmetic,
                             EffectChoice::automatic,
                             {EffectChoice::automatic, EffectChoice::all},
-                            {}},
+                            {},
+                            {EffectChoice::all}},
                            never, named<EffectChoice>({"auto", "all"})),
   };
 }

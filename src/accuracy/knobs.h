@@ -27,6 +27,9 @@ struct KnobValue {
   Idle idle;           // null: wherever the knob does something
   // What else it sets, as on the command line: other options that it needs to have an effect.
   std::vector<std::string> alongside;
+  // Between others, or the same picture by construction: a quick sweep has it last, and does
+  // without when its minute is over.
+  bool spare = false;
 };
 
 // Where both a reflected and a refracted ray go on, rays double with every bounce, and only the

@@ -44,6 +44,7 @@ struct Point {
   std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
   std::optional<Cause> cause;
   RenderOptions options;
+  bool spare = false;  // of a knob's value that comes last in a quick sweep
 
   Timing timing;
   FrameStats stats;       // of the last frame: rays by kind

@@ -32,8 +32,11 @@ void Pace::skip() {
 
 void Pace::report(const std::string&, double fraction) {
   const double all = total_ > 0 ? (done_ + current_ * fraction) / total_ : 0;
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  reportProgress(out_, paceText(subject_, step_, elapsed, all), all);
+  reportProgress(out_, paceText(subject_, step_, seconds(), all), all);
+}
+
+double Pace::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
 }  // namespace whit::accuracy

@@ -19,6 +19,7 @@ class Pace : public Progress {
   void end();   // of the step that was begun
   void skip();  // instead of end(): the step turned out not to be needed
   void report(const std::string& phase, double fraction) override;
+  double seconds() const;  // since the start
 
  private:
   using Clock = std::chrono::steady_clock;

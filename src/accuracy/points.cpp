@@ -28,7 +28,7 @@ class PointCollector {
  public:
   explicit PointCollector(std::vector<Point>& points) : points_(points) {}
   void add(PointKind kind, const std::string& knob, const std::string& value,
-           std::optional<Cause> cause, const RenderOptions& options) {
+           std::optional<Cause> cause, const RenderOptions& options, bool spare = false) {
     if (!seen_.insert(digestOf(options)).second) return;
     Point point;
     point.kind = kind;
@@ -36,6 +36,7 @@ class PointCollector {
     point.value = value;
     point.cause = cause;
     point.options = options;
+    point.spare = spare;
     points_.push_back(std::move(point));
   }
 
@@ -100,7 +101,7 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
       }
       RenderOptions options = base;
       value.apply(options);
-      collector.add(PointKind::knob, knob.name, value.label, knob.cause, options);
+      collector.add(PointKind::knob, knob.name, value.label, knob.cause, options, value.spare);
     }
   }
   if (jointLimit == 0) return list;

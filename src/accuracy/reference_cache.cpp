@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kDigestKey = "digest";
 constexpr const char* kTimeKey = "renderMs";
+constexpr const char* kRaysKey = "rays";
 
 // False: there is none, or it is not what it claims to be.
 bool readPicture(const std::string& path, const Image& shape, ReferencePicture& picture) {
@@ -30,6 +31,7 @@ bool readPicture(const std::string& path, const Image& shape, ReferencePicture& 
     for (const auto& [name, text] : readExrMetadata(path)) {
       if (name == kDigestKey) same = text == picture.digest;
       if (name == kTimeKey) picture.renderMs = std::strtod(text.c_str(), nullptr);
+      if (name == kRaysKey) picture.rays = std::strtod(text.c_str(), nullptr);
     }
     if (!same) return false;
     picture.image = std::move(image);
@@ -81,10 +83,14 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   const std::string path = (std::filesystem::path(folder_) / (digest + ".exr")).string();
   if (!readPicture(path, film.image, picture)) {
     Renderer renderer(scene_, options);
-    picture.renderMs = renderer.renderReference(camera_, film, progress).frameMs;
+    const FrameStats stats = renderer.renderReference(camera_, film, progress);
+    picture.renderMs = stats.frameMs;
+    picture.rays = static_cast<double>(stats.allRays());
     picture.image = std::move(film.image);
     writeExr(path, picture.image,
-             {{kDigestKey, digest}, {kTimeKey, std::to_string(picture.renderMs)}});
+             {{kDigestKey, digest},
+              {kTimeKey, std::to_string(picture.renderMs)},
+              {kRaysKey, std::to_string(picture.rays)}});
   }
   return pictures_.emplace(digest, std::move(picture)).first->second;
 }

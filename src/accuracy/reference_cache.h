@@ -15,6 +15,7 @@ struct ReferencePicture {
   Image image;
   std::string digest;     // of all that it depends on; the file's name
   double renderMs = 0;    // what it took when it was rendered
+  double rays = 0;        // that it took
   bool fromFile = false;  // rendered by an earlier run
 };
 

@@ -1,33 +1,23 @@
 #include "accuracy/sweep.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <random>
-#include <set>
 
 #include "accuracy/errors.h"
 #include "accuracy/pace.h"
 #include "accuracy/pareto.h"
 #include "accuracy/points.h"
+#include "accuracy/scope.h"
 
 namespace whit::accuracy {
 
 namespace {
 
-// What a quick and a full sweep may take.
-struct Limits {
-  int samples, leastSamples;
-  double referenceRays;  // of the reference of all
-  double scalarRays;     // of a point that is rendered by the scalar reference
-  double pointMs;        // for timing one point
-  std::size_t joint;
-};
-constexpr Limits kQuick{64, 4, 30e6, 20e6, 200, 0};
-constexpr Limits kFull{256, 8, 400e6, 100e6, 4000, 40};
-
-// Single frames of points that one frame of the baseline serves, where frames take long.
-constexpr int kUsesOfBaseline = 2;
+// Points of a single frame that one frame of the baseline serves; and where that is long as well.
+constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
 
 // Work of a packet frame in units of a scalar frame of one sample, roughly.
 constexpr double kPacketFrameWork = 0.1;
@@ -39,7 +29,7 @@ class SceneSweeper {
       : scene_(scene),
         base_(base),
         settings_(settings),
-        limits_(settings.full ? kFull : kQuick),
+        scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp},
         camera_(chooseCamera(scene, base)),
         effects_(scene.effects.without(base.disable)),
         exactness_(exactnessFor(effects_, settings.full)),
@@ -68,32 +58,31 @@ class SceneSweeper {
     sweep_.referenceCutoff = exactness_.cutoff;
   }
 
-  // By counting the rays of the exact picture: the number must not depend on the machine's speed.
+  // By counting the rays of the exact picture.
   void chooseSamples() {
-    FrameSource probe(scene_, camera_, referenceOptions(base_, 1, exactness_));
-    raysPerSample_ = static_cast<double>(probe.render().allRays());
-    int samples = limits_.samples;
-    while (samples > limits_.leastSamples && samples * raysPerSample_ > limits_.referenceRays) {
-      samples /= 2;
-    }
-    sweep_.referenceSamples = samples;
+    scope_.raysPerSample =
+        cache_.get(exactAtSameSamples(base_, exactness_), nullptr).rays / base_.spp;
+    scope_.frameRays = static_cast<double>(baseline_->stats.allRays());
+    sweep_.referenceSamples = scope_.samples();
   }
 
   void choosePoints() {
-    PointList list =
-        makePoints(base_, effects_, chooseKnobs(settings_.knobs), limits_.joint, settings_.seed);
+    PointList list = makePoints(base_, effects_, chooseKnobs(settings_.knobs), scope_.limits.joint,
+                                settings_.seed);
     sweep_.idle = std::move(list.idle);
     for (Point& point : list.points) {
-      if (point.options.mode == Mode::reference &&
-          point.options.spp * raysPerSample_ > limits_.scalarRays) {
-        sweep_.idle.push_back({point.label(), "the scalar reference would take too long here"});
-      } else if (point.kind != PointKind::baseline &&
-                 point.options.spp > std::max(sweep_.referenceSamples / 2, base_.spp)) {
-        sweep_.idle.push_back({point.label(), "more than half of the reference's samples"});
-      } else {
+      const std::string because = scope_.leavesOut(point);
+      if (because.empty()) {
         sweep_.points.push_back(std::move(point));
+      } else {
+        sweep_.idle.push_back({point.label(), because});
       }
     }
+    if (!scope_.longFrames()) return;
+    const std::string& baseline = sweep_.points.front().label();
+    if (!scope_.chosenKnobs)
+      sweep_.idle.push_back({"path flips", "of '" + baseline + "' alone: frames take long"});
+    sweep_.idle.push_back({"stages", "in the middle quarter of the picture alone: likewise"});
   }
 
   ErrorMeter renderReferences() {
@@ -113,20 +102,15 @@ class SceneSweeper {
   double workOf(const Point& point) const {
     const double frame = point.options.spp * kPacketFrameWork;
     return (point.options.mode == Mode::reference ? point.options.spp : 10 * frame) +
-           (needsArithmetic(point) ? point.options.spp + frame : 0);
-  }
-  static bool needsArithmetic(const Point& point) {
-    if (point.options.mode == Mode::reference) return false;
-    return point.kind == PointKind::baseline || point.cause == Cause::arithmetic;
+           (scope_.comparesPaths(point) ? point.options.spp + frame : 0);
   }
 
   void measureBaseline(ErrorMeter& meter) {
     Point& point = sweep_.points.front();
     pace_.begin(point.label(), workOf(point));
-    baseline_->render();
-    meter.measure(point, *baseline_, needsArithmetic(point));
+    meter.measure(point, *baseline_, scope_.comparesPaths(point));
     if (base_.mode == Mode::packets) {
-      Film scratch = makeFilm(scene_, base_);
+      const Film scratch = makeFilm(scene_, scope_.longFrames() ? middleQuarter() : base_);
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
     if (settings_.pictures) {
@@ -136,28 +120,48 @@ class SceneSweeper {
     pace_.end();
   }
 
-  void measurePoints(ErrorMeter& meter) {
+  RenderOptions middleQuarter() const {
+    RenderOptions options = base_;
+    const Crop& w = baseline_->film.image.window;
+    const int x = (w.x1 - w.x0) / 4, y = (w.y1 - w.y0) / 4;
+    options.crop = Crop{w.x0 + x, w.y0 + y, w.x1 - x, w.y1 - y};
+    return options;
+  }
+
+  // Random; in a quick sweep with what can be spared last.
+  std::vector<std::size_t> chooseOrder() const {
     std::vector<std::size_t> order(sweep_.points.size() - 1);
     std::iota(order.begin(), order.end(), std::size_t{1});
     std::mt19937 random(settings_.seed);
     std::shuffle(order.begin(), order.end(), random);
-    std::set<std::string> same;
-    for (const std::size_t i : order) {
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t i) { return settings_.full || !sweep_.points[i].spare; });
+    return order;
+  }
+
+  void measurePoints(ErrorMeter& meter) {
+    std::map<std::string, std::string> unmeasured;  // and why
+    for (const std::size_t i : chooseOrder()) {
       Point& point = sweep_.points[i];
       pace_.begin(point.label(), workOf(point));
+      if (scope_.isOver(pace_.seconds())) {
+        unmeasured[point.label()] = Scope::overBecause(point);
+        pace_.skip();
+        continue;
+      }
       if (measurePoint(point, meter)) {
         sweep_.order.push_back(point.label());
       } else {
-        same.insert(point.label());
+        unmeasured[point.label()] =
+            "the same rays and the same picture as '" + sweep_.points.front().label() + "'";
       }
       pace_.end();
     }
     for (const Point& point : sweep_.points) {
-      if (!same.contains(point.label())) continue;
-      sweep_.idle.push_back({point.label(), "the same rays and the same picture as '" +
-                                                sweep_.points.front().label() + "'"});
+      const auto found = unmeasured.find(point.label());
+      if (found != unmeasured.end()) sweep_.idle.push_back({found->first, found->second});
     }
-    std::erase_if(sweep_.points, [&](const Point& p) { return same.contains(p.label()); });
+    std::erase_if(sweep_.points, [&](const Point& p) { return unmeasured.contains(p.label()); });
   }
 
   // False: in this view the point is the baseline under another name.
@@ -174,7 +178,8 @@ class SceneSweeper {
       point.stats = frames.stats;
       return true;
     }
-    meter.measure(point, frames, needsArithmetic(point));
+    meter.measure(point, frames, scope_.comparesPaths(point));
+    if (point.cause == Cause::arithmetic) takeErrorsOfRays(point, sweep_.points.front());
     if (settings_.pictures) meter.depict(point, frames.film.image);
     return true;
   }
@@ -182,14 +187,15 @@ class SceneSweeper {
   // Combinations are many: they are timed as in a quick sweep.
   void time(Point& point, FrameSource& frames) {
     const double first = frames.stats.frameMs;
-    if (point.options.mode == Mode::reference || first > limits_.pointMs) {
+    if (point.options.mode == Mode::reference || first > scope_.limits.pointMs) {
       takeSingleFrame(point, first);
       return;
     }
     const bool joint = point.kind == PointKind::joint;
     const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
-    const Rounds rounds = roundsFor(first, baselineMs, joint ? kQuick.pointMs : limits_.pointMs,
-                                    settings_.full && !joint);
+    const Rounds rounds =
+        roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs,
+                  settings_.full && !joint);
     if (rounds.count == 1) {
       takeSingleFrame(point, frames.render().frameMs);
     } else {
@@ -199,7 +205,8 @@ class SceneSweeper {
 
   // Beside one of the baseline, of which every other point has a new one.
   void takeSingleFrame(Point& point, double ms) {
-    if (singleFrames_++ % kUsesOfBaseline == 0) {
+    const int uses = scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline;
+    if (singleFrames_++ % uses == 0) {
       baselineMs_.push_back(baseline_->render().frameMs);
     }
     point.timing = timingOf({ms});
@@ -208,12 +215,17 @@ class SceneSweeper {
 
   // Of the same picture.
   static void takeErrors(Point& point, const Point& from) {
+    takeErrorsOfRays(point, from);
     point.total = from.total;
     point.totalHdrFlip = from.totalHdrFlip;
-    point.sampling = from.sampling;
-    point.algorithm = from.algorithm;
     point.sameSamples = from.sameSamples;
     point.arithmetic = from.arithmetic;
+  }
+
+  // Of a picture by the same samples and the same algorithm.
+  static void takeErrorsOfRays(Point& point, const Point& from) {
+    point.sampling = from.sampling;
+    point.algorithm = from.algorithm;
   }
 
   bool isBaseline(const FrameSource& frames) const {
@@ -248,14 +260,13 @@ class SceneSweeper {
   const Scene& scene_;
   RenderOptions base_;
   SweepSettings settings_;
-  Limits limits_;
+  Scope scope_;
   Camera camera_;
   EffectSet effects_;
   Exactness exactness_;
   ReferenceCache cache_;
   Pace pace_;
   std::unique_ptr<FrameSource> baseline_;
-  double raysPerSample_ = 0;
   std::vector<double> baselineMs_;
   int singleFrames_ = 0;  // of points, taken so far
   SceneSweep sweep_;

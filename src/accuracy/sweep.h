@@ -18,8 +18,8 @@ struct SweepSettings {
   bool pictures = true;  // keeps those that the report shows
 };
 
-// `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8, where
-// its rays would exceed 400 or 30 million. Throws Error(io) when the cache cannot be written.
+// `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8 or 2,
+// where its rays would exceed 400 or 30 million. Throws Error(io) when the cache cannot be written.
 SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
                       Progress* progress);
 

@@ -65,7 +65,8 @@ OptionList listOptions(AccuracyJob& job) {
   OptionList list;
   list.group("Measuring");
   list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
-  list.flag("quick", "256x256 pixels and up to 64 reference samples, about a minute (the default)",
+  list.flag("quick",
+            "256x256 pixels, up to 64 reference samples, what fits into a minute (the default)",
             job.quick);
   list.flag("full", "the scene's size, 256 reference samples, combinations of knobs, hard cases",
             job.full);

@@ -1,0 +1,68 @@
+// What a sweep takes on.
+#include "accuracy/scope.h"
+
+#include <gtest/gtest.h>
+
+namespace whit::accuracy {
+namespace {
+
+Scope quick(double frameRays, double raysPerSample) {
+  return {kQuick, frameRays, raysPerSample, false, 1};
+}
+
+Point arithmeticPoint() {
+  Point point;
+  point.knob = "film", point.value = "half";
+  point.cause = Cause::arithmetic;
+  return point;
+}
+
+TEST(Scope, TheReferenceHasAsManySamplesAsItsRaysAllow) {
+  EXPECT_EQ(quick(1e5, 1e5).samples(), 64);  // 6.4 of 30 million rays
+  EXPECT_EQ(quick(1e6, 1e6).samples(), 16);  // 32 samples would take 32 million
+  EXPECT_EQ(quick(1e6, 30e6).samples(), 2);  // never fewer
+  EXPECT_EQ((Scope{kFull, 1e6, 1e6, false, 1}).samples(), 256);
+}
+
+TEST(Scope, LeavesOutWhatTheReferenceCannotJudge) {
+  Point point;
+  point.knob = "spp";
+  point.options.spp = 8;
+  EXPECT_EQ(quick(1e6, 1e6).leavesOut(point), "");
+  EXPECT_NE(quick(2e6, 2e6).leavesOut(point), "") << "8 of 8 samples";
+  point.kind = PointKind::baseline;
+  EXPECT_EQ(quick(2e6, 2e6).leavesOut(point), "");
+}
+
+TEST(Scope, LeavesOutLongPicturesOfTheScalarReference) {
+  Point point = arithmeticPoint();
+  point.options.mode = Mode::reference;
+  EXPECT_EQ(quick(1e6, 20e6).leavesOut(point), "");
+  EXPECT_NE(quick(1e6, 21e6).leavesOut(point), "");
+}
+
+TEST(Scope, ComparesPathsOfTheBaselineAloneWhereFramesAreLong) {
+  Point baseline;
+  baseline.kind = PointKind::baseline;
+  for (const double rays : {1e6, 6e6}) {
+    EXPECT_TRUE(quick(rays, rays).comparesPaths(baseline));
+    EXPECT_EQ(quick(rays, rays).comparesPaths(arithmeticPoint()), rays < 2e6);
+  }
+  Scope chosen = quick(6e6, 6e6);
+  chosen.chosenKnobs = true;
+  EXPECT_TRUE(chosen.comparesPaths(arithmeticPoint()));
+}
+
+TEST(Scope, AQuickSweepIsOverUnlessItsKnobsWereChosen) {
+  Scope scope = quick(1e6, 1e6);
+  EXPECT_FALSE(scope.isOver(kQuick.seconds));
+  EXPECT_TRUE(scope.isOver(kQuick.seconds + 1));
+  EXPECT_LT(kQuick.seconds, 60) << "the last point and the report come after that";
+  scope.chosenKnobs = true;
+  EXPECT_FALSE(scope.isOver(1e6));
+  EXPECT_EQ(Scope::overBecause(arithmeticPoint()),
+            "the minute of a quick sweep was over: --full or --knobs film measures it");
+}
+
+}  // namespace
+}  // namespace whit::accuracy
