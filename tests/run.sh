@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
 #   tests/run.sh           formatting, clang-tidy, thread sanitizer, address and undefined-behaviour
-#                          sanitizers with Clang, fuzzing, MPI, Embree 4 with Clang in Release, the
-#                          Debian package in a clean system, Release with warnings as errors
+#                          sanitizers with Clang (unit and reference with g++, too), fuzzing, MPI,
+#                          Embree 4 with Clang in Release, the Debian package in a clean system,
+#                          Release with warnings as errors
 #   tests/run.sh --quick   Release only
 #   tests/run.sh --all     every test of Clang's and g++'s other builds, a deeper clang-tidy and
 #                          64-bit ARM under emulation as well (an hour more)
@@ -140,6 +141,8 @@ if $all; then
 elif ! $quick; then
   # Neither is that of the Release build below: both at once save a build.
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
+  # The rest is left to Clang's: g++ takes as long again for each.
+  step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
 fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
