@@ -22,18 +22,24 @@ for word in "$@"; do
 done
 failed=()
 leftOut=()
+failures=$(mktemp) output=$(mktemp)
+trap 'rm -f "$failures" "$output"' EXIT
 
-# step NAME COMMAND...: runs it, remembers a failure, goes on. Status 77: this system has no way to it.
+# step NAME COMMAND...: runs it, remembers a failure and its last lines, goes on. Status 77: this system
+# has no way to it.
 step() {
   local name=$1 start=$SECONDS status
   shift
   echo "== $name"
-  "$@"
-  status=$?
+  "$@" 2>&1 | tee "$output"
+  status=${PIPESTATUS[0]}
   case $status in
     0) ;;
     77) leftOut+=("$name") ;;
-    *) failed+=("$name") ;;
+    *)
+      failed+=("$name")
+      { echo "== $name, the end of it"; tail -n 12 "$output" | cut -c 1-160; } >>"$failures"
+      ;;
   esac
   echo "-- $name: $((SECONDS - start)) s"
 }
@@ -151,6 +157,7 @@ if [ ${#leftOut[@]} -gt 0 ]; then
   echo "NOT CHECKED on this system: ${leftOut[*]}" >&2
 fi
 if [ ${#failed[@]} -gt 0 ]; then
+  cat "$failures"
   echo "FAILED: ${failed[*]}" >&2
   exit 1
 fi
