@@ -9,6 +9,7 @@
 #include "core/shading_choices.h"
 #include "hwy/cache_control.h"
 #include "simd/records-inl.h"
+#include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -93,6 +94,18 @@ HWY_INLINE AxisTexels Nearest(const AxisTexels& axis) {
   return {index, index, hn::Zero(d)};
 }
 
+// What a row or a column of texels adds to the index of the first (kTexelTile).
+HWY_INLINE VI TileRow(VI y, VI rowOfTiles) {
+  const IntTag di;
+  const VI within = hn::And(y, hn::Set(di, kTexelTile - 1));
+  return hn::Add(hn::Mul(hn::ShiftRight<2>(y), rowOfTiles), hn::ShiftLeft<2>(within));
+}
+HWY_INLINE VI TileColumn(VI x) {
+  const IntTag di;
+  const VI within = hn::And(x, hn::Set(di, kTexelTile - 1));
+  return hn::Add(hn::ShiftLeft<2>(hn::Sub(x, within)), within);
+}
+
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
 // into `records`.
 HWY_INLINE void QueueTexels(TextureFilter filter, const void* records, const uint32_t* texels,
@@ -114,21 +127,24 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const void* records, const uin
   AxisTexels x = WrapAxis(TameCoordinate(u), widthF, wrapU);
   AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), heightF, wrapV);
   if (filter == TextureFilter::nearest) x = Nearest(x), y = Nearest(y);
-  const VI row0 = hn::Add(first, hn::Mul(y.lower, width));
-  const VI row1 = hn::Add(first, hn::Mul(y.upper, width));
+  const VI filled = TileColumn(hn::Add(width, hn::Set(di, kTexelTile - 1)));
+  const VI rowOfTiles = hn::And(filled, hn::Set(di, -kTexelTile * kTexelTile));
+  const VI row0 = hn::Add(first, TileRow(y.lower, rowOfTiles));
+  const VI row1 = hn::Add(first, TileRow(y.upper, rowOfTiles));
+  const VI column0 = TileColumn(x.lower), column1 = TileColumn(x.upper);
   const auto liveInt = hn::RebindMask(di, live);
   const auto store = [&](VI row, VI column, int32_t* to) HWY_ATTR {
     hn::Store(hn::IfThenElseZero(liveInt, hn::Add(row, column)), di, to + slot);
   };
-  store(row0, x.lower, queue.texel00);
-  store(row0, x.upper, queue.texel10);
-  store(row1, x.lower, queue.texel01);
-  store(row1, x.upper, queue.texel11);
+  store(row0, column0, queue.texel00);
+  store(row0, column1, queue.texel10);
+  store(row1, column0, queue.texel01);
+  store(row1, column1, queue.texel11);
   hn::Store(hn::IfThenElse(live, x.fraction, hn::Set(d, -1.0f)), d, queue.fractionX + slot);
   hn::Store(y.fraction, d, queue.fractionY + slot);
   for (size_t lane = slot; lane < slot + hn::Lanes(d); ++lane) {
     hwy::Prefetch(texels + queue.texel00[lane]);
-    hwy::Prefetch(texels + queue.texel01[lane]);
+    hwy::Prefetch(texels + queue.texel11[lane]);  // all of them but at the corners of tiles
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "render/texture_tables.h"
 
 namespace whit {
 
@@ -69,57 +69,6 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
     tables.media.push_back(record);
     tables.samePriority = tables.samePriority && m.priority == scene.media[0].priority;
   }
-}
-
-// One flag a texture of the scene.
-std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const ShadingTables& tables) {
-  std::vector<bool> used(scene.textures.size(), false);
-  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps)) return used;
-  for (const MaterialRecord& m : tables.materials) {
-    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap}) {
-      if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
-    }
-  }
-  return used;
-}
-
-TextureRecord addTexels(const Texture& t, ShadingTables& tables) {
-  const TextureRecord record{
-      static_cast<std::uint32_t>(tables.texels.size()), t.width, t.height,
-      static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
-  tables.texels.insert(tables.texels.end(), t.texels.begin(), t.texels.end());
-  return record;
-}
-
-void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& tables) {
-  TextureRecord record = tables.textures[texture];
-  for (int level = 0; level < kMipStride; ++level) {
-    if (level > 0 && level < maps.levels(texture)) {
-      record = addTexels(maps.level(texture, level), tables);
-    }
-    tables.mipLevels.push_back(record);
-  }
-}
-
-void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
-  constexpr TextureRecord kUnused{0, 1, 1, 0};
-  const std::vector<bool> used = usedTextures(scene, effects, tables);
-  const bool trilinear = tables.shading.textureFilter == TextureFilter::trilinear;
-  const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
-      total += maps.level(i, level).texels.size();
-    }
-  }
-  if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
-  tables.texels.reserve(total + 1);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    tables.textures.push_back(used[i] ? addTexels(scene.textures[i], tables) : kUnused);
-    if (trilinear) addMipLevels(maps, i, tables);
-  }
-  if (tables.texels.empty()) tables.texels.push_back(0);
-  if (tables.textures.empty()) tables.textures.push_back(kUnused);
 }
 
 void addInstances(const Scene& scene, ShadingTables& tables) {

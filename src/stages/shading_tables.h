@@ -40,6 +40,8 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
 // Maps that are looked up with the second texture coordinates.
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 
+// Texels are kept in tiles of so many a side, row by row of tiles, and of texels in a tile.
+inline constexpr int kTexelTile = 4;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
   std::int32_t width, height;

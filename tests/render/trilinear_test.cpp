@@ -118,11 +118,11 @@ TEST(Trilinear, costsColumnsAndTexelsOnlyWhereItIsAskedFor) {
     const auto& p = renderer.parts();
     return std::tuple(p.plan.groups.cones, p.tables.texels.size(), p.tables.mipLevels.size());
   };
-  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50.
-  constexpr std::size_t kFull = 33 * 64 + 16 * 16 + 8 + 16 * 50;
-  constexpr std::size_t kLevels = (16 * 32 + 8 * 16 + 4 * 8 + 2 * 4 + 1 * 2 + 1) +
-                                  (64 + 16 + 4 + 1) + (4 + 2 + 1) +
-                                  (8 * 25 + 4 * 12 + 2 * 6 + 1 * 3 + 1);
+  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in tiles of 4x4.
+  constexpr std::size_t kTile = 16;
+  constexpr std::size_t kFull = kTile * (9 * 16 + 4 * 4 + 2 + 4 * 13);
+  constexpr std::size_t kLevels = kTile * ((4 * 8 + 2 * 4 + 2 + 1 + 1 + 1) + (2 * 2 + 1 + 1 + 1) +
+                                           (1 + 1 + 1) + (2 * 7 + 3 + 2 + 1 + 1));
   EXPECT_EQ(parts(scene, smallOptions()), std::tuple(false, kFull, std::size_t{0}));
   EXPECT_EQ(parts(scene, trilinear()), std::tuple(true, kFull + kLevels, 4u * kMipStride));
   EXPECT_FALSE(plain.effects.has(Effect::textures));

@@ -1,0 +1,82 @@
+#include "render/texture_tables.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace whit {
+
+namespace {
+
+constexpr std::size_t kSide = kTexelTile, kTile = kSide * kSide;
+constexpr TextureRecord kUnused{0, 1, 1, 0};
+
+// One flag a texture of the scene.
+std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const ShadingTables& tables) {
+  std::vector<bool> used(scene.textures.size(), false);
+  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps)) return used;
+  for (const MaterialRecord& m : tables.materials) {
+    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap}) {
+      if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
+    }
+  }
+  return used;
+}
+
+std::size_t tilesAcross(int texels) {
+  return (static_cast<std::size_t>(texels) + kSide - 1) / kSide;
+}
+std::size_t tiledTexels(const Texture& t) {
+  return tilesAcross(t.width) * tilesAcross(t.height) * kTile;
+}
+
+// Appends the tiles; what fills up the last of a row or a column is not read.
+TextureRecord addTexels(const Texture& t, HugeVector<std::uint32_t>& texels) {
+  const std::size_t width = static_cast<std::size_t>(t.width), first = texels.size();
+  const std::size_t height = static_cast<std::size_t>(t.height);
+  const std::size_t rowOfTiles = tilesAcross(t.width) * kTile;
+  texels.resize(first + tiledTexels(t));
+  for (std::size_t y = 0; y < height; ++y) {
+    const std::uint32_t* from = t.texels.data() + y * width;
+    std::uint32_t* to = texels.data() + first + y / kSide * rowOfTiles + y % kSide * kSide;
+    for (std::size_t x = 0; x < width; x += kSide, to += kTile) {
+      std::copy_n(from + x, std::min(kSide, width - x), to);
+    }
+  }
+  return {static_cast<std::uint32_t>(first), t.width, t.height,
+          static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
+}
+
+void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& tables) {
+  TextureRecord record = tables.textures[texture];
+  for (int level = 0; level < kMipStride; ++level) {
+    if (level > 0 && level < maps.levels(texture)) {
+      record = addTexels(maps.level(texture, level), tables.texels);
+    }
+    tables.mipLevels.push_back(record);
+  }
+}
+
+}  // namespace
+
+void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
+  const std::vector<bool> used = usedTextures(scene, effects, tables);
+  const bool trilinear = tables.shading.textureFilter == TextureFilter::trilinear;
+  const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
+      total += tiledTexels(maps.level(i, level));
+    }
+  }
+  if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
+  tables.texels.reserve(total + 1);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    tables.textures.push_back(used[i] ? addTexels(scene.textures[i], tables.texels) : kUnused);
+    if (trilinear) addMipLevels(maps, i, tables);
+  }
+  if (tables.texels.empty()) tables.texels.push_back(0);
+  if (tables.textures.empty()) tables.textures.push_back(kUnused);
+}
+
+}  // namespace whit
