@@ -96,7 +96,5 @@ void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
 std::vector<std::string> availableTargets();
 bool chooseTarget(const std::string& name);
 std::string chosenTarget();
-// Lanes of the chosen target's float vectors, at most 16.
-int chosenLanes();
 
 }  // namespace whit::simd

@@ -152,11 +152,4 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   return film.image;
 }
 
-Image referencePictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  renderer.renderReference(camera, film);
-  return film.image;
-}
-
 }  // namespace whit::stress
