@@ -31,7 +31,7 @@ struct CameraRays {
   float coneWidth = 0;  // RayCone's, where there are cones
 };
 
-// Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =
+// Pixels are packed (core/pixel.h). Writes origin, direction, weight 1, throughput 1, parent =
 // slot, the media around the eye, and the number of the path.
 void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
                   const RayColumns& rays) noexcept;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/display.h"
+#include "core/pixel.h"
 #include "metrics/heat_colour.h"
 #include "render/pixel_tracker.h"
 #include "render/renderer_parts.h"
@@ -81,8 +82,8 @@ class Watcher : public StageObserver {
  private:
   void add(const ChunkView& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
-    const auto x = static_cast<std::size_t>(static_cast<int>(at & 0xFFFFu) - window_.x0);
-    const auto y = static_cast<std::size_t>(static_cast<int>(at >> 16) - window_.y0);
+    const auto x = static_cast<std::size_t>(pixelX(at) - window_.x0);
+    const auto y = static_cast<std::size_t>(pixelY(at) - window_.y0);
     Pixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
     pixel.sum += value;
     pixel.count += count;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/display.h"
+#include "core/pixel.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"
 #include "reference/impulses.h"
@@ -71,7 +72,7 @@ class StageComparer : public StageObserver {
           worst =
               std::max(worst, std::abs(int{twin.rgba[c]} - int{film.display.rgba[4 * pixel + c]}));
         }
-        note(Stage::updateImage, "code", worst, kExact, static_cast<std::uint32_t>(x | y << 16), 0);
+        note(Stage::updateImage, "code", worst, kExact, packedPixel(x, y), 0);
       }
     }
   }
@@ -98,8 +99,8 @@ class StageComparer : public StageObserver {
     // Written so that a NaN counts as worse than anything.
     if (ulp <= row->worstUlp) return;
     row->worstUlp = std::isnan(ulp) ? std::numeric_limits<double>::infinity() : ulp;
-    row->pixelX = static_cast<int>(pixel & 0xFFFFu);
-    row->pixelY = static_cast<int>(pixel >> 16);
+    row->pixelX = pixelX(pixel);
+    row->pixelY = pixelY(pixel);
     row->depth = depth;
   }
 
@@ -116,8 +117,8 @@ class StageComparer : public StageObserver {
   void compareRays(const ChunkView& c) {
     if (enough(Stage::generateRays)) return;
     for (std::size_t i = 0; i < c.n; ++i) {
-      const double x = (c.pixels[c.first + i] & 0xFFFFu) + static_cast<double>(c.sample.x);
-      const double y = (c.pixels[c.first + i] >> 16) + static_cast<double>(c.sample.y);
+      const double x = pixelX(c.pixels[c.first + i]) + static_cast<double>(c.sample.x);
+      const double y = pixelY(c.pixels[c.first + i]) + static_cast<double>(c.sample.y);
       const reference::Ray ray = reference::generateRay(job_.camera, x, y);
       compare(Stage::generateRays, "origin", originOf(c.rays, i), ray.origin,
               maxComponent(abs(job_.camera.eye)), kPositionLimit, c, i);

@@ -41,7 +41,7 @@ struct ChunkView {
   RayColumns children;
   // Children, in this order: mirrored and sampled reflections, refractions.
   std::size_t reflections = 0, refractions = 0;
-  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, x | y << 16
+  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed
   Vec2f sample;
   std::uint32_t sampleNumber = 0;
 };

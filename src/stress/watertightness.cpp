@@ -1,4 +1,5 @@
 // H12 to H18: rays through edges and corners.
+#include "core/pixel.h"
 #include "simd/kernels.h"
 #include "stress/bodies.h"
 
@@ -222,7 +223,7 @@ Mesh roomOfPixels(const CameraFrame& frame) {
   const int columns = frame.width + 2, rows = frame.height + 2;
   std::vector<std::uint32_t> pixels;
   for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) pixels.push_back(static_cast<std::uint32_t>(x | y << 16));
+    for (int x = 0; x < columns; ++x) pixels.push_back(packedPixel(x, y));
   }
   // One pixel up and left of the picture, which the middle of this larger one makes good.
   const simd::CameraRays rays{Vec3f(frame.eye),
