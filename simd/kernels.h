@@ -14,7 +14,6 @@
 #include "core/effects.h"
 #include "core/options.h"
 #include "core/path_numbers.h"
-#include "scene/camera.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/path_numbers.h"
 #include "core/pixel.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"

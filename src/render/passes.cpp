@@ -6,6 +6,8 @@
 
 #include "core/pixel.h"
 #include "render/renderer_parts.h"
+#include "render/stage_clock.h"
+#include "scene/sample_pattern.h"
 
 namespace whit {
 

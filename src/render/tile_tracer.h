@@ -13,14 +13,11 @@
 #include <vector>
 
 #include "accel/accel.h"
-#include "core/image.h"
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/renderer.h"
-#include "render/stage_clock.h"
 #include "scene/light_shares.h"
 #include "scene/pilots.h"
-#include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 

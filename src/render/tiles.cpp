@@ -1,7 +1,5 @@
 #include "render/tiles.h"
 
-#include <algorithm>
-
 #include "core/pixel.h"
 #include "stages/columns.h"
 

@@ -1,5 +1,4 @@
 // H65 to H76: lights at no distance, texture coordinates, film, camera.
-#include <array>
 
 #include "core/pixel.h"
 #include "reference/generate_ray.h"

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "simd/kernels.h"
+
 namespace whit::stress {
 
 RenderOptions optionsOf(const Setup& setup) {
