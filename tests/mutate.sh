@@ -109,7 +109,7 @@ mutations() {
   plant bad-rays-traced src/accel/bad_rays.h 'if (good == kWidth) return;' 'return;'
   plant no-retry src/render/renderer.cpp \
     'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
-  plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media};' '0};'
+  plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media,' '0,'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
 }
 
