@@ -5,11 +5,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/interpolate_surfels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-
-#include "hwy/contrib/math/math-inl.h"
-#include "simd/media-inl.h"
+#include "simd/crossing-inl.h"
+#include "simd/surface-inl.h"
 #include "simd/surface_maps-inl.h"
-#include "simd/triangle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -22,49 +20,6 @@ constexpr uint32_t kColoured = EffectSet::bit(Effect::vertexColours);
 constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
-
-// Media on both sides of the surface, and whether it is there at all.
-HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VF mediumBits,
-                           MF entering, size_t i, const SurfelColumns& surfels) {
-  const UintTag du;
-  const VU stack = hn::Load(du, rays.media + i);
-  const VU medium = hn::BitCast(du, mediumBits);
-  const auto dielectric = hn::Ne(medium, hn::Zero(du));
-  const auto enters = hn::RebindMask(du, entering);
-  VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
-  behind = hn::IfThenElse(dielectric, behind, stack);
-  const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
-  const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
-  hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,
-            surfels.flags + i);
-  hn::Store(behind, du, surfels.mediaBehind + i);
-}
-
-// exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.
-HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, const HitColumns& hits,
-                       MF valid, size_t i) {
-  const FloatTag d;
-  const IntTag di;
-  const UintTag du;
-  const VU stack = hn::Load(du, rays.media + i);
-  if (hn::AllTrue(du, hn::Eq(stack, hn::Zero(du)))) return;
-  const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
-  const Records records = RecordsAt(tables.media.data(), kMediumStride, medium);
-  const V4 record = LoadColumns4(records, 0);
-  const VF t = hn::Load(d, hits.t + i);
-  const auto transmittance = [&](VF sigma) HWY_ATTR {
-    // 88 is past where exp underflows to zero; the limit keeps infinity out of the polynomial.
-    const VF depth = hn::Min(hn::Mul(sigma, t), hn::Set(d, 104.0f));
-    const VF hit = hn::IfThenElseZero(hn::Lt(depth, hn::Set(d, 87.0f)), hn::Exp(d, hn::Neg(depth)));
-    const VF through = hn::IfThenElseZero(valid, hit);
-    return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
-  };
-  const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
-  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
-  const VF throughput = hn::Load(d, rays.throughput + i);
-  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
-}
 
 // What vertex colours multiply, as the flags of the lanes' materials say.
 struct Tints {
@@ -85,6 +40,48 @@ HWY_INLINE Tints FindTints(const V3& colour, VF flagBits) {
           Select3(emission, colour, white)};
 }
 
+// No maps wait there yet.
+template <uint32_t kBits>
+HWY_INLINE void ClearSlot(size_t slot, BlockTextures& block) {
+  if constexpr ((kBits & kTextured) != 0) {
+    block.diffuse.level.any[slot] = block.specular.level.any[slot] = false;
+    block.emission.level.any[slot] = false;
+  }
+  if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
+}
+
+// `mapHits` makes the MapHits of the vector where they are needed: a copy, for what others have the
+// address of does not stay in registers.
+template <class MakeMapHits>
+HWY_INLINE void QueueNormal(const ShadingTables& tables, VF map, const UvLanes& uv, MF valid,
+                            const Surface& s, VF flip, const TexturePoints& at,
+                            const MakeMapHits& mapHits, size_t slot, BlockTextures& block) {
+  const MF mapped =
+      hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
+  if (hn::AllFalse(FloatTag(), mapped)) return;
+  if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
+    QueueNormalByOwnUvs(tables, mapHits(), map, NormalSpace{s.ns, s.handedness, flip}, slot, block);
+    return;
+  }
+  const TangentFrame frame = FindTangentFrame(uv, s.edge1, s.edge2, s.ns, s.handedness);
+  QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
+  StoreFrame(frame, flip, slot, block);
+}
+
+template <uint32_t kBits, class MakeMapHits>
+HWY_INLINE void StoreEmission(const ShadingTables& tables, const V3& tint, VF map, MF valid,
+                              const TexturePoints& at, const MakeMapHits& mapHits, size_t slot,
+                              BlockTextures& block, size_t i, const SurfelColumns& surfels) {
+  Store3(tint, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
+  if constexpr ((kBits & kTextured) != 0) {
+    if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
+      QueueEmissionByOwnUvs(tables, mapHits(), map, slot, block);
+    } else {
+      QueueMap(tables, map, valid, at, slot, block.emission);
+    }
+  }
+}
+
 // Everything but textures, which are queued, for the vector of rays at i; returns the flags of
 // their materials.
 template <uint32_t kBits>
@@ -96,11 +93,7 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const IntTag di;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f);
-  if constexpr ((kBits & kTextured) != 0) {
-    block.diffuse.level.any[slot] = block.specular.level.any[slot] = false;
-    block.emission.level.any[slot] = false;
-  }
-  if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
+  ClearSlot<kBits>(slot, block);
   const VU hit = hn::Load(du, hits.triangle + i);
   const MF valid = hn::RebindMask(d, hn::Ne(hit, hn::Set(du, kMiss)));
   if ((effects.bits() & kAbsorption) != 0) Absorb(tables, rays, hits, valid, i);
@@ -112,52 +105,22 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const TriangleLanes t = LoadTriangles(tables, triangle);
   const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
   const Weights w{hn::Sub(hn::Sub(one, u), v), u, v};
-  V3 edge1 = Sub3(t.p1, t.p0), edge2 = Sub3(t.p2, t.p0);
-  V3 position = Interpolate3(w, t.p0, t.p1, t.p2);
-  V3 ng = GeometricNormal(edge1, edge2, tables.shading.reciprocal);
-  V3 ns = ng;
-  if constexpr ((kBits & kSmooth) != 0) ns = SmoothNormal(tables, triangle, w, ng);
-  // Rounding error of the interpolated point: at most gamma(7) times this sum a component
-  // (pbrt-v4, section 6.8.5); 32 ulps along the normal also cover Embree's own arithmetic.
-  const Weights wa{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
-  V3 magnitude = Interpolate3(wa, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
-  VF handedness = one;
-  if ((effects.bits() & kInstanced) != 0) {
-    const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
-    const MF placed = hn::And(valid, hn::RebindMask(d, NonNegative(instance)));
-    if (!hn::AllFalse(d, placed)) {
-      const TableReader reader(tables.instances.data(), kInstanceStride, instance, placed);
-      const InstanceLanes m{reader.Columns4(0), reader.Columns4(4), reader.Columns4(8)};
-      const InstanceLanes normal{reader.Columns4(12), reader.Columns4(16), reader.Columns4(20)};
-      const V3 origin{m.row0.w, m.row1.w, m.row2.w};
-      const InstanceLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
-                              {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},
-                              {hn::Abs(m.row2.x), hn::Abs(m.row2.y), hn::Abs(m.row2.z), one}};
-      magnitude = Select3(placed, Add3(TransformVector(abs, magnitude), Abs3(origin)), magnitude);
-      position = Select3(placed, Add3(TransformVector(m, position), origin), position);
-      edge1 = Select3(placed, TransformVector(m, edge1), edge1);
-      edge2 = Select3(placed, TransformVector(m, edge2), edge2);
-      ng = Select3(placed, NormalizeOr(TransformVector(normal, ng), ng), ng);
-      ns = Select3(placed, NormalizeOr(TransformVector(normal, ns), ng), ns);
-      handedness = hn::IfThenElse(placed, reader.Columns4(24).x, one);
-    }
-  }
+  Surface s = InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w);
+  if ((effects.bits() & kInstanced) != 0) CarryToWorld(tables, hits, valid, i, s);
   const TableReader material(tables.materials.data(), kMaterialStride, t.material, valid);
   const V4 diffuse = material.Columns4(0);
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
                    Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
-  const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-  const VF cosine = Dot(direction, ng);
+  const VF cosine = Dot(Load3(rays.dirX, rays.dirY, rays.dirZ, i), s.ng);
   if (surfels.cone) {
     const VF width =
         hn::MulAdd(hn::Set(d, coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
     hn::Store(width, d, surfels.cone + i);
-    at.footprint = TextureFootprint(t.uv, edge1, edge2, width, cosine);
+    at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
   }
-  // A copy: what others have the address of does not stay in registers.
   const auto mapHits = [&]() HWY_ATTR {
     const VF width = surfels.cone ? hn::Load(d, surfels.cone + i) : hn::Zero(d);
-    return MapHits{t.uv, triangle, t.material, valid, w, edge1, edge2, width, cosine};
+    return MapHits{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
   };
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = hn::IfThenElse(entering, one, hn::Set(d, -1.0f));
@@ -165,23 +128,9 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
     QueueMap(tables, diffuse.w, valid, at, slot, block.diffuse);
   }
   if constexpr ((kBits & kNormalMapped) != 0) {
-    const VF map = material.Columns4(8).w;
-    const MF mapped = hn::And(valid, hn::RebindMask(d, NonNegative(hn::BitCast(di, map))));
-    if (!hn::AllFalse(d, mapped)) {
-      if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
-        QueueNormalByOwnUvs(tables, mapHits(), map, NormalSpace{ns, handedness, flip}, slot, block);
-      } else {
-        const TangentFrame frame = FindTangentFrame(t.uv, edge1, edge2, ns, handedness);
-        QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
-        StoreFrame(frame, flip, slot, block);
-      }
-    }
+    QueueNormal(tables, material.Columns4(8).w, t.uv, valid, s, flip, at, mapHits, slot, block);
   }
-  Store3(position, surfels.posX, surfels.posY, surfels.posZ, i);
-  Store3(Scale3(ng, flip), surfels.ngX, surfels.ngY, surfels.ngZ, i);
-  Store3(Scale3(ns, flip), surfels.nsX, surfels.nsY, surfels.nsZ, i);
-  const VF sum = hn::Add(hn::Add(magnitude.x, magnitude.y), magnitude.z);
-  hn::Store(hn::Mul(sum, hn::Set(d, 0x1p-19f)), d, surfels.offset + i);
+  StoreSurface(s, flip, i, surfels);
   const V4 lobe = material.Columns4(12);
   Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
   const bool coloured = (effects.bits() & kColoured) != 0;
@@ -192,14 +141,8 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   }
   Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
   if (surfels.emissionR) {
-    Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
-    if constexpr ((kBits & kTextured) != 0) {
-      if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
-        QueueEmissionByOwnUvs(tables, mapHits(), lobe.w, slot, block);
-      } else {
-        QueueMap(tables, lobe.w, valid, at, slot, block.emission);
-      }
-    }
+    StoreEmission<kBits>(tables, tints.emission, lobe.w, valid, at, mapHits, slot, block, i,
+                         surfels);
   }
   const VU materialOrMiss =
       hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));

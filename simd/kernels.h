@@ -14,7 +14,6 @@
 #include "core/effects.h"
 #include "core/options.h"
 #include "core/path_numbers.h"
-#include "scene/camera.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 
@@ -31,7 +30,7 @@ struct CameraRays {
   float coneWidth = 0;  // RayCone's, where there are cones
 };
 
-// Pixels are packed as x | y << 16. Writes origin, direction, weight 1, throughput 1, parent =
+// Pixels are packed (core/pixel.h). Writes origin, direction, weight 1, throughput 1, parent =
 // slot, the media around the eye, and the number of the path.
 void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
                   const RayColumns& rays) noexcept;
@@ -96,7 +95,5 @@ void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
 std::vector<std::string> availableTargets();
 bool chooseTarget(const std::string& name);
 std::string chosenTarget();
-// Lanes of the chosen target's float vectors, at most 16.
-int chosenLanes();
 
 }  // namespace whit::simd

@@ -1,23 +1,11 @@
 // Which SIMD target the kernels run on.
 #include <cstdint>
 
+#include "hwy/targets.h"
 #include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/targets.cpp"
-#include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/vec3-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace whit::simd::HWY_NAMESPACE {
-int CountLanes() { return static_cast<int>(hn::Lanes(FloatTag())); }
-}  // namespace whit::simd::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(CountLanes);
 
 namespace {
 
@@ -115,7 +103,4 @@ std::string chosenTarget() {
   return "scalar";
 }
 
-int chosenLanes() { return HWY_DYNAMIC_DISPATCH(CountLanes)(); }
-
 }  // namespace whit::simd
-#endif

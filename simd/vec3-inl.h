@@ -7,7 +7,6 @@
 #endif
 
 #include <cstddef>
-#include <cstdint>
 
 #include "core/shading_choices.h"
 #include "core/vec3.h"

@@ -86,14 +86,14 @@ mutations() {
   const V3 unit'
   plant unmasked-lane simd/add_impulses.cpp \
     'const size_t live = HWY_MIN(hn::Lanes(d), n - i);' 'const size_t live = hn::Lanes(d);'
-  plant dropped-lane simd/add_impulses.cpp \
+  plant dropped-lane simd/impulse-inl.h \
     'return compactor.Count();' 'return compactor.Count() - (compactor.Count() > 3 ? 1 : 0);'
-  plant no-lift simd/add_impulses.cpp \
+  plant no-lift simd/impulse-inl.h \
     'const MF low = hn::Lt(height, lift);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)lift;'
   plant wrong-bend simd/add_impulses.cpp \
     'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
-  plant nan-throughput simd/add_impulses.cpp \
+  plant nan-throughput simd/impulse-inl.h \
     'hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))))' \
     'hn::AndNot(hn::Lt(throughput, hn::Set(d, cutoff)), live)'
   plant media-not-removed simd/media-inl.h \
@@ -109,7 +109,7 @@ mutations() {
   plant bad-rays-traced src/accel/bad_rays.h 'if (good == kWidth) return;' 'return;'
   plant no-retry src/render/renderer.cpp \
     'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
-  plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media};' '0};'
+  plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media,' '0,'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/error.h"
 #include "viewer/app.h"
 #include "viewer/view_files.h"
 

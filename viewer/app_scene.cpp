@@ -1,5 +1,4 @@
 // Which scene is looked at: the one given, read again when its file changes, or another one.
-#include "core/error.h"
 #include "io/paths.h"
 #include "viewer/app.h"
 #include "viewer/motion.h"

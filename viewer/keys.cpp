@@ -3,7 +3,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include <array>
 #include <cctype>
 #include <utility>
 #include <vector>

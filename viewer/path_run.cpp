@@ -1,6 +1,5 @@
 #include "viewer/path_run.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -10,14 +9,13 @@
 #include "cli/image_output.h"
 #include "cli/open_scene.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "render/describe_image.h"
 #include "viewer/app.h"
 
 namespace whit::view {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesPerSecond = 24;
 
@@ -92,9 +90,9 @@ void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window
     const double share = static_cast<double>(frame) / kBenchmarkFrames;
     const Camera camera = cameraOf(open.scene, options.common.render, share);
     traced.push_back(renderer.render(camera, film).frameMs);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     show(window, film.display);
-    displayed.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    displayed.push_back(stopwatch.ms());
   }
   std::printf("%s  %dx%d  %zu frames\n", open.scene.name.c_str(), film.image.width,
               film.image.height, traced.size());

@@ -1,7 +1,10 @@
 // Materials and lights of the scene, to be changed while it is being looked at.
 #pragma once
 
-#include "viewer/traced_frame.h"
+#include <vector>
+
+#include "scene/light.h"
+#include "scene/material.h"
 
 namespace whit::view {
 

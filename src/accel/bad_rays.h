@@ -3,9 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-
-#include "scene/scene.h"
 
 namespace whit {
 

@@ -1,5 +1,4 @@
 // The floor: what Embree alone needs for the rays of a frame.
-#include <limits>
 #include <vector>
 
 #include "accel/bad_rays.h"

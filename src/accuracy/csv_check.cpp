@@ -1,6 +1,5 @@
 // Rows of an earlier sweep against those of a new one.
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <optional>
 

@@ -1,7 +1,6 @@
 // One row for each option that trades accuracy for time.
-#include <algorithm>
-#include <charconv>
-
+#include "accuracy/idle_knobs.h"
+#include "accuracy/knob_row.h"
 #include "accuracy/knobs.h"
 
 namespace whit::accuracy {
@@ -9,82 +8,6 @@ namespace whit::accuracy {
 namespace {
 
 using O = RenderOptions;
-
-std::string labelOf(int value) { return std::to_string(value); }
-std::string labelOf(bool value) { return value ? "on" : "off"; }
-std::string labelOf(float value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-
-template <typename T>
-struct Row {
-  const char* name;
-  T& (*field)(RenderOptions&);
-  Cause cause;
-  T exact;
-  std::vector<T> values, joint;
-  std::vector<T> spare = {};
-};
-
-template <typename T>
-Knob knobOf(const Row<T>& row, Idle idle, const std::function<std::string(T)>& label) {
-  Knob knob{row.name, row.cause, {}, nullptr, std::move(idle)};
-  const auto set = [field = row.field](const T& value) {
-    return [field, value](RenderOptions& options) { field(options) = value; };
-  };
-  knob.makeExact = [apply = set(row.exact)](RenderOptions& o, const Exactness&) { apply(o); };
-  for (const T& value : row.values) {
-    const auto isIn = [&value](const std::vector<T>& values) {
-      return std::find(values.begin(), values.end(), value) != values.end();
-    };
-    knob.values.push_back(
-        {label(value), set(value), isIn(row.joint), nullptr, {}, isIn(row.spare)});
-  }
-  return knob;
-}
-template <typename T>
-Knob knobOf(const Row<T>& row, Idle idle) {
-  return knobOf<T>(row, std::move(idle), [](T value) { return labelOf(value); });
-}
-
-std::string never(EffectSet) { return {}; }
-
-std::string withoutImpulses(EffectSet effects) {
-  if (effects.has(Effect::mirror) || effects.has(Effect::transmission)) return {};
-  return "nothing in the scene reflects or refracts";
-}
-std::string withoutGlossyReflection(EffectSet effects) {
-  return effects.has(Effect::glossyReflection) ? "" : "no glossy lobe in the scene reflects it";
-}
-std::string withoutTransmission(EffectSet effects) {
-  return effects.has(Effect::transmission) ? "" : "nothing in the scene is transparent";
-}
-std::string withoutLights(EffectSet effects) {
-  return effects.has(Effect::lights) ? "" : "the scene has no light";
-}
-std::string withoutShadows(EffectSet effects) {
-  return effects.has(Effect::shadows) ? "" : "nothing in the scene casts a shadow";
-}
-std::string withoutSmoothShadows(EffectSet effects) {
-  return effects.has(Effect::smoothNormals) ? withoutShadows(effects) : "all surfaces are flat";
-}
-std::string withoutBentImpulses(EffectSet effects) {
-  const bool bent = effects.has(Effect::smoothNormals) || effects.has(Effect::normalMaps);
-  return bent ? withoutImpulses(effects) : "all surfaces are flat";
-}
-std::string withoutTextures(EffectSet effects) {
-  if (effects.has(Effect::textures) || effects.has(Effect::normalMaps)) return {};
-  return "the scene has no texture";
-}
-std::string withoutSecondaryRays(EffectSet effects) {
-  return effects.has(Effect::shadows) ? std::string() : withoutImpulses(effects);
-}
-std::string whereRaysBranch(EffectSet effects) {
-  if (!effects.has(Effect::transmission)) return {};
-  return "without a cutoff the rays of both impulses double with every bounce";
-}
 
 Knob cutoffKnob() {
   Knob knob = knobOf<float>({"cutoff",
@@ -138,11 +61,6 @@ Knob contrastKnob() {
     value.alongside = {"--adaptive", "on", "--spp", labelOf(kAdaptiveSpp)};
   }
   return knob;
-}
-
-template <typename Enum>
-std::function<std::string(Enum)> named(std::vector<std::string> names) {
-  return [names = std::move(names)](Enum value) { return names[static_cast<std::size_t>(value)]; };
 }
 
 std::vector<Knob> makeKnobs() {

@@ -1,7 +1,6 @@
 // Where the labels of a chart go.
 #pragma once
 
-#include <string>
 #include <vector>
 
 namespace whit::accuracy {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "accuracy/errors.h"
@@ -15,9 +16,6 @@
 namespace whit::accuracy {
 
 namespace {
-
-// Points of a single frame that one frame of the baseline serves; and where that is long as well.
-constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
 
 // Work of a packet frame in units of a scalar frame of one sample, roughly.
 constexpr double kPacketFrameWork = 0.1;
@@ -39,6 +37,7 @@ class SceneSweeper {
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
     baseline_->render();
+    timer_.emplace(*baseline_, scope_, settings_.full);
     describe();
     chooseSamples();
     choosePoints();
@@ -171,7 +170,7 @@ class SceneSweeper {
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
-    time(point, frames);
+    timer_->time(point, frames);
     if (frames.film.image.pixels == baseline_->film.image.pixels &&
         point.options.srgb == base_.srgb) {
       takeErrors(point, sweep_.points.front());
@@ -182,35 +181,6 @@ class SceneSweeper {
     if (point.cause == Cause::arithmetic) takeErrorsOfRays(point, sweep_.points.front());
     if (settings_.pictures) meter.depict(point, frames.film.image);
     return true;
-  }
-
-  // Combinations are many: they are timed as in a quick sweep.
-  void time(Point& point, FrameSource& frames) {
-    const double first = frames.stats.frameMs;
-    if (point.options.mode == Mode::reference || first > scope_.limits.pointMs) {
-      takeSingleFrame(point, first);
-      return;
-    }
-    const bool joint = point.kind == PointKind::joint;
-    const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
-    const Rounds rounds =
-        roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs,
-                  settings_.full && !joint);
-    if (rounds.count == 1) {
-      takeSingleFrame(point, frames.render().frameMs);
-    } else {
-      point.timing = timePoint(frames, *baseline_, rounds, baselineMs_);
-    }
-  }
-
-  // Beside one of the baseline, of which every other point has a new one.
-  void takeSingleFrame(Point& point, double ms) {
-    const int uses = scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline;
-    if (singleFrames_++ % uses == 0) {
-      baselineMs_.push_back(baseline_->render().frameMs);
-    }
-    point.timing = timingOf({ms});
-    point.timing.ratio = ms / baselineMs_.back();
   }
 
   // Of the same picture.
@@ -237,9 +207,8 @@ class SceneSweeper {
 
   // What needs all points: the baseline's time, times without drift, fronts.
   void settle() {
-    if (baselineMs_.empty()) baselineMs_.push_back(baseline_->render().frameMs);
     Point& baseline = sweep_.points.front();
-    baseline.timing = timingOf(baselineMs_);
+    baseline.timing = timingOf(timer_->baselineMs());
     std::vector<CostAndError> total, same;
     std::vector<Point*> withSame;
     for (Point& point : sweep_.points) {
@@ -267,8 +236,7 @@ class SceneSweeper {
   ReferenceCache cache_;
   Pace pace_;
   std::unique_ptr<FrameSource> baseline_;
-  std::vector<double> baselineMs_;
-  int singleFrames_ = 0;  // of points, taken so far
+  std::optional<PointTimer> timer_;
   SceneSweep sweep_;
 };
 

@@ -6,6 +6,9 @@ namespace whit::accuracy {
 
 namespace {
 
+// Points of a single frame that one frame of the baseline serves; and where that is long as well.
+constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
+
 std::vector<double> timeBlock(FrameSource& source, const Rounds& rounds) {
   for (int i = 0; i < rounds.warmUp; ++i) source.render();
   std::vector<double> ms(static_cast<std::size_t>(rounds.frames));
@@ -70,6 +73,39 @@ Timing timePoint(FrameSource& point, FrameSource& baseline, const Rounds& rounds
   Timing timing = timingOf(all);
   timing.ratio = quantile(ratios, 0.5);
   return timing;
+}
+
+// Combinations are many: they are timed as in a quick sweep.
+void PointTimer::time(Point& point, FrameSource& frames) {
+  const double first = frames.stats.frameMs;
+  if (point.options.mode == Mode::reference || first > scope_.limits.pointMs) {
+    takeSingleFrame(point, first);
+    return;
+  }
+  const bool joint = point.kind == PointKind::joint;
+  const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
+  const Rounds rounds =
+      roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs, full_ && !joint);
+  if (rounds.count == 1) {
+    takeSingleFrame(point, frames.render().frameMs);
+  } else {
+    point.timing = timePoint(frames, baseline_, rounds, baselineMs_);
+  }
+}
+
+// Beside one of the baseline, of which every other point has a new one.
+void PointTimer::takeSingleFrame(Point& point, double ms) {
+  const int uses = scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline;
+  if (singleFrames_++ % uses == 0) {
+    baselineMs_.push_back(baseline_.render().frameMs);
+  }
+  point.timing = timingOf({ms});
+  point.timing.ratio = ms / baselineMs_.back();
+}
+
+const std::vector<double>& PointTimer::baselineMs() {
+  if (baselineMs_.empty()) baselineMs_.push_back(baseline_.render().frameMs);
+  return baselineMs_;
 }
 
 }  // namespace whit::accuracy

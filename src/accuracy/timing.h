@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
+#include "accuracy/scope.h"
 
 namespace whit::accuracy {
 
@@ -38,5 +39,27 @@ Timing timePoint(FrameSource& point, FrameSource& baseline, const Rounds& rounds
 
 // Of the baseline itself, from all of its frames.
 Timing timingOf(const std::vector<double>& ms);
+
+// Times the points of a sweep, each as thoroughly as the sweep can afford: long ones by a single
+// frame. `baseline` has rendered a frame; it and `scope` must outlive the timer.
+class PointTimer {
+ public:
+  PointTimer(FrameSource& baseline, const Scope& scope, bool full)
+      : baseline_(baseline), scope_(scope), full_(full) {}
+
+  // `frames` has rendered a frame of the point. Leaves settledMs alone.
+  void time(Point& point, FrameSource& frames);
+  // Of the baseline's frames so far, at least one.
+  const std::vector<double>& baselineMs();
+
+ private:
+  void takeSingleFrame(Point& point, double ms);
+
+  FrameSource& baseline_;
+  const Scope& scope_;
+  bool full_;
+  std::vector<double> baselineMs_;
+  int singleFrames_ = 0;  // of points, taken so far
+};
 
 }  // namespace whit::accuracy

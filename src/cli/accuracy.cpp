@@ -16,7 +16,6 @@
 #include "cli/interrupt.h"
 #include "cli/machine_facts.h"
 #include "cli/open_scene.h"
-#include "cli/program.h"
 #include "cli/progress_bar.h"
 #include "cli/stress_run.h"
 #include "core/error.h"

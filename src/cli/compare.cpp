@@ -1,5 +1,4 @@
 // whit compare: packets against the scalar reference, or two images.
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 

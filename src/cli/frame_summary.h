@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
 #include "core/options.h"
 #include "core/quantile.h"
 #include "farm/farm.h"

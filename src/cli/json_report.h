@@ -2,7 +2,6 @@
 // names; megabytes are 10^6 bytes.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>

@@ -1,22 +1,21 @@
 #include "cli/open_scene.h"
 
-#include <chrono>
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "io/load_scene.h"
 
 namespace whit::cli {
 
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   auto open = std::make_unique<OpenScene>(common.render.strict);
   open->scene = Scene::finalize(loadScene(name, common.load, open->warnings, progress),
                                 open->warnings, progress);
   open->settings = common.load.settings;
-  open->loadMs =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  open->loadMs = stopwatch.ms();
   if (!common.quiet) tellWarnings(open->warnings);
   return open;
 }

@@ -1,6 +1,5 @@
 #include "core/film.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

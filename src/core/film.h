@@ -1,8 +1,6 @@
 // The precision in which a picture is kept.
 #pragma once
 
-#include <cstddef>
-
 #include "core/options.h"
 #include "core/vec3.h"
 

@@ -2,7 +2,6 @@
 // by --help, and by the metadata written into images, so that none of them can disagree.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 

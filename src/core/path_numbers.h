@@ -16,8 +16,8 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-// The first ray's: its pixel is x | y << 16, `sample` its place in the sample pattern. The samples
-// of a pixel are equal steps apart.
+// The first ray's: its pixel is packed (core/pixel.h), `sample` its place in the sample pattern.
+// The samples of a pixel are equal steps apart.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
 constexpr std::uint32_t pathOfPixel(std::uint32_t pixel, std::uint32_t sample) {
   return mixed(pixel + kPixelSalt) + sample * kSampleStep;

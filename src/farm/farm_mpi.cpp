@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <thread>
 
 #include "core/failure.h"
+#include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "farm/farm.h"
 #include "farm/messages_mpi.h"
@@ -19,14 +19,8 @@ namespace whit {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Blocks that a worker has at a time: it begins the next while the leader places the last.
 constexpr int kBlocksAhead = 2;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Set by what starts the ranks: Open MPI, PMIx (Slurm), and the PMI of MPICH and its kin. Without
 // one MPI would start a daemon for a single process.
@@ -47,11 +41,11 @@ bool startedAsRank() {
 }
 
 TracedBlock traceBlock(std::int32_t index, const Farm::Trace& trace, Film& film) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   TracedBlock traced;
   traced.index = index;
   traced.stats = trace(film);
-  traced.ms = static_cast<float>(since(start));
+  traced.ms = static_cast<float>(stopwatch.ms());
   return traced;
 }
 
@@ -160,9 +154,9 @@ FrameStats Farm::render(Film& film, int tile, int workers, const Trace& trace) {
   }
   lastFrame_.ranks = ranks();
   lastFrame_.blockSide = side;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   FrameStats stats = parts_->lead(blocks, film, trace, lastFrame_);
-  stats.frameMs = since(start);
+  stats.frameMs = stopwatch.ms();
   stats.workers = workers * ranks();
   return stats;
 }
@@ -200,9 +194,9 @@ FrameStats Farm::Parts::lead(const std::vector<Crop>& blocks, Film& film, const 
       heed(letter);
       continue;
     }
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     count(unpackBlock(letter.bytes, blocks, film));
-    frame.placeMs += since(start);
+    frame.placeMs += stopwatch.ms();
     frame.messageBytes += letter.bytes.size();
     ++frame.messages;
     --inHand[static_cast<std::size_t>(letter.from)];

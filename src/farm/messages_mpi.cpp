@@ -8,6 +8,8 @@
 #include <thread>
 #include <type_traits>
 
+#include "farm/blocks.h"
+
 namespace whit {
 
 namespace {

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "farm/blocks.h"
+#include "render/renderer.h"
 
 namespace whit {
 

@@ -1,7 +1,6 @@
 #include "io/gltf_accessor.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <string>

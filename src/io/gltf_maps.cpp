@@ -1,7 +1,5 @@
 #include "io/gltf_maps.h"
 
-#include <algorithm>
-#include <array>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -11,7 +9,6 @@
 #include "io/gltf_baker.h"
 #include "io/image_decoders.h"
 #include "io/image_file.h"
-#include "io/raw_channels.h"
 
 namespace whit {
 

@@ -4,22 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "io/gltf_extensions.h"
+#include "scene/material.h"
+
 namespace whit {
 namespace {
 
 using Value = tinygltf::Value;
-using Extensions = tinygltf::ExtensionMap;
 
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
 constexpr float kLeastAttenuation = 1e-6f;  // of a colour; the logarithm is taken
 
-const Value* find(const Extensions& extensions, const char* name) {
-  const auto found = extensions.find(name);
-  return found == extensions.end() ? nullptr : &found->second;
-}
-double numberOf(const Value& object, const char* key, double fallback) {
-  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
-}
 Rgb colourOf(const Value& object, const char* key, const Rgb& fallback) {
   if (!object.Has(key)) return fallback;
   const Value& list = object.Get(key);
@@ -47,6 +42,10 @@ class GltfMaterialReader {
 
  private:
   void warn(const char* what) { document_.warnings().add(what, m_.where); }
+
+  const Value* named(const char* extension) const {
+    return findExtension(source_.extensions, extension);
+  }
 
   float unit(double x) {
     if (x >= 0 && x <= 1) return static_cast<float>(x);
@@ -76,7 +75,7 @@ class GltfMaterialReader {
   void maps() {
     const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
     m_.baseMap = texture(pbr.baseColorTexture);
-    m_.unlit = find(source_.extensions, "KHR_materials_unlit") != nullptr;
+    m_.unlit = named("KHR_materials_unlit") != nullptr;
     if (m_.unlit) {
       m_.metallic = 0;
       m_.emission = Rgb();
@@ -86,6 +85,16 @@ class GltfMaterialReader {
     m_.normalMap = texture(source_.normalTexture);
     m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
     m_.emissiveMap = texture(source_.emissiveTexture);
+  }
+
+  template <typename Info>
+  GltfTexture texture(const Info& info) const {
+    return readGltfTexture(document_, m_.where, info.index, info.texCoord, info.extensions);
+  }
+  // Of an extension.
+  GltfTexture texture(const Value& extension, const char* slot) const {
+    if (m_.unlit || !extension.Has(slot)) return {};
+    return readGltfTexture(document_, m_.where, extension.Get(slot));
   }
 
   void countCoordinatesLeftOut() {
@@ -105,81 +114,18 @@ class GltfMaterialReader {
     }
   }
 
-  template <typename Info>
-  GltfTexture texture(const Info& info) {
-    GltfTexture result;
-    if (info.index < 0) return result;
-    const tinygltf::Texture& texture =
-        document_.model().textures[static_cast<std::size_t>(info.index)];
-    if (texture.source < 0) {
-      warn("texture in a format that is not supported left out");
-      return result;
-    }
-    result.image = texture.source;
-    if (texture.sampler >= 0) {
-      const tinygltf::Sampler& sampler =
-          document_.model().samplers[static_cast<std::size_t>(texture.sampler)];
-      result.wrapU = wrap(sampler.wrapS);
-      result.wrapV = wrap(sampler.wrapT);
-      if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
-        warn("texture to be looked up at its nearest texel, interpolated instead");
-      }
-    }
-    result.uv.set = static_cast<std::size_t>(std::max(info.texCoord, 0));
-    if (const Value* t = find(info.extensions, "KHR_texture_transform")) transform(*t, result.uv);
-    return result;
-  }
-
-  // Of an extension.
-  GltfTexture texture(const Value& extension, const char* slot) {
-    tinygltf::TextureInfo info;
-    if (!extension.Has(slot) || m_.unlit) return {};
-    const Value& value = extension.Get(slot);
-    info.index = static_cast<int>(numberOf(value, "index", -1));
-    info.texCoord = static_cast<int>(numberOf(value, "texCoord", 0));
-    constexpr char kTransform[] = "KHR_texture_transform";
-    if (value.Has("extensions") && value.Get("extensions").Has(kTransform)) {
-      info.extensions[kTransform] = value.Get("extensions").Get(kTransform);
-    }
-    return texture(info);
-  }
-
-  static Wrap wrap(int code) {
-    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
-           : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
-                                                           : Wrap::repeat;
-  }
-
-  static double elementOf(const Value& object, const char* key, int i, double fallback) {
-    return object.Has(key) ? object.Get(key).Get(i).GetNumberAsDouble() : fallback;
-  }
-  // Translation * rotation * scale; with v pointing down, counter-clockwise as seen.
-  static void transform(const Value& t, GltfUvMap& uv) {
-    const double r = numberOf(t, "rotation", 0), c = std::cos(r), s = std::sin(r);
-    const double su = elementOf(t, "scale", 0, 1), sv = elementOf(t, "scale", 1, 1);
-    uv.uu = c * su;
-    uv.uv = s * sv;
-    uv.u0 = elementOf(t, "offset", 0, 0);
-    uv.vu = -s * su;
-    uv.vv = c * sv;
-    uv.v0 = elementOf(t, "offset", 1, 0);
-    uv.set = static_cast<std::size_t>(
-        std::max(numberOf(t, "texCoord", static_cast<double>(uv.set)), 0.0));
-  }
-
   void extensions() {
-    if (const Value* e = find(source_.extensions, "KHR_materials_ior"))
-      ior(numberOf(*e, "ior", 1.5));
+    if (const Value* e = named("KHR_materials_ior")) ior(numberOf(*e, "ior", 1.5));
     const float step = (m_.ior - 1) / (m_.ior + 1);
     m_.specularColour = Rgb(step * step);
-    if (const Value* e = find(source_.extensions, "KHR_materials_specular")) specular(*e);
-    if (const Value* e = find(source_.extensions, "KHR_materials_emissive_strength")) {
+    if (const Value* e = named("KHR_materials_specular")) specular(*e);
+    if (const Value* e = named("KHR_materials_emissive_strength")) {
       m_.emission *= static_cast<float>(
           std::clamp(numberOf(*e, "emissiveStrength", 1), 0.0, kLargestEmission));
     }
-    if (const Value* e = find(source_.extensions, "KHR_materials_transmission")) transmission(*e);
-    if (const Value* e = find(source_.extensions, "KHR_materials_volume")) volume(*e);
-    if (const Value* e = find(source_.extensions, "KHR_materials_clearcoat")) {
+    if (const Value* e = named("KHR_materials_transmission")) transmission(*e);
+    if (const Value* e = named("KHR_materials_volume")) volume(*e);
+    if (const Value* e = named("KHR_materials_clearcoat")) {
       m_.clearcoat = unit(numberOf(*e, "clearcoatFactor", 0));
       m_.clearcoatRoughness = unit(numberOf(*e, "clearcoatRoughnessFactor", 0));
       m_.clearcoatMap = texture(*e, "clearcoatTexture");
@@ -196,7 +142,7 @@ class GltfMaterialReader {
          "thickness of a volume by a texture left out: what the mesh encloses counts"},
     };
     for (const auto& [extension, map, warning] : kMaps) {
-      const Value* e = find(source_.extensions, extension);
+      const Value* e = named(extension);
       if (e && e->Has(map)) warn(warning);
     }
   }

@@ -1,31 +1,14 @@
-// glTF's materials. glTF 2.0 specification, section 3.9; KHR_materials_*, KHR_texture_transform.
+// glTF's materials. glTF 2.0 specification, section 3.9; KHR_materials_*.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/vec3.h"
 #include "io/gltf_document.h"
-#include "scene/texture.h"
+#include "io/gltf_texture.h"
 
 namespace whit {
-
-// Which set of coordinates a texture is looked up with, and the affine map to apply to it: in the
-// format's own sense, v pointing down.
-struct GltfUvMap {
-  std::size_t set = 0;
-  double uu = 1, uv = 0, u0 = 0;  // u' = uu u + uv v + u0
-  double vu = 0, vv = 1, v0 = 0;
-  bool operator==(const GltfUvMap&) const = default;
-};
-
-struct GltfTexture {
-  int image = -1;  // none
-  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
-  GltfUvMap uv;
-  bool exists() const { return image >= 0; }
-};
 
 // A material as the file has it.
 struct GltfMaterial {

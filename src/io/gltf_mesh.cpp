@@ -1,6 +1,5 @@
 #include "io/gltf_mesh.h"
 
-#include <array>
 #include <limits>
 #include <string>
 #include <utility>

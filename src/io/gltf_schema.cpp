@@ -1,184 +1,13 @@
 #include "io/gltf_schema.h"
 
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <algorithm>
 #include <string_view>
 
 #include "core/error.h"
+#include "io/gltf_rules.h"
 
 namespace whit {
 namespace {
-
-enum class Kind { object, list, number, text, flag, whole, index, indices, vector };
-
-constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 53;  // what JSON numbers hold exactly
-
-struct Rule {
-  const char* path;  // from the root; * is every element of a list or every member of an object
-  Kind kind;
-  std::uint64_t limit = 0;     // whole: the largest; vector: how many numbers
-  const char* list = nullptr;  // index, indices: the path of the list they refer to
-};
-
-constexpr char kLightsPath[] = "extensions/KHR_lights_punctual/lights";
-
-// Containers before what they contain. A + before the last name: the property is required.
-constexpr Rule kRules[] = {
-    {"+asset", Kind::object},
-    {"asset/+version", Kind::text},
-    {"extensionsUsed", Kind::list},
-    {"extensionsUsed/*", Kind::text},
-    {"extensionsRequired", Kind::list},
-    {"extensionsRequired/*", Kind::text},
-    {"extensions", Kind::object},
-    {"extensions/KHR_lights_punctual", Kind::object},
-    {kLightsPath, Kind::list},
-    {"extensions/KHR_lights_punctual/lights/*", Kind::object},
-    {"extensions/KHR_lights_punctual/lights/*/+type", Kind::text},
-    {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
-    {"extensions/KHR_lights_punctual/lights/*/color", Kind::vector, 3},
-    {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
-    {"extensions/KHR_lights_punctual/lights/*/range", Kind::number},
-    {"extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
-    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
-    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
-
-    {"buffers", Kind::list},
-    {"buffers/*", Kind::object},
-    {"buffers/*/uri", Kind::text},
-    {"buffers/*/+byteLength", Kind::whole, kMostBytes},
-    {"bufferViews", Kind::list},
-    {"bufferViews/*", Kind::object},
-    {"bufferViews/*/+buffer", Kind::index, 0, "buffers"},
-    {"bufferViews/*/byteOffset", Kind::whole, kMostBytes},
-    {"bufferViews/*/+byteLength", Kind::whole, kMostBytes},
-    {"bufferViews/*/byteStride", Kind::whole, 252},
-    {"accessors", Kind::list},
-    {"accessors/*", Kind::object},
-    {"accessors/*/bufferView", Kind::index, 0, "bufferViews"},
-    {"accessors/*/byteOffset", Kind::whole, kMostBytes},
-    {"accessors/*/+componentType", Kind::whole, 5126},
-    {"accessors/*/normalized", Kind::flag},
-    {"accessors/*/+count", Kind::whole, kMostBytes},
-    {"accessors/*/+type", Kind::text},
-    {"accessors/*/sparse", Kind::object},
-    {"accessors/*/sparse/+count", Kind::whole, kMost},
-    {"accessors/*/sparse/+indices", Kind::object},
-    {"accessors/*/sparse/indices/+bufferView", Kind::index, 0, "bufferViews"},
-    {"accessors/*/sparse/indices/byteOffset", Kind::whole, kMost},
-    {"accessors/*/sparse/indices/+componentType", Kind::whole, 5126},
-    {"accessors/*/sparse/+values", Kind::object},
-    {"accessors/*/sparse/values/+bufferView", Kind::index, 0, "bufferViews"},
-    {"accessors/*/sparse/values/byteOffset", Kind::whole, kMost},
-
-    {"images", Kind::list},
-    {"images/*", Kind::object},
-    {"images/*/uri", Kind::text},
-    {"images/*/bufferView", Kind::index, 0, "bufferViews"},
-    {"images/*/name", Kind::text},
-    {"samplers", Kind::list},
-    {"samplers/*", Kind::object},
-    {"samplers/*/magFilter", Kind::whole, kMost},
-    {"samplers/*/wrapS", Kind::whole, kMost},
-    {"samplers/*/wrapT", Kind::whole, kMost},
-    {"textures", Kind::list},
-    {"textures/*", Kind::object},
-    {"textures/*/source", Kind::index, 0, "images"},
-    {"textures/*/sampler", Kind::index, 0, "samplers"},
-
-    {"materials", Kind::list},
-    {"materials/*", Kind::object},
-    {"materials/*/name", Kind::text},
-    {"materials/*/emissiveFactor", Kind::vector, 3},
-    {"materials/*/alphaMode", Kind::text},
-    {"materials/*/alphaCutoff", Kind::number},
-    {"materials/*/pbrMetallicRoughness", Kind::object},
-    {"materials/*/pbrMetallicRoughness/baseColorFactor", Kind::vector, 4},
-    {"materials/*/pbrMetallicRoughness/metallicFactor", Kind::number},
-    {"materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number},
-    {"materials/*/extensions", Kind::object},
-    {"materials/*/extensions/*", Kind::object},
-    {"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
-    {"materials/*/extensions/KHR_materials_ior/ior", Kind::number},
-    {"materials/*/extensions/KHR_materials_transmission/transmissionFactor", Kind::number},
-    {"materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
-    {"materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::vector, 3},
-    {"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number},
-    {"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::vector, 3},
-    {"materials/*/extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::number},
-    {"materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::number},
-
-    {"meshes", Kind::list},
-    {"meshes/*", Kind::object},
-    {"meshes/*/name", Kind::text},
-    {"meshes/*/+primitives", Kind::list},
-    {"meshes/*/primitives/*", Kind::object},
-    {"meshes/*/primitives/*/+attributes", Kind::object},
-    {"meshes/*/primitives/*/attributes/*", Kind::index, 0, "accessors"},
-    {"meshes/*/primitives/*/indices", Kind::index, 0, "accessors"},
-    {"meshes/*/primitives/*/material", Kind::index, 0, "materials"},
-    {"meshes/*/primitives/*/mode", Kind::whole, 6},
-    {"meshes/*/primitives/*/extensions", Kind::object},
-    {"meshes/*/primitives/*/targets", Kind::list},
-    {"cameras", Kind::list},
-    {"cameras/*", Kind::object},
-    {"cameras/*/+type", Kind::text},
-    {"cameras/*/name", Kind::text},
-    {"cameras/*/orthographic", Kind::object},
-    {"cameras/*/orthographic/+xmag", Kind::number},
-    {"cameras/*/orthographic/+ymag", Kind::number},
-    {"cameras/*/orthographic/+zfar", Kind::number},
-    {"cameras/*/orthographic/+znear", Kind::number},
-    {"cameras/*/perspective", Kind::object},
-    {"cameras/*/perspective/aspectRatio", Kind::number},
-    {"cameras/*/perspective/+yfov", Kind::number},
-    {"cameras/*/perspective/+znear", Kind::number},
-    {"nodes", Kind::list},
-    {"nodes/*", Kind::object},
-    {"nodes/*/name", Kind::text},
-    {"nodes/*/children", Kind::indices, 0, "nodes"},
-    {"nodes/*/mesh", Kind::index, 0, "meshes"},
-    {"nodes/*/skin", Kind::index, 0, "skins"},
-    {"nodes/*/camera", Kind::index, 0, "cameras"},
-    {"nodes/*/matrix", Kind::vector, 16},
-    {"nodes/*/translation", Kind::vector, 3},
-    {"nodes/*/rotation", Kind::vector, 4},
-    {"nodes/*/scale", Kind::vector, 3},
-    {"nodes/*/extensions", Kind::object},
-    {"nodes/*/extensions/KHR_lights_punctual", Kind::object},
-    {"nodes/*/extensions/KHR_lights_punctual/+light", Kind::index, 0, kLightsPath},
-    {"scenes", Kind::list},
-    {"scenes/*", Kind::object},
-    {"scenes/*/nodes", Kind::indices, 0, "nodes"},
-    {"scene", Kind::index, 0, "scenes"},
-};
-
-// Wherever a material names a texture.
-constexpr const char* kTextureSlots[] = {
-    "pbrMetallicRoughness/baseColorTexture",
-    "pbrMetallicRoughness/metallicRoughnessTexture",
-    "normalTexture",
-    "emissiveTexture",
-    "extensions/KHR_materials_transmission/transmissionTexture",
-    "extensions/KHR_materials_specular/specularTexture",
-    "extensions/KHR_materials_specular/specularColorTexture",
-    "extensions/KHR_materials_clearcoat/clearcoatTexture",
-    "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
-};
-constexpr Rule kTextureRules[] = {
-    {"", Kind::object},
-    {"/+index", Kind::index, 0, "textures"},
-    {"/texCoord", Kind::whole, 1000},
-    {"/scale", Kind::number},
-    {"/extensions", Kind::object},
-    {"/extensions/KHR_texture_transform", Kind::object},
-    {"/extensions/KHR_texture_transform/offset", Kind::vector, 2},
-    {"/extensions/KHR_texture_transform/scale", Kind::vector, 2},
-    {"/extensions/KHR_texture_transform/rotation", Kind::number},
-    {"/extensions/KHR_texture_transform/texCoord", Kind::whole, 1000},
-};
 
 const Json* find(const Json& object, std::string_view name) {
   if (!object.is_object()) return nullptr;
@@ -190,7 +19,7 @@ class Checker {
  public:
   Checker(const Json& root, const std::string& file) : root_(root), file_(file) {}
 
-  void check(const Rule& rule, const std::string& path) {
+  void check(const GltfRule& rule, const std::string& path) {
     rule_ = &rule;
     target_ = rule.list ? sizeOf(rule.list) : 0;
     walk(root_, path, "");
@@ -241,34 +70,34 @@ class Checker {
 
   void look(const Json& value, const std::string& pointer) const {
     switch (rule_->kind) {
-      case Kind::object:
+      case GltfKind::object:
         if (!value.is_object()) fail(pointer, "an object");
         break;
-      case Kind::list:
+      case GltfKind::list:
         checkList(value, pointer);
         break;
-      case Kind::number:
+      case GltfKind::number:
         if (!value.is_number()) fail(pointer, "a number");
         break;
-      case Kind::text:
+      case GltfKind::text:
         if (!value.is_string()) fail(pointer, "a string");
         break;
-      case Kind::flag:
+      case GltfKind::flag:
         if (!value.is_boolean()) fail(pointer, "true or false");
         break;
-      case Kind::whole:
+      case GltfKind::whole:
         checkWhole(value, pointer, rule_->limit);
         break;
-      case Kind::index:
+      case GltfKind::index:
         checkIndex(value, pointer);
         break;
-      case Kind::indices:
+      case GltfKind::indices:
         checkList(value, pointer);
         for (std::size_t i = 0; i < value.size(); ++i) {
           checkIndex(value[i], pointer + "/" + std::to_string(i));
         }
         break;
-      case Kind::vector:
+      case GltfKind::vector:
         checkVector(value, pointer);
         break;
     }
@@ -299,7 +128,7 @@ class Checker {
 
   const Json& root_;
   const std::string& file_;
-  const Rule* rule_ = nullptr;
+  const GltfRule* rule_ = nullptr;
   std::uint64_t target_ = 0;
 };
 
@@ -307,9 +136,9 @@ class Checker {
 
 void checkGltf(const Json& json, const std::string& file) {
   Checker checker(json, file);
-  for (const Rule& rule : kRules) checker.check(rule, rule.path);
-  for (const char* slot : kTextureSlots) {
-    for (const Rule& rule : kTextureRules) {
+  for (const GltfRule& rule : gltfRules()) checker.check(rule, rule.path);
+  for (const char* slot : gltfTextureSlots()) {
+    for (const GltfRule& rule : gltfTextureRules()) {
       checker.check(rule, std::string("materials/*/") + slot + rule.path);
     }
   }

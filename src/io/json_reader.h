@@ -2,7 +2,6 @@
 // its keys were asked for, so that errors name the place and misspelt keys do not go unnoticed.
 #pragma once
 
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 // MTL files: the text, checked and brought into the form that tinyobjloader understands.
 #pragma once
 
-#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>

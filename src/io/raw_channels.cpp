@@ -1,7 +1,6 @@
 #include "io/raw_channels.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace whit {
 namespace {

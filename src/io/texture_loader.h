@@ -15,7 +15,6 @@
 #include "io/decode_queue.h"
 #include "io/image_file.h"
 #include "io/memory_budget.h"
-#include "scene/material.h"
 #include "scene/scene.h"
 
 namespace whit {

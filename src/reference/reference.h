@@ -8,7 +8,6 @@
 
 #include "core/image.h"
 #include "core/options.h"
-#include "core/path_numbers.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
 #include "scene/light_shares.h"

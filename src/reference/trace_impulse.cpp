@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/path_numbers.h"
+#include "core/pixel.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"
 #include "reference/impulses.h"
@@ -17,9 +18,8 @@ namespace whit::reference {
 namespace {
 
 Path pathOf(int x, int y, std::size_t sample) {
-  const auto pixel = static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16;
   const auto number = static_cast<std::uint32_t>(sample);
-  return {pathOfPixel(pixel, number), number};
+  return {pathOfPixel(packedPixel(x, y), number), number};
 }
 Path childOf(const Path& path, std::uint32_t branch) {
   return {childPath(path.number, branch), path.sample};

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 
-#include "core/display.h"
-#include "metrics/heat_colour.h"
+#include "core/pixel.h"
+#include "render/false_colours.h"
 #include "render/pixel_tracker.h"
 #include "render/renderer_parts.h"
 
@@ -21,8 +19,6 @@ constexpr EffectColour kEffectColours[] = {
     {Effect::alphaMasks, {0.05f, 0.35f, 0.05f}}, {Effect::glossy, {0.45f, 0.4f, 0.0f}},
     {Effect::emission, {0.7f, 0.25f, 0.0f}},     {Effect::mirror, {0.0f, 0.2f, 0.65f}},
     {Effect::transmission, {0.0f, 0.5f, 0.35f}}, {Effect::sky, {0.08f, 0.1f, 0.15f}}};
-
-constexpr double kOutliers = 0.005;  // share of the pixels that a scale may leave behind
 
 EffectSet effectsOf(const Material& m) {
   EffectSet e;
@@ -54,11 +50,7 @@ class Watcher : public StageObserver {
     pixels_.resize(width * static_cast<std::size_t>(window.y1 - window.y0));
   }
 
-  struct Pixel {
-    Rgb sum{0, 0, 0};  // of `count` colours, or of amounts in x
-    double count = 0;
-  };
-  const std::vector<Pixel>& pixels() const { return pixels_; }
+  const std::vector<WatchedPixel>& pixels() const { return pixels_; }
 
   void after(Stage stage, const ChunkView& chunk) override {
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
@@ -81,9 +73,9 @@ class Watcher : public StageObserver {
  private:
   void add(const ChunkView& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
-    const auto x = static_cast<std::size_t>(static_cast<int>(at & 0xFFFFu) - window_.x0);
-    const auto y = static_cast<std::size_t>(static_cast<int>(at >> 16) - window_.y0);
-    Pixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
+    const auto x = static_cast<std::size_t>(pixelX(at) - window_.x0);
+    const auto y = static_cast<std::size_t>(pixelY(at) - window_.y0);
+    WatchedPixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
     pixel.sum += value;
     pixel.count += count;
   }
@@ -148,95 +140,9 @@ class Watcher : public StageObserver {
   const DebugView view_;
   PixelTracker tracker_;
   std::vector<std::size_t> reflections_;  // of each depth's queue
-  std::vector<Pixel> pixels_;
+  std::vector<WatchedPixel> pixels_;
   Clock::time_point last_;
 };
-
-void setCode(DisplayImage& display, std::size_t pixel, int r, int g, int b) {
-  std::uint8_t* code = display.rgba.data() + 4 * pixel;
-  code[0] = static_cast<std::uint8_t>(r);
-  code[1] = static_cast<std::uint8_t>(g);
-  code[2] = static_cast<std::uint8_t>(b);
-  code[3] = 255;
-}
-
-int codeOf(float x) {
-  return static_cast<int>(std::lround(255 * std::clamp(static_cast<double>(x), 0.0, 1.0)));
-}
-
-void paintColours(const std::vector<Watcher::Pixel>& pixels, bool linear, DisplayImage& display) {
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto n = static_cast<float>(std::max(pixels[i].count, 1.0));
-    const Rgb c = pixels[i].sum * (1 / n);
-    const auto code = [&](float x) {
-      return linear ? srgbCode(static_cast<double>(x)) : codeOf(x);
-    };
-    setCode(display, i, code(c.x), code(c.y), code(c.z));
-  }
-}
-
-// Smallest and largest amount but for outliers.
-std::pair<double, double> rangeOf(std::vector<double> amounts) {
-  if (amounts.empty()) return {0, 0};
-  std::sort(amounts.begin(), amounts.end());
-  const auto last = static_cast<double>(amounts.size() - 1);
-  return {amounts.front(), amounts[static_cast<std::size_t>(std::lround(last * (1 - kOutliers)))]};
-}
-
-std::string legendOf(const char* what, double low, double high) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%s, from %.3g to %.3g", what, low, high);
-  return text;
-}
-
-// Bright is near; what was not hit is black.
-std::string paintDepth(const std::vector<Watcher::Pixel>& pixels, DisplayImage& display) {
-  std::vector<double> distances;
-  for (const Watcher::Pixel& p : pixels) {
-    if (p.count > 0) distances.push_back(static_cast<double>(p.sum.x) / p.count);
-  }
-  const auto [low, high] = rangeOf(std::move(distances));
-  constexpr double kFarthest = 0.08;  // still told from nothing
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Watcher::Pixel& p = pixels[i];
-    const double t = p.count > 0 ? static_cast<double>(p.sum.x) / p.count : high;
-    const double depth = high > low ? std::min((t - low) / (high - low), 1.0) : 0;
-    const int code = p.count > 0 ? codeOf(static_cast<float>(1 - (1 - kFarthest) * depth)) : 0;
-    setCode(display, i, code, code, code);
-  }
-  return legendOf("distance", low, high);
-}
-
-// Mean amounts of the pixels, a ray or a sample each.
-std::vector<double> amountsOf(const std::vector<Watcher::Pixel>& pixels, double samples) {
-  std::vector<double> amounts;
-  amounts.reserve(pixels.size());
-  for (const Watcher::Pixel& p : pixels) {
-    amounts.push_back(static_cast<double>(p.sum.x) / (p.count > 0 ? p.count : samples));
-  }
-  return amounts;
-}
-
-// Logarithmic: a few pixels take tens of times what most do.
-std::string paintHeat(const std::vector<double>& amounts, const char* what, DisplayImage& display) {
-  constexpr double kLongestScale = 1000;
-  const auto [smallest, high] = rangeOf(amounts);
-  const double low = std::max(smallest, high / kLongestScale);
-  for (std::size_t i = 0; i < amounts.size(); ++i) {
-    const double share = high > low ? std::log(amounts[i] / low) / std::log(high / low) : 0;
-    const auto colour = heatColour(share > 0 ? std::min(share, 1.0) : 0);
-    setCode(display, i, colour[0], colour[1], colour[2]);
-  }
-  return legendOf(what, low, high);
-}
-
-std::string paintShare(const std::vector<double>& shares, const char* what, DisplayImage& display) {
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const auto colour = heatColour(std::clamp(shares[i], 0.0, 1.0));
-    setCode(display, i, colour[0], colour[1], colour[2]);
-  }
-  return legendOf(what, 0, 1);
-}
 
 }  // namespace
 
@@ -247,7 +153,7 @@ DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film,
   FrameJob job = parts.makeJob(camera, film, film.image.window);
   Watcher watcher(parts, film.image.window, view);
   DebugFrame frame{parts.renderObserved(job, watcher), ""};
-  const std::vector<Watcher::Pixel>& pixels = watcher.pixels();
+  const std::vector<WatchedPixel>& pixels = watcher.pixels();
   const std::vector<double> amounts = amountsOf(pixels, static_cast<double>(job.samples.size()));
   switch (view) {
     case DebugView::depth:

@@ -1,5 +1,4 @@
 // What a frame's options say about camera and film.
-#include <cmath>
 
 #include "core/error.h"
 #include "core/nearest_name.h"

@@ -4,7 +4,10 @@
 #include <atomic>
 #include <cstring>
 
+#include "core/pixel.h"
 #include "render/renderer_parts.h"
+#include "render/stage_clock.h"
+#include "scene/sample_pattern.h"
 
 namespace whit {
 
@@ -20,8 +23,7 @@ PixelLists fieldsOf(const PixelLists& lists, bool lenders) {
   for (const auto& list : lists) {
     std::vector<std::uint32_t>& field = fields.emplace_back();
     for (const std::uint32_t pixel : list) {
-      const int x = static_cast<int>(pixel & 0xFFFFu), y = static_cast<int>(pixel >> 16);
-      if (LightShares::lends(x, y) == lenders) field.push_back(pixel);
+      if (LightShares::lends(pixelX(pixel), pixelY(pixel)) == lenders) field.push_back(pixel);
     }
   }
   padForVectors(fields);
@@ -159,7 +161,7 @@ PixelLists Renderer::Parts::markedPixels(const Crop& window,
   PixelLists lists;
   for (const auto& tile : tiles) {
     for (const std::uint32_t pixel : tile) {
-      const int x = static_cast<int>(pixel & 0xFFFFu), y = static_cast<int>(pixel >> 16);
+      const int x = pixelX(pixel), y = pixelY(pixel);
       const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
       if (!inside || marks[firstSamples.image.index(x, y)] == 0) continue;
       if (lists.empty() || lists.back().size() == kListLength) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "core/pixel.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/pixel_tracker.h"
@@ -53,8 +54,8 @@ class SignatureObserver : public StageObserver {
 
  private:
   std::uint64_t& at(std::uint32_t pixel) {
-    const std::size_t x = (pixel & 0xFFFFu) - static_cast<std::size_t>(window_.x0);
-    const std::size_t y = (pixel >> 16) - static_cast<std::size_t>(window_.y0);
+    const auto x = static_cast<std::size_t>(pixelX(pixel) - window_.x0);
+    const auto y = static_cast<std::size_t>(pixelY(pixel) - window_.y0);
     return signatures_[y * width_ + x];
   }
 

@@ -25,7 +25,7 @@ class PixelTracker {
     }
   }
 
-  // x | y << 16 of the pixel that slot i of the chunk is traced for.
+  // The packed pixel that slot i of the chunk is traced for.
   std::uint32_t pixel(const ChunkView& chunk, std::size_t i) const {
     return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
   }

@@ -1,7 +1,6 @@
 // The reference's pictures, its candidates from Embree.
-#include <chrono>
-
 #include "core/display.h"
+#include "core/stopwatch.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/renderer_parts.h"
@@ -44,7 +43,7 @@ reference::Settings Renderer::Parts::referenceSettings() const {
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
   Parts& p = *parts_;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   p.lookFrom(camera.eye);
   const EmbreeIntersector intersector(*p.accel);
   const reference::RayCounts counts =
@@ -53,8 +52,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
     film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve, p.options.srgb);
   }
   FrameStats stats;
-  stats.frameMs =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  stats.frameMs = stopwatch.ms();
   stats.workers = p.machine.threads;
   const std::uint64_t rays[] = {counts.primary, counts.shadow, counts.reflection,
                                 counts.refraction};

@@ -11,7 +11,6 @@
 #include "render/renderer.h"
 #include "render/tile_tracer.h"
 #include "render/tiles.h"
-#include "scene/sample_pattern.h"
 
 namespace whit {
 

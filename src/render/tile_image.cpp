@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/film.h"
+#include "core/pixel.h"
 #include "render/tile_pass.h"
 
 namespace whit {
@@ -29,8 +30,7 @@ void TileTracer::traceSamples(Pass& pass) {
   const RadianceColumns& radiance = *levels_[0].radiance;
   const std::size_t n = pass.pixels.size(), count = job.samples.size();
   const auto pilotsOf = [&](std::size_t i) -> PilotSamples& {
-    return job.pilots->at(static_cast<int>(pass.pixels[i] & 0xFFFFu),
-                          static_cast<int>(pass.pixels[i] >> 16));
+    return job.pilots->at(pixelX(pass.pixels[i]), pixelY(pass.pixels[i]));
   };
   sums_.assign(n, RgbD());
   const bool goesOn = job.firstSample > 0;
@@ -58,8 +58,7 @@ void TileTracer::keepCodes(const Pass& pass) {
                       *levels_[0].radiance, n, codes_.data());
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t pixel = pass.pixels[i];
-    pass.job.pilots->at(static_cast<int>(pixel & 0xFFFFu), static_cast<int>(pixel >> 16))
-        .codes[pass.sampleNumber] = codes_[i];
+    pass.job.pilots->at(pixelX(pixel), pixelY(pixel)).codes[pass.sampleNumber] = codes_[i];
   }
 }
 
@@ -93,8 +92,8 @@ void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t>
   const auto width = static_cast<std::size_t>(film.image.windowWidth());
   auto* display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t x = (pixels[i] & 0xFFFFu) - static_cast<std::size_t>(window.x0);
-    const std::size_t y = (pixels[i] >> 16) - static_cast<std::size_t>(window.y0);
+    const auto x = static_cast<std::size_t>(pixelX(pixels[i]) - window.x0);
+    const auto y = static_cast<std::size_t>(pixelY(pixels[i]) - window.y0);
     const Rgb value{radiance.r[i], radiance.g[i], radiance.b[i]};
     film.image.pixels[y * width + x] = value;
     if (film.wantDisplay) display[y * width + x] = codes_[i];

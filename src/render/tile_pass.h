@@ -1,7 +1,9 @@
 // What TileTracer hands from step to step.
 #pragma once
 
+#include "render/stage_clock.h"
 #include "render/tile_tracer.h"
+#include "simd/kernels.h"
 
 namespace whit {
 

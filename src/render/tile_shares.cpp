@@ -1,21 +1,15 @@
 // What pixels tell each other: the surfaces they see, and at half rates what their rays found.
+#include "core/pixel.h"
 #include "render/tile_pass.h"
 
 namespace whit {
-
-namespace {
-
-int columnOf(std::uint32_t pixel) { return static_cast<int>(pixel & 0xFFFFu); }
-int rowOf(std::uint32_t pixel) { return static_cast<int>(pixel >> 16); }
-
-}  // namespace
 
 void TileTracer::recordSurfaces(const Pass& pass) {
   const SurfelColumns& s = *surfels_;
   for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
     const std::uint32_t pixel = pass.pixels[i];
-    PixelSurface& surface = (*pass.job.surfaces)[pass.job.film->image.index(
-        static_cast<int>(pixel & 0xFFFFu), static_cast<int>(pixel >> 16))];
+    PixelSurface& surface =
+        (*pass.job.surfaces)[pass.job.film->image.index(pixelX(pixel), pixelY(pixel))];
     surface = {};
     if (s.material[i] == kMiss) continue;
     surface.material = s.material[i];
@@ -29,7 +23,7 @@ void TileTracer::findLenders(const Pass& pass) {
   const std::size_t n = pass.pixels.size();
   lenders_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const int x = columnOf(pass.pixels[i]), y = rowOf(pass.pixels[i]);
+    const int x = pixelX(pass.pixels[i]), y = pixelY(pass.pixels[i]);
     if (pass.job.lends) {
       pass.job.shares->at(x, y) = LightShare{};
     } else {
@@ -59,7 +53,7 @@ void TileTracer::borrowVisibility(const Pass&, std::size_t light) {
 void TileTracer::lendVisibility(const Pass& pass, std::size_t light) {
   for (std::size_t k = 0; k < shadowCount_; ++k) {
     const std::uint32_t slot = shadows_->slot[k], pixel = pass.pixels[slot];
-    pass.job.shares->at(columnOf(pixel), rowOf(pixel)).saw(light, unshadowed_->visible[slot] > 0);
+    pass.job.shares->at(pixelX(pixel), pixelY(pixel)).saw(light, unshadowed_->visible[slot] > 0);
   }
 }
 
@@ -88,7 +82,7 @@ void TileTracer::lendImpulses(const Pass& pass) {
   for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
     const std::uint32_t pixel = pass.pixels[i];
     const Rgb all{radiance.r[i], radiance.g[i], radiance.b[i]};
-    pass.job.shares->at(columnOf(pixel), rowOf(pixel)).impulses = all - local_[i];
+    pass.job.shares->at(pixelX(pixel), pixelY(pixel)).impulses = all - local_[i];
   }
 }
 

@@ -13,14 +13,11 @@
 #include <vector>
 
 #include "accel/accel.h"
-#include "core/image.h"
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/renderer.h"
-#include "render/stage_clock.h"
 #include "scene/light_shares.h"
 #include "scene/pilots.h"
-#include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 
@@ -41,7 +38,7 @@ struct ChunkView {
   RayColumns children;
   // Children, in this order: mirrored and sampled reflections, refractions.
   std::size_t reflections = 0, refractions = 0;
-  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, x | y << 16
+  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed
   Vec2f sample;
   std::uint32_t sampleNumber = 0;
 };

@@ -1,7 +1,6 @@
 #include "render/tiles.h"
 
-#include <algorithm>
-
+#include "core/pixel.h"
 #include "stages/columns.h"
 
 namespace whit {
@@ -9,20 +8,20 @@ namespace whit {
 namespace {
 
 // The even bits of a Morton code.
-std::uint32_t evenBits(std::uint32_t code) {
+int evenBits(std::uint32_t code) {
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < 16; ++i) bits |= (code >> (2 * i) & 1u) << i;
-  return bits;
+  return static_cast<int>(bits);
 }
 
-// Offsets within a tile, x | y << 16.
-std::vector<std::uint32_t> mortonOrder(std::uint32_t side) {
-  std::uint32_t power = 1;
+// Offsets within a tile, packed as its pixels.
+std::vector<std::uint32_t> mortonOrder(int side) {
+  int power = 1;
   while (power < side) power *= 2;
   std::vector<std::uint32_t> order;
-  for (std::uint32_t code = 0; code < power * power; ++code) {
-    const std::uint32_t x = evenBits(code), y = evenBits(code >> 1);
-    if (x < side && y < side) order.push_back(x | y << 16);
+  for (std::uint32_t code = 0; code < static_cast<std::uint32_t>(power * power); ++code) {
+    const int x = evenBits(code), y = evenBits(code >> 1);
+    if (x < side && y < side) order.push_back(packedPixel(x, y));
   }
   return order;
 }
@@ -30,16 +29,15 @@ std::vector<std::uint32_t> mortonOrder(std::uint32_t side) {
 }  // namespace
 
 PixelLists makeTiles(const Crop& window, int side) {
-  const std::vector<std::uint32_t> order = mortonOrder(static_cast<std::uint32_t>(side));
+  const std::vector<std::uint32_t> order = mortonOrder(side);
   PixelLists tiles;
   for (int y0 = window.y0; y0 < window.y1; y0 += side) {
     for (int x0 = window.x0; x0 < window.x1; x0 += side) {
       std::vector<std::uint32_t>& tile = tiles.emplace_back();
       for (const std::uint32_t offset : order) {
-        const int x = x0 + static_cast<int>(offset & 0xFFFFu);
-        const int y = y0 + static_cast<int>(offset >> 16);
+        const int x = x0 + pixelX(offset), y = y0 + pixelY(offset);
         if (x >= window.x1 || y >= window.y1) continue;
-        tile.push_back(static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16);
+        tile.push_back(packedPixel(x, y));
       }
     }
   }

@@ -10,7 +10,7 @@ namespace whit {
 
 using PixelLists = std::vector<std::vector<std::uint32_t>>;
 
-// Pixels x | y << 16 of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
+// The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
 // other make up 2x2, 4x2 or 4x4 pixels, the most coherent packet there is. Tiles that the window
 // cuts lose their outer pixels and close the gaps.
 PixelLists makeTiles(const Crop& window, int side);

@@ -5,7 +5,7 @@
 #include "scene/classify_triangles.h"
 #include "scene/coincident_triangles.h"
 #include "scene/finalize_steps.h"
-#include "scene/instance_reach.h"
+#include "scene/instance_bounds.h"
 #include "scene/triangle_record.h"
 
 namespace whit {
@@ -20,14 +20,6 @@ struct Source {
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
   TriangleClassification classified;
-};
-
-struct Box {
-  Vec3f lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
-  void add(const Vec3f& p) {
-    lower = min(lower, p);
-    upper = max(upper, p);
-  }
 };
 
 class Baker {
@@ -47,7 +39,7 @@ class Baker {
     dropEmptyGeometries();
     reserveTables();
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
-    addInstances();
+    boundInstances(scene_, boxes_, warnings_);
   }
 
  private:
@@ -59,9 +51,6 @@ class Baker {
   void reserveTables();
   void emit(std::size_t g);
   void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
-  void addTo(Box& box, const InstanceRecord& instance) const;
-  float farthestStart() const;
-  void addInstances();
 
   SceneDescription& description_;
   Scene& scene_;
@@ -246,52 +235,6 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
   badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
   badColour.report(warnings_, "vertex colour out of range clamped", mesh);
   badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
-}
-
-// The box of an instance is that of its object, moved: exact unless it is turned.
-void Baker::addTo(Box& box, const InstanceRecord& instance) const {
-  const Box& own = boxes_[instance.geometry];
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
-                  corner & 4 ? own.upper.z : own.lower.z};
-    const Vec3d world = instance.toWorld.point(Vec3d(p));
-    if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
-      throwBadScene("instance of geometry " + std::to_string(instance.geometry),
-                    "expected coordinates up to 1.844e18 after its transform");
-    }
-    box.add(Vec3f(world));
-  }
-}
-
-// Of everything that rays start from: surfaces and eyes.
-float Baker::farthestStart() const {
-  Box all = boxes_[0];
-  for (const InstanceRecord& instance : scene_.instances) addTo(all, instance);
-  float farthest = 0;
-  const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
-  if (all.lower.x <= all.upper.x) add(all.lower), add(all.upper);
-  for (const Camera& camera : scene_.cameras) add(camera.eye);
-  for (const Keyframe& frame : scene_.cameraPath) add(frame.camera.eye);
-  return farthest;
-}
-
-// Counts and bounds as seen. Left out are instances that are so much smaller or flatter than the
-// scene that its rays, in their space, would leave the range of coordinates.
-void Baker::addInstances() {
-  const float farthest = farthestStart();
-  const auto lost = std::erase_if(scene_.instances, [&](const InstanceRecord& instance) {
-    return !(instanceReach(instance.toWorld) > farthest);
-  });
-  warnings_.add("instance too small or too flat to be traced left out", scene_.name, lost);
-  Box box = boxes_[0];
-  scene_.instancedTriangles = scene_.geometries[0].index.size();
-  for (const InstanceRecord& instance : scene_.instances) {
-    scene_.instancedTriangles += scene_.geometries[instance.geometry].index.size();
-    addTo(box, instance);
-  }
-  if (scene_.instancedTriangles == 0) return;
-  scene_.lower = box.lower;
-  scene_.upper = box.upper;
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "scene/classify_triangles.h"
 
-#include "scene/finalize_steps.h"
-
 namespace whit {
 
 namespace {

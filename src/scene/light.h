@@ -1,7 +1,6 @@
 // Lights, the sky, and the ambient light made from it.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "core/vec3.h"

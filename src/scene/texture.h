@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/srgb.h"
 #include "core/vec3.h"
 
 namespace whit {

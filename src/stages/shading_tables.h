@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/effects.h"
 #include "core/shading_choices.h"
 #include "scene/mip_maps.h"
 #include "scene/scene.h"

@@ -1,7 +1,6 @@
 // Closed bodies and rays onto them.
 #pragma once
 
-#include "reference/triangle.h"
 #include "scene/shapes/icosphere.h"
 #include "stress/probe.h"
 #include "stress/scene_builder.h"

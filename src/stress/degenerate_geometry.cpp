@@ -1,6 +1,7 @@
 // H23 to H29: triangles without area, without measure, without numbers.
 #include <array>
 #include <bit>
+#include "reference/triangle.h"
 #include "stress/bodies.h"
 
 namespace whit::stress {

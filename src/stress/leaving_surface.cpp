@@ -1,6 +1,7 @@
 // H1 to H4 and H9 to H11: rays that start on a surface.
 #include <array>
 
+#include "reference/triangle.h"
 #include "stress/bodies.h"
 
 namespace whit::stress {

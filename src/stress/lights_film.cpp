@@ -1,5 +1,6 @@
 // H65 to H76: lights at no distance, texture coordinates, film, camera.
-#include <array>
+
+#include "core/pixel.h"
 #include "reference/generate_ray.h"
 #include "simd/kernels.h"
 #include "stress/bodies.h"
@@ -141,8 +142,8 @@ Finding srgbCodes(const Setup&) {
 Finding cameraDirections(const Setup&) {
   Finding finding(4 * 0x1p-24);
   std::vector<std::uint32_t> pixels;
-  for (std::uint32_t y = 0; y < 32; ++y) {
-    for (std::uint32_t x = 0; x < 32; ++x) pixels.push_back(x * 31 | (y * 17) << 16);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) pixels.push_back(packedPixel(x * 31, y * 17));
   }
   for (const float fov : {1e-3f, 1.0f, 45.0f, 120.0f, 179.9f}) {
     for (const Vec3f& eye : {Vec3f{0, 0, 5}, {1e6f, -2e6f, 5e5f}}) {
@@ -163,7 +164,7 @@ Finding cameraDirections(const Setup&) {
       ColumnStore<RayColumns> columns(pixels.size(), Groups{});
       simd::generateRays(rays, pixels.data(), pixels.size(), *columns);
       for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const double x = (pixels[i] & 0xffffu) + 0.5, y = (pixels[i] >> 16) + 0.5;
+        const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;
         const Vec3d got{columns->dirX[i], columns->dirY[i], columns->dirZ[i]};
         finding.note(length(got - exact), [&] {

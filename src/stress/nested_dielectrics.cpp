@@ -1,7 +1,6 @@
 // H45 to H50: dielectrics in dielectrics, around the eye, without a far side, and absorbing.
 #include <array>
 
-#include "reference/media.h"
 #include "stress/bodies.h"
 
 namespace whit::stress {

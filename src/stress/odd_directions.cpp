@@ -1,4 +1,5 @@
 // H19 to H22 and H30: rays along axes and planes, and surfaces in one place.
+#include "reference/triangle.h"
 #include "stress/bodies.h"
 
 namespace whit::stress {

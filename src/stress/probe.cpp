@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "simd/kernels.h"
+
 namespace whit::stress {
 
 RenderOptions optionsOf(const Setup& setup) {
@@ -149,13 +151,6 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   Film film = makeFilm(scene, options);
   const FrameStats frame = renderer.render(camera, film);
   if (stats) *stats = frame;
-  return film.image;
-}
-
-Image referencePictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  renderer.renderReference(camera, film);
   return film.image;
 }
 

@@ -84,7 +84,5 @@ class Probe {
 // What most cases look at: the picture from one camera.
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);
-// The same by the scalar reference.
-Image referencePictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
 }  // namespace whit::stress

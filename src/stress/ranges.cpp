@@ -1,6 +1,5 @@
 // H51 to H58: very small and very large numbers in vectors, intensities and textures.
 #include <array>
-#include <limits>
 
 #include "simd/kernels.h"
 #include "stress/bodies.h"

@@ -1,5 +1,4 @@
 // H32 to H36 and H79: normals that disagree, and views along the surface.
-#include <array>
 
 #include "stress/bodies.h"
 

@@ -1,6 +1,6 @@
 // H12 to H18: rays through edges and corners.
-#include "simd/kernels.h"
-#include "stress/bodies.h"
+#include "stress/edge_rays.h"
+#include "stress/room_of_pixels.h"
 
 namespace whit::stress {
 
@@ -21,11 +21,6 @@ Finding misses(const Mesh& mesh, const std::vector<ProbeRay>& rays, double bound
   return finding;
 }
 
-// A point well inside the sphere.
-Vec3f inside(Numbers& numbers, const Vec3d& centre, double radius) {
-  return Vec3f(centre + numbers.direction() * (0.5 * radius));
-}
-
 const Vec3d kFar{148376, 1234, -223423};
 
 Finding randomRays(const Setup& setup) {
@@ -39,34 +34,6 @@ Finding randomRays(const Setup& setup) {
     finding.merge(misses(sphereMesh(5, centre, 2, 0), rays, 0, setup), true);
   }
   return finding;
-}
-
-std::vector<ProbeRay> throughEdges(const Mesh& mesh, const Vec3d& centre, double radius) {
-  Numbers numbers(13);
-  std::vector<ProbeRay> rays;
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3d a(mesh.positions[triangle[i]]), b(mesh.positions[triangle[(i + 1) % 3]]);
-      rays.push_back(rayThrough(inside(numbers, centre, radius), Vec3f((a + b) * 0.5)));
-    }
-  }
-  return rays;
-}
-
-// Exactly: from the origin the target is the direction.
-ProbeRay exactlyThrough(const Vec3f& target) { return {{0, 0, 0}, target}; }
-
-std::vector<ProbeRay> throughCorners(const Mesh& mesh, const Vec3d& centre, double radius,
-                                     int times) {
-  Numbers numbers(14);
-  std::vector<ProbeRay> rays;
-  for (int k = 0; k < times; ++k) {
-    for (const Vec3f& corner : mesh.positions) {
-      rays.push_back(k == 0 ? exactlyThrough(corner)
-                            : rayThrough(inside(numbers, centre, radius), corner));
-    }
-  }
-  return rays;
 }
 
 Finding edges(const Setup& setup) {
@@ -214,52 +181,6 @@ Finding openBorder(const Setup& setup) {
                   [&] { return describeRay(rays[i]); });
   }
   return finding;
-}
-
-// A closed room with a corner exactly in the middle of every pixel: the wall that is seen, finer
-// than the pixels' grid by one all around, and a hood from its border to a point behind the eye.
-Mesh roomOfPixels(const CameraFrame& frame) {
-  const int columns = frame.width + 2, rows = frame.height + 2;
-  std::vector<std::uint32_t> pixels;
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) pixels.push_back(static_cast<std::uint32_t>(x | y << 16));
-  }
-  // One pixel up and left of the picture, which the middle of this larger one makes good.
-  const simd::CameraRays rays{Vec3f(frame.eye),
-                              Vec3f(frame.forward),
-                              Vec3f(frame.right),
-                              Vec3f(frame.up),
-                              static_cast<float>(frame.width) / 2 + 1,
-                              static_cast<float>(frame.height) / 2 + 1,
-                              0.5f,
-                              0.5f,
-                              0};
-  const std::size_t count = pixels.size();
-  pixels.resize(roundUpToBlock(count));  // kernels read whole vectors
-  ColumnStore<RayColumns> directions(count, Groups{});
-  simd::generateRays(rays, pixels.data(), count, *directions);
-  Mesh mesh;
-  mesh.materials = {0};
-  for (std::size_t i = 0; i < count; ++i) {
-    mesh.positions.push_back(Vec3f{directions->dirX[i], directions->dirY[i], directions->dirZ[i]} *
-                             4.0f);
-  }
-  const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * columns + x); };
-  const auto behind = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.push_back({0, 0, 4});
-  for (int y = 0; y + 1 < rows; ++y) {
-    for (int x = 0; x + 1 < columns; ++x) {
-      mesh.triangles.push_back({at(x, y), at(x, y + 1), at(x + 1, y + 1)});
-      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x + 1, y)});
-    }
-    mesh.triangles.push_back({at(0, y), at(0, y + 1), behind});
-    mesh.triangles.push_back({at(columns - 1, y), at(columns - 1, y + 1), behind});
-  }
-  for (int x = 0; x + 1 < columns; ++x) {
-    mesh.triangles.push_back({at(x, 0), at(x + 1, 0), behind});
-    mesh.triangles.push_back({at(x, rows - 1), at(x + 1, rows - 1), behind});
-  }
-  return mesh;
 }
 
 // Pixels that look through a corner at the magenta outside.

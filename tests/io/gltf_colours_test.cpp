@@ -1,5 +1,6 @@
 // Emission by textures, unlit materials, vertex colours, and what is counted because it is left
 // out.
+#include "core/srgb.h"
 #include "gltf_pictures.h"
 
 namespace whit {

@@ -1,4 +1,5 @@
 // Materials of glTF files: pictures of a square, their colours worked out by hand.
+#include "core/srgb.h"
 #include "gltf_pictures.h"
 
 namespace whit {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/pixel.h"
 #include "pi.h"
 #include "reference/fresnel.h"
 #include "reference/glossy.h"
@@ -290,10 +291,10 @@ TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
 
 TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
   std::set<std::uint32_t> numbers;
-  for (std::uint32_t y = 0; y < 40; ++y) {
-    for (std::uint32_t x = 0; x < 40; ++x) {
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
       for (std::uint32_t sample = 0; sample < 4; ++sample) {
-        const std::uint32_t path = pathOfPixel(x | y << 16, sample);
+        const std::uint32_t path = pathOfPixel(packedPixel(x, y), sample);
         numbers.insert(path);
         for (std::uint32_t branch = 1; branch < 5; ++branch) {
           numbers.insert(childPath(path, branch));
@@ -307,7 +308,7 @@ TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
 
 // The samples of a pixel continue one lattice where they meet the first surface.
 TEST(PathNumbers, SamplesOfAPixelAreOneLattice) {
-  const std::uint32_t pixel = 5 | 9 << 16;
+  const std::uint32_t pixel = packedPixel(5, 9);
   const LobeSampling whole = lobeSampling(0, 12, 0);
   for (std::uint32_t sample = 0; sample < 3; ++sample) {
     const LobeSampling part = lobeSampling(0, 4, sample);

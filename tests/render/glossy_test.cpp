@@ -4,6 +4,7 @@
 
 #include "metrics/metrics.h"
 #include "render/pipeline_laws.h"
+#include "simd/kernels.h"
 
 namespace whit::test {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
+#include "simd/kernels.h"
 
 namespace whit::test {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/srgb.h"
+
 namespace whit {
 namespace {
 

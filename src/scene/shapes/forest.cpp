@@ -1,7 +1,6 @@
 #include "scene/generation_limit.h"
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
-#include "scene/shapes/mesh_builder.h"
 #include "scene/shapes/terrain.h"
 #include "scene/shapes/tree.h"
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "scene/mesh.h"

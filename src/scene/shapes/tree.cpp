@@ -6,7 +6,6 @@
 #include "scene/shapes/generators.h"
 #include "scene/shapes/icosphere.h"
 #include "scene/shapes/mesh_builder.h"
-#include "scene/shapes/terrain.h"
 
 namespace whit::procedural {
 namespace {

@@ -1,0 +1,57 @@
+#include "scene/instance_bounds.h"
+
+#include <cmath>
+
+#include "scene/instance_reach.h"
+
+namespace whit {
+
+namespace {
+
+// The box of an instance is that of its object, moved: exact unless it is turned.
+void addInstance(const InstanceRecord& instance, const std::vector<Box>& boxes, Box& all) {
+  const Box& own = boxes[instance.geometry];
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
+                  corner & 4 ? own.upper.z : own.lower.z};
+    const Vec3d world = instance.toWorld.point(Vec3d(p));
+    if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
+      throwBadScene("instance of geometry " + std::to_string(instance.geometry),
+                    "expected coordinates up to 1.844e18 after its transform");
+    }
+    all.add(Vec3f(world));
+  }
+}
+
+// Of everything that rays start from: surfaces and eyes.
+float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
+  Box all = boxes[0];
+  for (const InstanceRecord& instance : scene.instances) addInstance(instance, boxes, all);
+  float farthest = 0;
+  const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
+  if (all.lower.x <= all.upper.x) add(all.lower), add(all.upper);
+  for (const Camera& camera : scene.cameras) add(camera.eye);
+  for (const Keyframe& frame : scene.cameraPath) add(frame.camera.eye);
+  return farthest;
+}
+
+}  // namespace
+
+void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings) {
+  const float farthest = farthestStart(scene, boxes);
+  const auto lost = std::erase_if(scene.instances, [&](const InstanceRecord& instance) {
+    return !(instanceReach(instance.toWorld) > farthest);
+  });
+  warnings.add("instance too small or too flat to be traced left out", scene.name, lost);
+  Box box = boxes[0];
+  scene.instancedTriangles = scene.geometries[0].index.size();
+  for (const InstanceRecord& instance : scene.instances) {
+    scene.instancedTriangles += scene.geometries[instance.geometry].index.size();
+    addInstance(instance, boxes, box);
+  }
+  if (scene.instancedTriangles == 0) return;
+  scene.lower = box.lower;
+  scene.upper = box.upper;
+}
+
+}  // namespace whit
