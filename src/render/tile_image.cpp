@@ -88,18 +88,24 @@ void TileTracer::updateImage(const FrameJob& job, std::span<const std::uint32_t>
   if (film.wantDisplay) {
     simd::encodeDisplay(job.exposureScale, job.toneCurve, job.srgb, radiance, n, codes_.data());
   }
-  const Crop& window = film.image.window;
+  // Locals: what memory may alias would be read again for every pixel.
+  const int left = film.image.window.x0, top = film.image.window.y0;
   const auto width = static_cast<std::size_t>(film.image.windowWidth());
-  auto* display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
+  const float *r = radiance.r, *g = radiance.g, *b = radiance.b;
+  const std::uint32_t* codes = film.wantDisplay ? codes_.data() : nullptr;
+  auto* const display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
+  Rgb* const image = film.image.pixels.data();
+  std::uint64_t nonFinite = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto x = static_cast<std::size_t>(pixelX(pixels[i]) - window.x0);
-    const auto y = static_cast<std::size_t>(pixelY(pixels[i]) - window.y0);
-    const Rgb value{radiance.r[i], radiance.g[i], radiance.b[i]};
-    film.image.pixels[y * width + x] = value;
-    if (film.wantDisplay) display[y * width + x] = codes_[i];
+    const auto x = static_cast<std::size_t>(pixelX(pixels[i]) - left);
+    const auto y = static_cast<std::size_t>(pixelY(pixels[i]) - top);
+    Rgb& pixel = image[y * width + x];
+    pixel.x = r[i], pixel.y = g[i], pixel.z = b[i];
+    if (codes) display[y * width + x] = codes[i];
     // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
-    stats.nonFinitePixels += !std::isfinite(value.x + value.y + value.z);
+    nonFinite += !std::isfinite(r[i] + g[i] + b[i]);
   }
+  stats.nonFinitePixels += nonFinite;
 }
 
 }  // namespace whit
