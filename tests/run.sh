@@ -70,12 +70,13 @@ buildAndTest() {
     ctest --preset "$preset" --parallel $((2 * $(nproc)))
 }
 
-# The worker pool, the viewer's tracing thread with all that it runs, and its window's loop. Embree and TBB are not
-# instrumented and would be blamed for their own locks: what happens inside them is ignored, what
-# our code does is not.
+# The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, and its
+# window's loop. Embree and TBB are not instrumented and would be blamed for their own locks: what
+# happens inside them is ignored, what our code does is not.
 checkThreads() {
-  local areas=(unit) area
-  local filter='WorkerPool*:RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
+  local areas=(unit render) area
+  local filter='WorkerPool*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*:*HalfRate.H60*'
+  filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimisedAndResized'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
   if [ -d build-tsan/viewer/CMakeFiles/whit_view.dir ]; then

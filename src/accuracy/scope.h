@@ -20,7 +20,8 @@ struct Limits {
   double seconds;        // after which no more point is begun
 };
 inline constexpr Limits kQuick{64, 2, 30e6, 20e6, 2.5e6, 200, 0, 50};
-inline constexpr Limits kFull{256, 8, 400e6, 100e6, 1e300, 4000, 40, 1e300};
+// Some 45 points: ten minutes for frames of a second, less for shorter ones.
+inline constexpr Limits kFull{256, 8, 400e6, 100e6, 1e300, 8000, 40, 1e300};
 
 struct Scope {
   Limits limits;

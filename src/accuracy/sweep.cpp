@@ -37,7 +37,7 @@ class SceneSweeper {
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
     baseline_->render();
-    timer_.emplace(*baseline_, scope_, settings_.full);
+    timer_.emplace(*baseline_, scope_);
     describe();
     chooseSamples();
     choosePoints();

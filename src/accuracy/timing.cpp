@@ -34,9 +34,7 @@ const FrameStats& FrameSource::render() {
   return stats;
 }
 
-Rounds roundsFor(double pointMs, double baselineMs, double budgetMs, bool thorough) {
-  if (pointMs > budgetMs) return {1, 1, 0};
-  if (thorough) return {3, 4, 1};
+Rounds roundsFor(double pointMs, double baselineMs, double budgetMs) {
   const auto cost = [&](const Rounds& r) {
     return (r.frames + r.warmUp) * (r.count * pointMs + (r.count + 1) * baselineMs);
   };
@@ -85,7 +83,7 @@ void PointTimer::time(Point& point, FrameSource& frames) {
   const bool joint = point.kind == PointKind::joint;
   const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
   const Rounds rounds =
-      roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs, full_ && !joint);
+      roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs);
   if (rounds.count == 1) {
     takeSingleFrame(point, frames.render().frameMs);
   } else {

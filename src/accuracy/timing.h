@@ -28,8 +28,7 @@ struct Rounds {
   int count = 3, frames = 4, warmUp = 1;
 };
 // As many as fit into `budgetMs` of frames that take so long; always at least one of one frame.
-// `thorough`: at least nine frames whatever they take, unless one takes the whole budget.
-Rounds roundsFor(double pointMs, double baselineMs, double budgetMs, bool thorough);
+Rounds roundsFor(double pointMs, double baselineMs, double budgetMs);
 
 // Times `point` between frames of `baseline`: a block of the baseline's frames, then in each round
 // a block of the point's and another of the baseline's. The baseline's times are added to
@@ -44,8 +43,7 @@ Timing timingOf(const std::vector<double>& ms);
 // frame. `baseline` has rendered a frame; it and `scope` must outlive the timer.
 class PointTimer {
  public:
-  PointTimer(FrameSource& baseline, const Scope& scope, bool full)
-      : baseline_(baseline), scope_(scope), full_(full) {}
+  PointTimer(FrameSource& baseline, const Scope& scope) : baseline_(baseline), scope_(scope) {}
 
   // `frames` has rendered a frame of the point. Leaves settledMs alone.
   void time(Point& point, FrameSource& frames);
@@ -57,7 +55,6 @@ class PointTimer {
 
   FrameSource& baseline_;
   const Scope& scope_;
-  bool full_;
   std::vector<double> baselineMs_;
   int singleFrames_ = 0;  // of points, taken so far
 };
