@@ -186,14 +186,15 @@ HWY_INLINE void ApplyTextures(const ShadingTables& tables, EffectSet effects,
 template <uint32_t kBits>
 HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns& hits, size_t begin,
                                   size_t end) {
+  // Locals: what memory may alias would be read again for every ray.
+  const uint32_t* const hit = hits.triangle;
+  const TriangleRecord* const triangles = tables.triangles;
+  const auto* const normals = reinterpret_cast<const float*>(tables.normals);
+  const auto stride = static_cast<size_t>(tables.normalStride);
   for (size_t i = begin; i < end; ++i) {
-    const uint32_t triangle = hits.triangle[i];
-    if (triangle == kMiss) continue;
-    hwy::Prefetch(tables.triangles + triangle);
-    if constexpr ((kBits & kSmooth) != 0) {
-      hwy::Prefetch(reinterpret_cast<const float*>(tables.normals) +
-                    triangle * static_cast<size_t>(tables.normalStride));
-    }
+    const size_t triangle = hit[i] == kMiss ? 0 : hit[i];
+    hwy::Prefetch(triangles + triangle);
+    if constexpr ((kBits & kSmooth) != 0) hwy::Prefetch(normals + triangle * stride);
   }
 }
 

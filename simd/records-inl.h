@@ -41,28 +41,33 @@ HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
   return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
 }
 
+HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* index) {
+  const FloatTag d;
+  const float* p = reinterpret_cast<const float*>(words) + index[0];
+  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[row]), hn::Set(d, p[row + 1])};
+}
+
 #else
 
-// Block b of the result holds four floats of lane 4 * b + i.
-template <class D>
-HWY_INLINE hn::Vec<D> LoadRows(D d, const float* const* lane, size_t column) {
+// Block b of the result is made of what block b + i of the lanes loads.
+template <class D, class LoadBlock>
+HWY_INLINE hn::Vec<D> LoadRows(D d, size_t lane, const LoadBlock& loadBlock) {
   if constexpr (hn::MaxLanes(d) == 4) {
-    return hn::LoadU(d, lane[0] + column);
+    return loadBlock(d, lane);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, LoadRows(half, lane + hn::MaxLanes(half), column),
-                       LoadRows(half, lane, column));
+    return hn::Combine(d, LoadRows(half, lane + hn::MaxLanes(half), loadBlock),
+                       LoadRows(half, lane, loadBlock));
   }
 }
 
-// Columns `column` to `column` + 3 of every lane's record.
-HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
+// Four floats of every lane, transposed.
+template <class LoadBlock>
+HWY_INLINE V4 LoadTransposed(const LoadBlock& loadBlock) {
   const FloatTag d;
   const hn::Repartition<uint64_t, FloatTag> d64;
-  const VF r0 = LoadRows(d, records.lane, column);
-  const VF r1 = LoadRows(d, records.lane + 1, column);
-  const VF r2 = LoadRows(d, records.lane + 2, column);
-  const VF r3 = LoadRows(d, records.lane + 3, column);
+  const VF r0 = LoadRows(d, 0, loadBlock), r1 = LoadRows(d, 1, loadBlock);
+  const VF r2 = LoadRows(d, 2, loadBlock), r3 = LoadRows(d, 3, loadBlock);
   const auto low01 = hn::BitCast(d64, hn::InterleaveLower(d, r0, r1));
   const auto low23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
   const auto high01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
@@ -71,6 +76,22 @@ HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
           hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23)),
           hn::BitCast(d, hn::InterleaveLower(d64, high01, high23)),
           hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23))};
+}
+
+// Columns `column` to `column` + 3 of every lane's record.
+HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
+  return LoadTransposed([&](auto d, size_t lane)
+                            HWY_ATTR { return hn::LoadU(d, records.lane[lane] + column); });
+}
+
+// Squares of two by two words, the lower row first: of every lane, the one at `index` in rows of
+// `row` words.
+HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* index) {
+  return LoadTransposed([&](auto d, size_t lane) HWY_ATTR {
+    const hn::Half<decltype(d)> pair;
+    const float* lower = reinterpret_cast<const float*>(words) + index[lane];
+    return hn::Combine(d, hn::LoadU(pair, lower + row), hn::LoadU(pair, lower));
+  });
 }
 
 #endif

@@ -14,55 +14,35 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// Texel coordinates along one axis: lower and upper index, and the fraction between them.
+// A bilinear footprint along one axis: which it is, 0 for the one that begins half a texel before
+// the border, and how far its upper texel counts. A whole number, kept as a float.
 struct AxisTexels {
-  VI lower, upper;
-  VF fraction;
+  VF footprint, fraction;
 };
 
-// `s` in texture coordinates, `size` in texels. Indices are in range for every finite s, also where
-// rounding takes s - floor(s) to exactly 1 (hard case H69).
-HWY_INLINE AxisTexels RepeatAxis(VF s, VF size) {
+// `held` in texture coordinates from 0 to 1, `size` in texels: footprints 0 to `size`, also where
+// rounding takes s - floor(s) to exactly 1 (hard case H69). What lies beyond the borders is in the
+// tiles (TextureRecord).
+HWY_INLINE AxisTexels FootprintAt(VF held, VF size) {
   const FloatTag d;
-  const IntTag di;
-  const VF wrapped = hn::Sub(s, hn::Floor(s));
-  const VF x = hn::MulSub(wrapped, size, hn::Set(d, 0.5f));
+  const VF x = hn::MulSub(held, size, hn::Set(d, 0.5f));
   const VF floored = hn::Floor(x);
-  const VI last = hn::Sub(hn::ConvertTo(di, size), hn::Set(di, 1));
-  const VI lower = hn::ConvertTo(di, floored);
-  const VI upper = hn::Add(lower, hn::Set(di, 1));
-  return {hn::IfThenElse(hn::Lt(lower, hn::Zero(di)), last, lower),
-          hn::IfThenZeroElse(hn::Gt(upper, last), upper), hn::Sub(x, floored)};
-}
-
-// Mirrored or clamped coordinates never wrap: indices are clamped at the border.
-HWY_INLINE AxisTexels ClampedAxis(VF s, VF size) {
-  const FloatTag d;
-  const IntTag di;
-  const VF x = hn::MulSub(s, size, hn::Set(d, 0.5f));
-  const VF floored = hn::Floor(x);
-  const VI last = hn::Sub(hn::ConvertTo(di, size), hn::Set(di, 1));
-  const VI lower = hn::ConvertTo(di, floored);
-  const VI upper = hn::Add(lower, hn::Set(di, 1));
-  return {hn::Max(lower, hn::Zero(di)), hn::Min(upper, last), hn::Sub(x, floored)};
+  return {hn::Add(floored, hn::Set(d, 1.0f)), hn::Sub(x, floored)};
 }
 
 HWY_INLINE AxisTexels WrapAxis(VF s, VF size, VI mode) {
   const FloatTag d;
   const IntTag di;
-  const AxisTexels repeated = RepeatAxis(s, size);
+  const VF repeated = hn::Sub(s, hn::Floor(s));
   const auto repeats = hn::Eq(mode, hn::Zero(di));
-  if (HWY_LIKELY(hn::AllTrue(di, repeats))) return repeated;
+  if (HWY_LIKELY(hn::AllTrue(di, repeats))) return FootprintAt(repeated, size);
   const VF half = hn::Mul(s, hn::Set(d, 0.5f));
   const VF phase = hn::Mul(hn::Sub(half, hn::Floor(half)), hn::Set(d, 2.0f));
   const VF mirrored = hn::Min(phase, hn::Sub(hn::Set(d, 2.0f), phase));
   const VF clamped = hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1.0f));
   const MF mirrors = hn::RebindMask(d, hn::Eq(mode, hn::Set(di, 1)));
-  const AxisTexels held = ClampedAxis(hn::IfThenElse(mirrors, mirrored, clamped), size);
-  const MF repeatsFloat = hn::RebindMask(d, repeats);
-  return {hn::IfThenElse(repeats, repeated.lower, held.lower),
-          hn::IfThenElse(repeats, repeated.upper, held.upper),
-          hn::IfThenElse(repeatsFloat, repeated.fraction, held.fraction)};
+  const VF held = hn::IfThenElse(mirrors, mirrored, clamped);
+  return FootprintAt(hn::IfThenElse(hn::RebindMask(d, repeats), repeated, held), size);
 }
 
 // Texture coordinates that are not finite, or so large that no fraction of a texel is left, count
@@ -76,7 +56,7 @@ HWY_INLINE VF TameCoordinate(VF s) {
 // the whole block has been: so the cache misses of many rays overlap.
 struct TexelQueue {
   static constexpr size_t kRays = 64;
-  HWY_ALIGN int32_t texel00[kRays], texel10[kRays], texel01[kRays], texel11[kRays];
+  HWY_ALIGN int32_t texel[kRays];                      // the first of a footprint, or the nearest
   HWY_ALIGN float fractionX[kRays], fractionY[kRays];  // X below 0: no texture
   bool any[kRays];                                     // by the first lane of a vector
 };
@@ -86,24 +66,33 @@ HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
   return hn::Ge(hn::Load(d, queue.fractionX + slot), hn::Zero(d));
 }
 
-// The nearer of the two indices, alone.
-HWY_INLINE AxisTexels Nearest(const AxisTexels& axis) {
+// floor(x / kTexelCells) of whole numbers below 2^20: half a step away from where rounding matters.
+HWY_INLINE VF TileOf(VF x) {
   const FloatTag d;
-  const auto upper = hn::RebindMask(IntTag(), hn::Ge(axis.fraction, hn::Set(d, 0.5f)));
-  const VI index = hn::IfThenElse(upper, axis.upper, axis.lower);
-  return {index, index, hn::Zero(d)};
+  constexpr float kPerCell = 1.0f / kTexelCells;
+  return hn::Floor(hn::MulAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
 }
 
-// What a row or a column of texels adds to the index of the first (kTexelTile).
-HWY_INLINE VI TileRow(VI y, VI rowOfTiles) {
+// Of whole numbers from 0 to 2^22, without the care that others take: the low bits of what 2^23 is
+// added to.
+HWY_INLINE VI IndexOf(VF whole) {
+  const FloatTag d;
   const IntTag di;
-  const VI within = hn::And(y, hn::Set(di, kTexelTile - 1));
-  return hn::Add(hn::Mul(hn::ShiftRight<2>(y), rowOfTiles), hn::ShiftLeft<2>(within));
+  const VF shifted = hn::Add(whole, hn::Set(d, 0x1p23f));
+  return hn::Sub(hn::BitCast(di, shifted), hn::BitCast(di, hn::Set(d, 0x1p23f)));
 }
-HWY_INLINE VI TileColumn(VI x) {
-  const IntTag di;
-  const VI within = hn::And(x, hn::Set(di, kTexelTile - 1));
-  return hn::Add(hn::ShiftLeft<2>(hn::Sub(x, within)), within);
+
+// The first texel of a footprint, counted from the first of its texture.
+HWY_INLINE VI TexelOf(VF footprintX, VF footprintY, VF width) {
+  const FloatTag d;
+  const VF tileX = TileOf(footprintX), tileY = TileOf(footprintY);
+  const VF cells = hn::Set(d, static_cast<float>(kTexelCells));
+  const VF side = hn::Set(d, static_cast<float>(kTexelTile));
+  const VF x = hn::NegMulAdd(tileX, cells, footprintX), y = hn::NegMulAdd(tileY, cells, footprintY);
+  const VF tilesAcross = hn::Add(TileOf(width), hn::Set(d, 1.0f));
+  const VI rowOfTiles = hn::Mul(IndexOf(tileY), IndexOf(hn::Mul(tilesAcross, hn::Mul(side, side))));
+  const VF inRow = hn::MulAdd(hn::MulAdd(tileX, side, y), side, x);
+  return hn::Add(rowOfTiles, IndexOf(inRow));
 }
 
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
@@ -114,37 +103,30 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const void* records, const uin
   const IntTag di;
   queue.any[slot] = !hn::AllFalse(d, live);
   if (!queue.any[slot]) return;
-  const TableReader reader(records, 4, texture, live);
+  const TableReader reader(records, kTextureStride, texture, live);
   const V4 record = reader.Columns4(0);
   const VI first = hn::BitCast(di, record.x);
-  const VI width = hn::BitCast(di, record.y);
-  const VF widthF = hn::ConvertTo(d, width);
-  const VF heightF = hn::ConvertTo(d, hn::BitCast(di, record.z));
+  const VF width = hn::ConvertTo(d, hn::BitCast(di, record.y));
+  const VF height = hn::ConvertTo(d, hn::BitCast(di, record.z));
   const VI wrap = hn::BitCast(di, record.w);
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
   const VI wrapV = hn::ShiftRight<8>(wrap);
   // Image rows run downwards, v upwards.
-  AxisTexels x = WrapAxis(TameCoordinate(u), widthF, wrapU);
-  AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), heightF, wrapV);
-  if (filter == TextureFilter::nearest) x = Nearest(x), y = Nearest(y);
-  const VI filled = TileColumn(hn::Add(width, hn::Set(di, kTexelTile - 1)));
-  const VI rowOfTiles = hn::And(filled, hn::Set(di, -kTexelTile * kTexelTile));
-  const VI row0 = hn::Add(first, TileRow(y.lower, rowOfTiles));
-  const VI row1 = hn::Add(first, TileRow(y.upper, rowOfTiles));
-  const VI column0 = TileColumn(x.lower), column1 = TileColumn(x.upper);
-  const auto liveInt = hn::RebindMask(di, live);
-  const auto store = [&](VI row, VI column, int32_t* to) HWY_ATTR {
-    hn::Store(hn::IfThenElseZero(liveInt, hn::Add(row, column)), di, to + slot);
-  };
-  store(row0, column0, queue.texel00);
-  store(row0, column1, queue.texel10);
-  store(row1, column0, queue.texel01);
-  store(row1, column1, queue.texel11);
+  const AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
+  const AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), height, wrapV);
+  VI texel = hn::Add(first, TexelOf(x.footprint, y.footprint, width));
+  if (filter == TextureFilter::nearest) {
+    const auto nearer = [&](VF fraction, int32_t step) HWY_ATTR {
+      const MF upper = hn::Ge(fraction, hn::Set(d, 0.5f));
+      return hn::IfThenElseZero(hn::RebindMask(di, upper), hn::Set(di, step));
+    };
+    texel = hn::Add(texel, hn::Add(nearer(x.fraction, 1), nearer(y.fraction, kTexelTile)));
+  }
+  hn::Store(hn::IfThenElseZero(hn::RebindMask(di, live), texel), di, queue.texel + slot);
   hn::Store(hn::IfThenElse(live, x.fraction, hn::Set(d, -1.0f)), d, queue.fractionX + slot);
   hn::Store(y.fraction, d, queue.fractionY + slot);
   for (size_t lane = slot; lane < slot + hn::Lanes(d); ++lane) {
-    hwy::Prefetch(texels + queue.texel00[lane]);
-    hwy::Prefetch(texels + queue.texel11[lane]);  // all of them but at the corners of tiles
+    hwy::Prefetch(texels + queue.texel[lane]);
   }
 }
 
@@ -158,20 +140,19 @@ HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
                                  const TexelQueue& queue, size_t slot) {
   const FloatTag d;
   const IntTag di;
-  const auto gather = [&](const int32_t* index) HWY_ATTR {
-    return hn::BitCast(UintTag(), hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels),
-                                                  hn::Load(di, index + slot)));
-  };
+  const UintTag du;
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   if (filter == TextureFilter::nearest) {
-    const VU texel = gather(queue.texel00);
-    return {texel, texel, texel, texel, one, zero, zero, zero};
+    const VI texel = hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels),
+                                     hn::Load(di, queue.texel + slot));
+    const VU nearest = hn::BitCast(du, texel);
+    return {nearest, nearest, nearest, nearest, one, zero, zero, zero};
   }
   const VF fx = hn::Load(d, queue.fractionX + slot), fy = hn::Load(d, queue.fractionY + slot);
   const VF gx = hn::Sub(one, fx), gy = hn::Sub(one, fy);
-  return {gather(queue.texel00), gather(queue.texel10), gather(queue.texel01),
-          gather(queue.texel11), hn::Mul(gx, gy),       hn::Mul(fx, gy),
-          hn::Mul(gx, fy),       hn::Mul(fx, fy)};
+  const V4 t = LoadSquares(texels, kTexelTile, queue.texel + slot);
+  return {hn::BitCast(du, t.x), hn::BitCast(du, t.y), hn::BitCast(du, t.z), hn::BitCast(du, t.w),
+          hn::Mul(gx, gy),      hn::Mul(fx, gy),      hn::Mul(gx, fy),      hn::Mul(fx, fy)};
 }
 
 // (code / 1023)^2: linear light of a 10-bit channel (TexelFormat::colour).

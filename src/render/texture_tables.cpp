@@ -23,24 +23,37 @@ std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const Shad
   return used;
 }
 
-std::size_t tilesAcross(int texels) {
-  return (static_cast<std::size_t>(texels) + kSide - 1) / kSide;
-}
+// One footprint more than there are texels: the border is met from either side.
+std::size_t tilesAcross(int texels) { return static_cast<std::size_t>(texels) / kTexelCells + 1; }
 std::size_t tiledTexels(const Texture& t) {
   return tilesAcross(t.width) * tilesAcross(t.height) * kTile;
 }
 
-// Appends the tiles; what fills up the last of a row or a column is not read.
+// Texels -1 to `size` and beyond, which fills up the last tile; one tile after the other.
+std::vector<std::size_t> texelsOfAxis(int size, Wrap wrap) {
+  std::vector<std::size_t> texels;
+  for (int tile = 0; tile < static_cast<int>(tilesAcross(size)); ++tile) {
+    for (int within = 0; within < kTexelTile; ++within) {
+      const int texel = tile * kTexelCells + within - 1;
+      const int index =
+          wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
+      texels.push_back(static_cast<std::size_t>(index));
+    }
+  }
+  return texels;
+}
+
 TextureRecord addTexels(const Texture& t, HugeVector<std::uint32_t>& texels) {
-  const std::size_t width = static_cast<std::size_t>(t.width), first = texels.size();
-  const std::size_t height = static_cast<std::size_t>(t.height);
-  const std::size_t rowOfTiles = tilesAcross(t.width) * kTile;
-  texels.resize(first + tiledTexels(t));
-  for (std::size_t y = 0; y < height; ++y) {
-    const std::uint32_t* from = t.texels.data() + y * width;
-    std::uint32_t* to = texels.data() + first + y / kSide * rowOfTiles + y % kSide * kSide;
-    for (std::size_t x = 0; x < width; x += kSide, to += kTile) {
-      std::copy_n(from + x, std::min(kSide, width - x), to);
+  const std::size_t first = texels.size();
+  const std::vector<std::size_t> columns = texelsOfAxis(t.width, t.wrapU);
+  const std::vector<std::size_t> rows = texelsOfAxis(t.height, t.wrapV);
+  texels.resize(first + rows.size() * columns.size());
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    const std::uint32_t* from = t.texels.data() + rows[y] * static_cast<std::size_t>(t.width);
+    std::uint32_t* to =
+        texels.data() + first + y / kSide * columns.size() * kSide + y % kSide * kSide;
+    for (std::size_t x = 0; x < columns.size(); x += kSide, to += kTile) {
+      for (std::size_t within = 0; within < kSide; ++within) to[within] = from[columns[x + within]];
     }
   }
   return {static_cast<std::uint32_t>(first), t.width, t.height,

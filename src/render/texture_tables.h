@@ -1,6 +1,6 @@
-// The kernels' tables of textures. Texels lie in tiles of 4x4, a cache line each, so that the four
-// of a bilinear lookup share a line and a page more often than not (Blinn 1990, "The truth about
-// texture mapping").
+// The kernels' tables of textures. Texels lie in tiles of 4x4, a cache line each (Blinn 1990, "The
+// truth about texture mapping"), which overlap by one: the four of a bilinear lookup share a line
+// always, at the price of 16/9 of the memory.
 #pragma once
 
 #include "stages/shading_tables.h"

@@ -39,8 +39,11 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
 // Maps that are looked up with the second texture coordinates.
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 
-// Texels are kept in tiles of so many a side, row by row of tiles, and of texels in a tile.
-inline constexpr int kTexelTile = 4;
+// Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
+// kTexelCells bilinear footprints that begin in it whole, so that neighbours repeat a row and a
+// column of texels: a lookup reads one line. Footprint (0, 0) has its upper texels at (0, 0), the
+// last its lower ones at (width - 1, height - 1); what lies outside is as the wrap modes say.
+inline constexpr int kTexelTile = 4, kTexelCells = kTexelTile - 1;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
   std::int32_t width, height;

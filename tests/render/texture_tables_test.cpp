@@ -1,8 +1,9 @@
-// Texels in tiles: each is where the kernels look for it.
+// Texels in tiles: each footprint is where the kernels look for it.
 #include "render/texture_tables.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,28 +20,44 @@ Texture numbered(int width, int height) {
   return makeTexture(TexelFormat::colour, width, height, texels);
 }
 
-TEST(TextureTables, TexelsAreInTilesOfFourByFour) {
+// What lookups at the border read beyond it.
+int wrapped(int texel, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
+}
+
+TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
-  // Rows and columns left over, less than a tile, and a single texel.
-  for (const auto& [width, height] : {std::pair{9, 6}, {3, 2}, {1, 1}, {8, 4}}) {
-    floor.diffuseMap = builder.add(numbered(width, height));
-    builder.add(floorAt(0, 1, builder.add(floor)));
+  // Rows and columns left over, whole tiles, less than one, and a single texel.
+  const std::vector<std::pair<int, int>> sizes{{9, 6}, {3, 2}, {1, 1}, {8, 4}, {2, 11}};
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
+    for (const auto& [width, height] : sizes) {
+      Texture texture = numbered(width, height);
+      texture.wrapU = wrap;
+      floor.diffuseMap = builder.add(texture);
+      builder.add(floorAt(0, 1, builder.add(floor)));
+    }
   }
   const Scene scene = builder.build();
   const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
-  ASSERT_EQ(tables.textures.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
+  ASSERT_EQ(tables.textures.size(), 3 * sizes.size());
+  for (std::size_t i = 0; i < tables.textures.size(); ++i) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
     EXPECT_EQ(record.firstTexel % 16, 0u) << "a cache line begins here";
-    const int tilesInARow = (record.width + 3) / 4;
-    for (int y = 0; y < record.height; ++y) {
-      for (int x = 0; x < record.width; ++x) {
-        const int tile = y / 4 * tilesInARow + x / 4, within = y % 4 * 4 + x % 4;
-        EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(tile * 16 + within)],
-                  texture.texels[static_cast<std::size_t>(y * record.width + x)])
-            << "texture " << i << ", texel " << x << "," << y;
+    const int tilesInARow = record.width / 3 + 1;
+    // Footprint (x, y) has its upper texels at (x, y): the last is half beyond the border.
+    for (int y = 0; y <= record.height; ++y) {
+      for (int x = 0; x <= record.width; ++x) {
+        const int tile = y / 3 * tilesInARow + x / 3, within = y % 3 * 4 + x % 3;
+        for (const auto& [stepX, stepY] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+          const int column = wrapped(x - 1 + stepX, record.width, texture.wrapU);
+          const int row = wrapped(y - 1 + stepY, record.height, texture.wrapV);
+          const int place = tile * 16 + within + stepY * 4 + stepX;
+          EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(place)],
+                    texture.texels[static_cast<std::size_t>(row * record.width + column)])
+              << "texture " << i << ", footprint " << x << "," << y << " step " << stepX << stepY;
+        }
       }
     }
   }
