@@ -59,10 +59,14 @@ inline constexpr Kernel kFindRadianceAndShadowRays{
 // In the order of the stages.
 inline constexpr std::array kKernels{
     Kernel{"generateRays", Stage::generateRays, {}},
+    Kernel{"packRays", Stage::findIntersections, {}},
+    Kernel{"unpackHits", Stage::findIntersections, {}},
     kInterpolateSurfels,
     Kernel{"liftShadowOrigins", Stage::findIntersections, {}},
     Kernel{"writeEmittedAndReflectiveAmbient", Stage::writeEmittedAndReflectiveAmbient, {}},
     kFindRadianceAndShadowRays,
+    Kernel{"packShadowRays", Stage::checkShadows, {}},
+    Kernel{"unpackVisibility", Stage::checkShadows, {}},
     Kernel{"addShading", Stage::addShading, {}},
     Kernel{"addReflections", Stage::addImpulses, {}},
     Kernel{"addGlossyReflections", Stage::addImpulses, {}},

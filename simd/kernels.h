@@ -15,6 +15,7 @@
 #include "core/options.h"
 #include "core/path_numbers.h"
 #include "stages/columns.h"
+#include "stages/packet_words.h"
 #include "stages/shading_tables.h"
 
 namespace whit::simd {
@@ -34,6 +35,19 @@ struct CameraRays {
 // slot, the media around the eye, and the number of the path.
 void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
                   const RayColumns& rays) noexcept;
+
+// Rays [0, n) into Embree's packets, and what comes back. Lanes left over get empty rays, and so do
+// rays that Embree cannot take: it ends the program at a NaN or where the sum of the coordinates'
+// sizes is beyond `reach` (hard case H28).
+void packRays(const RayColumns& rays, std::size_t n, float reach, const PacketWords& to) noexcept;
+void packShadowRays(const ShadowColumns& rays, std::size_t n, float reach,
+                    const PacketWords& to) noexcept;
+// Of scenes without instances: a triangle's number is that of its class's first one plus its own.
+void unpackHits(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
+                const HitColumns& hits) noexcept;
+// visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
+void unpackVisibility(const PacketWords& from, std::size_t n, const std::uint32_t* slot,
+                      float* visible) noexcept;
 
 // Second half of findIntersections: surfels from hits. Absorption in the medium that a ray came
 // through is multiplied into its weight and throughput. Returns the kMaterial flags that the

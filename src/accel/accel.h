@@ -2,6 +2,7 @@
 // Embree in packets of 1, 4, 8 or 16, and come back as hits in columns.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -31,7 +32,9 @@ class RayLog {
  public:
   struct Stream {
     bool occlusion = false, coherent = false;
-    std::vector<float> rays;  // 7 floats a ray: origin, direction, tFar
+    std::size_t count = 0;
+    // Origin, direction, tFar; filled up to whole blocks.
+    std::array<std::vector<float>, 7> columns;
   };
   void append(bool occlusion, bool coherent, const float* const columns[7], std::size_t n);
   const std::vector<Stream>& streams() const { return streams_; }

@@ -3,6 +3,7 @@
 
 #include "accel/bad_rays.h"
 #include "accel/embree_scene.h"
+#include "accel/packing.h"
 #include "accel/parts.h"
 #include "accel/trace_packets.h"
 
@@ -10,64 +11,61 @@ namespace whit {
 
 namespace {
 
-constexpr std::size_t kFloatsPerRay = 7;
-
-template <int kWidth, typename Ray>
-void loadLane(Ray& ray, int lane, const float* r, unsigned mask) {
-  ray.org_x[lane] = r[0];
-  ray.org_y[lane] = r[1];
-  ray.org_z[lane] = r[2];
-  ray.dir_x[lane] = r[3];
-  ray.dir_y[lane] = r[4];
-  ray.dir_z[lane] = r[5];
-  ray.tfar[lane] = r[6];
-  ray.tnear[lane] = ray.time[lane] = 0;
-  ray.mask[lane] = mask;
-  ray.id[lane] = ray.flags[lane] = 0;
+// Kernels only read them.
+float* column(const RayLog::Stream& stream, std::size_t c) {
+  return const_cast<float*>(stream.columns[c].data());
 }
 
-// Full packets; the last one of a stream repeats its final ray in the lanes left over, masked off.
 template <int kWidth>
-double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
-  using RayHit = typename PacketTypes<kWidth>::RayHit;
-  using Ray = typename PacketTypes<kWidth>::Ray;
-  const std::size_t n = stream.rays.size() / kFloatsPerRay;
-  const std::size_t count = (n + kWidth - 1) / kWidth;
-  std::vector<RayHit> hits(stream.occlusion ? 0 : count);
-  std::vector<Ray> shadows(stream.occlusion ? count : 0);
+double replayShadows(const EmbreeScene& scene, const RayLog::Stream& stream) {
+  const std::size_t count = packetsFor<kWidth>(stream.count);
+  std::vector<typename PacketTypes<kWidth>::Ray> packets(count);
   std::vector<Lanes<kWidth>> lanes(count);
-  for (std::size_t i = 0; i < count * kWidth; ++i) {
-    const std::size_t packet = i / kWidth;
-    const int lane = static_cast<int>(i % kWidth);
-    const float* ray = &stream.rays[std::min(i, n - 1) * kFloatsPerRay];
-    lanes[packet].live[lane] = i < n ? -1 : 0;
-    if (stream.occlusion) {
-      loadLane<kWidth>(shadows[packet], lane, ray, kShadowMask);
-      continue;
-    }
-    loadLane<kWidth>(hits[packet].ray, lane, ray, kSeenMask);
-    hits[packet].hit.geomID[lane] = hits[packet].hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
-    hits[packet].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-  }
-  for (Ray& packet : shadows) leaveOutBadRays<kWidth>(packet, scene.reach());
-  for (RayHit& packet : hits) leaveOutBadRays<kWidth>(packet.ray, scene.reach());
+  for (auto& packet : packets) setConstants<kWidth>(packet, kShadowMask);
+  setLanes<kWidth>(lanes.data(), stream.count);
+  const ShadowColumns shadows{
+      column(stream, 0), column(stream, 1), column(stream, 2), column(stream, 3),
+      column(stream, 4), column(stream, 5), column(stream, 6), nullptr};
+  simd::packShadowRays(shadows, stream.count, scene.reach(), wordsOf<kWidth>(packets.data()));
   QueryContext context(stream.coherent);
   const bool together = stream.coherent && scene.streamWidth() == kWidth;
   const auto start = TraceClock::now();
-  if (stream.occlusion) {
-    occludedAll(lanes.data(), scene.top(), context, together, shadows.data(), count);
-  } else {
-    intersectAll(lanes.data(), scene.top(), context, together, hits.data(), count);
-  }
+  occludedAll(lanes.data(), scene.top(), context, together, packets.data(), count);
   return millisecondsSince(start);
 }
 
+template <int kWidth>
+double replayHits(const EmbreeScene& scene, const RayLog::Stream& stream) {
+  const std::size_t count = packetsFor<kWidth>(stream.count);
+  std::vector<typename PacketTypes<kWidth>::RayHit> packets(count);
+  std::vector<Lanes<kWidth>> lanes(count);
+  for (auto& packet : packets) setConstants<kWidth>(packet.ray, kSeenMask);
+  setLanes<kWidth>(lanes.data(), stream.count);
+  RayColumns rays;
+  rays.orgX = column(stream, 0), rays.orgY = column(stream, 1), rays.orgZ = column(stream, 2);
+  rays.dirX = column(stream, 3), rays.dirY = column(stream, 4), rays.dirZ = column(stream, 5);
+  simd::packRays(rays, stream.count, scene.reach(), wordsOf<kWidth>(packets.data()));
+  forgetHits<kWidth>(packets.data(), count);
+  QueryContext context(stream.coherent);
+  const bool together = stream.coherent && scene.streamWidth() == kWidth;
+  const auto start = TraceClock::now();
+  intersectAll(lanes.data(), scene.top(), context, together, packets.data(), count);
+  return millisecondsSince(start);
+}
+
+// Full packets but for the last one of a stream.
+template <int kWidth>
+double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
+  return stream.occlusion ? replayShadows<kWidth>(scene, stream)
+                          : replayHits<kWidth>(scene, stream);
+}
+
 double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
-  const std::size_t n = stream.rays.size() / kFloatsPerRay;
   std::vector<RTCRayHit> rays;
-  rays.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const float* r = &stream.rays[i * kFloatsPerRay];
+  rays.reserve(stream.count);
+  for (std::size_t i = 0; i < stream.count; ++i) {
+    std::array<float, 7> r;
+    for (std::size_t c = 0; c < r.size(); ++c) r[c] = stream.columns[c][i];
     if (!isTraceable(scene.reach(), r[0], r[1], r[2], r[3], r[4], r[5])) continue;
     RTCRayHit& ray = rays.emplace_back();
     ray.ray.org_x = r[0];
@@ -100,12 +98,16 @@ void RayLog::append(bool occlusion, bool coherent, const float* const columns[7]
     if (s.occlusion == occlusion && s.coherent == coherent) stream = &s;
   }
   if (!stream) {
-    streams_.push_back({occlusion, coherent, {}});
+    streams_.push_back({occlusion, coherent, 0, {}});
     stream = &streams_.back();
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t c = 0; c < kFloatsPerRay; ++c) stream->rays.push_back(columns[c][i]);
+  for (std::size_t c = 0; c < stream->columns.size(); ++c) {
+    std::vector<float>& column = stream->columns[c];
+    column.resize(stream->count);
+    column.insert(column.end(), columns[c], columns[c] + n);
+    column.resize(roundUpToBlock(stream->count + n));
   }
+  stream->count += n;
 }
 
 double Accel::replay(const RayLog& log) const {

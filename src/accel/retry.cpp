@@ -23,7 +23,11 @@ Vec3f nudged(const Vec3f& d, int attempt) {
 // thousand times their size away, rounding moves the edge by 1e-4 of it.
 constexpr float kNearEdge = 0x1p-12f;
 
-bool isNearEdge(float u, float v) { return std::min(std::min(u, v), 1 - u - v) < kNearEdge; }
+// Three comparisons, so that compilers make vectors of it.
+bool isNearEdge(float u, float v) {
+  return static_cast<int>(u < kNearEdge) | static_cast<int>(v < kNearEdge) |
+         static_cast<int>(1 - u - v < kNearEdge);
+}
 
 }  // namespace
 

@@ -13,7 +13,7 @@ FloorResult Renderer::measureFloor(const Camera& camera, Film& film, int frames)
   p.renderFrame(job, &logs);
   FloorResult result;
   for (const RayLog& log : logs) {
-    for (const RayLog::Stream& stream : log.streams()) result.rays += stream.rays.size() / 7;
+    for (const RayLog::Stream& stream : log.streams()) result.rays += stream.count;
   }
   std::vector<double> floors, whole;
   for (int frame = 0; frame < std::max(frames, 1); ++frame) {

@@ -9,17 +9,19 @@
 
 namespace whit {
 
-// | stage                             | reads                 | writes |
-// |-----------------------------------|-----------------------|-------------------------------------|
-// | generateRays                      | camera, pixels        | rays | | findIntersections | rays,
-// scene           | hits (Embree), then surfels         | | writeEmittedAndReflectiveAmbient  |
-// surfels, sky          | radiance (=)                        | | findRadianceAndShadowRays |
-// surfels, one light    | unshadowed radiance, shadow rays    | | checkShadows | shadow rays, scene
-// | visibility (Embree)                 | | addShading                        | unshadowed, visible
-// | radiance (+=)                       | | addImpulses                       | surfels | the next
-// depth's rays; then their   | |                                   |                       |
-// radiance times weight (+=)          | | updateImage                       | radiance, pixels |
-// film, display codes                 |
+// clang-format off
+// | stage                           | reads                       | writes                        |
+// |---------------------------------|-----------------------------|-------------------------------|
+// | generateRays                    | camera, pixels              | rays                          |
+// | findIntersections               | rays, scene                 | hits (Embree), then surfels   |
+// | writeEmittedAndReflectiveAmbient| surfels, sky                | radiance (=)                  |
+// | findRadianceAndShadowRays       | surfels, one light          | unshadowed light, shadow rays |
+// | checkShadows                    | shadow rays, scene          | visibility (Embree)           |
+// | addShading                      | unshadowed light, visibility| radiance (+=)                 |
+// | addImpulses                     | surfels                     | the next depth's rays; then   |
+// |                                 |                             | their radiance by weight (+=) |
+// | updateImage                     | radiance, pixels            | film, display codes           |
+// clang-format on
 #define WHIT_STAGES(X)                \
   X(generateRays)                     \
   X(findIntersections)                \
