@@ -27,6 +27,7 @@ bool runs(const Plan& plan, const simd::Kernel& kernel) {
   if (std::find(plan.stages.begin(), plan.stages.end(), kernel.stage) == plan.stages.end()) {
     return false;
   }
+  if (kernel.name.starts_with("pack") || kernel.name.starts_with("unpack")) return plan.packets;
   if (kernel.name == "liftShadowOrigins") return plan.groups.lift;
   if (kernel.name == "addReflections") return plan.traceReflections;
   if (kernel.name == "addGlossyReflections") return plan.glossySamples > 0;
@@ -44,6 +45,7 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
   plan.traceShadows = plan.effects.has(Effect::shadows);
   plan.traceReflections = plan.effects.has(Effect::mirror);
   plan.traceRefractions = plan.effects.has(Effect::transmission);
+  plan.packets = options.packet != 1;
   plan.glossySamples = plan.effects.has(Effect::glossyReflection) ? options.glossy : 0;
   const bool impulses = plan.traceReflections || plan.traceRefractions || plan.glossySamples > 0;
   plan.depth = impulses ? options.depth : 0;
@@ -74,15 +76,16 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
 std::vector<KernelUse> kernelsOf(const Plan& plan) {
   const std::string target = simd::chosenTarget();
   std::vector<KernelUse> uses;
-  bool shadows = plan.traceShadows;
+  bool hits = true, shadows = plan.traceShadows;
   for (const simd::Kernel& kernel : simd::kKernels) {
     if (!runs(plan, kernel)) continue;
-    if (shadows && kernel.stage > Stage::checkShadows) {
+    if (hits && kernel.stage >= Stage::findIntersections && kernel.name != "packRays") {
+      uses.push_back({Stage::findIntersections, "intersect", "plain", "embree"});
+      hits = false;
+    }
+    if (shadows && kernel.stage >= Stage::checkShadows && kernel.name != "packShadowRays") {
       uses.push_back({Stage::checkShadows, "occluded", "plain", "embree"});
       shadows = false;
-    }
-    if (kernel.stage == Stage::findIntersections) {
-      uses.push_back({kernel.stage, "intersect", "plain", "embree"});
     }
     const EffectSet variant = kernel.variant(kernel.variantFor(plan.effects));
     uses.push_back({kernel.stage, std::string(kernel.name), simd::variantName(variant), target});

@@ -18,6 +18,7 @@ struct Plan {
   std::vector<Stage> stages;
   Groups groups;  // columns that are allocated
   bool traceShadows = false, traceReflections = false, traceRefractions = false;
+  bool packets = true;    // rays go to Embree by fours at least
   int glossySamples = 0;  // of a lobe that the eye sees
   int depth = 0;          // deepest impulse that can occur
 };

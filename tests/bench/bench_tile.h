@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ namespace whit::bench {
 
 inline constexpr std::size_t kTileRays = 32 * 32;
 inline constexpr float kCutoff = 3.0e-4f;
+inline constexpr float kReach = 1e10f;  // of all rays
+inline constexpr std::size_t kPacket = 16, kPacketWords = 20 * kPacket;
 
 // A scene with its tables, and the columns of the tile.
 class BenchTile {
@@ -33,6 +36,7 @@ class BenchTile {
     unshadowed.allocate(kTileRays, groups);
     shadows.allocate(kTileRays, groups);
     children.allocate(2 * kTileRays, groups);
+    unpacked.allocate(kTileRays, groups);
     codes.resize(kTileRays + kBlock);
     pixels = pickTile(size);
     run();
@@ -90,6 +94,8 @@ class BenchTile {
   }
 
   std::size_t n() const { return pixels.size(); }
+  PacketWords packets() { return {words.data(), kPacketWords, kPacket}; }
+  float* unpackedVisible() { return unpacked->t; }
   const Plan& plan() const { return renderer_.plan(); }
   const ShadingTables& tables() { return renderer_.parts().tables; }
   const Accel& accel() { return *renderer_.parts().accel; }
@@ -99,7 +105,10 @@ class BenchTile {
 
   std::vector<std::uint32_t> pixels;
   ColumnStore<RayColumns> rays, children;
-  ColumnStore<HitColumns> hits;
+  ColumnStore<HitColumns> hits, unpacked;
+  // Of packets of 16, as many as the tile has.
+  alignas(64) std::array<float, kTileRays / kPacket * kPacketWords> words{};
+  const std::uint32_t triangleBase[kTriangleClasses] = {0, 1, 2, 3};
   ColumnStore<SurfelColumns> surfels;
   ColumnStore<RadianceColumns> radiance;
   ColumnStore<UnshadowedColumns> unshadowed;

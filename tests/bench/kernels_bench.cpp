@@ -24,9 +24,22 @@ std::size_t tileRays(const BenchTile& tile) { return tile.n(); }
 const std::vector<Job>& jobs() {
   static const std::vector<Job> list{
       {"generateRays", [](BenchTile& t) { t.generate(); }, tileRays},
+      {"packRays", [](BenchTile& t) { simd::packRays(*t.rays, t.n(), kReach, t.packets()); },
+       tileRays},
+      {"unpackHits",
+       [](BenchTile& t) { simd::unpackHits(t.packets(), t.n(), t.triangleBase, *t.unpacked); },
+       tileRays},
       {"interpolateSurfels", [](BenchTile& t) { t.interpolate(); }, tileRays},
       {"writeEmittedAndReflectiveAmbient", [](BenchTile& t) { t.writeEmitted(); }, tileRays},
       {"findRadianceAndShadowRays", [](BenchTile& t) { t.findShadowRays(); }, tileRays},
+      {"packShadowRays",
+       [](BenchTile& t) { simd::packShadowRays(*t.shadows, t.shadowCount, kReach, t.packets()); },
+       [](const BenchTile& t) { return t.shadowCount; }},
+      {"unpackVisibility",
+       [](BenchTile& t) {
+         simd::unpackVisibility(t.packets(), t.shadowCount, t.shadows->slot, t.unpackedVisible());
+       },
+       [](const BenchTile& t) { return t.shadowCount; }},
       {"addShading", [](BenchTile& t) { simd::addShading(*t.unshadowed, t.n(), *t.radiance); },
        tileRays},
       {"addReflections", [](BenchTile& t) { t.reflect(); }, tileRays},

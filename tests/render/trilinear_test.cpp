@@ -118,11 +118,13 @@ TEST(Trilinear, costsColumnsAndTexelsOnlyWhereItIsAskedFor) {
     const auto& p = renderer.parts();
     return std::tuple(p.plan.groups.cones, p.tables.texels.size(), p.tables.mipLevels.size());
   };
-  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in tiles of 4x4.
+  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in tiles of 4x4 that
+  // hold 3x3 footprints of the width + 1 by height + 1 that there are.
   constexpr std::size_t kTile = 16;
-  constexpr std::size_t kFull = kTile * (9 * 16 + 4 * 4 + 2 + 4 * 13);
-  constexpr std::size_t kLevels = kTile * ((4 * 8 + 2 * 4 + 2 + 1 + 1 + 1) + (2 * 2 + 1 + 1 + 1) +
-                                           (1 + 1 + 1) + (2 * 7 + 3 + 2 + 1 + 1));
+  constexpr std::size_t kFull = kTile * (12 * 22 + 6 * 6 + 3 * 1 + 6 * 17);
+  constexpr std::size_t kLevels =
+      kTile * ((6 * 11 + 3 * 6 + 2 * 3 + 2 + 1 + 1) + (3 * 3 + 2 * 2 + 1 + 1) + (2 + 1 + 1) +
+               (3 * 9 + 2 * 5 + 3 + 2 + 1));
   EXPECT_EQ(parts(scene, smallOptions()), std::tuple(false, kFull, std::size_t{0}));
   EXPECT_EQ(parts(scene, trilinear()), std::tuple(true, kFull + kLevels, 4u * kMipStride));
   EXPECT_FALSE(plain.effects.has(Effect::textures));

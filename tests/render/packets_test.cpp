@@ -1,0 +1,155 @@
+// Rays into packets and back, on every target and for every width.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "stages/columns.h"
+
+namespace whit::test {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kReach = 1000;
+constexpr std::size_t kColumns = 20, kRays = 37;  // not a multiple of any width
+
+class Packets : public testing::Test {
+ protected:
+  void TearDown() override { simd::chooseTarget("auto"); }
+
+  // `check(width)` for each width and target.
+  template <typename Check>
+  void forEachWidthAndTarget(const Check& check) {
+    for (const std::string& target : simd::availableTargets()) {
+      ASSERT_TRUE(simd::chooseTarget(target));
+      for (const std::size_t width : {4u, 8u, 16u}) {
+        SCOPED_TRACE(target + ", packets of " + std::to_string(width));
+        words.assign((kRays + width) / width * width * kColumns, -7.0f);
+        check(width);
+      }
+    }
+  }
+
+  PacketWords packets(std::size_t width) { return {words.data(), kColumns * width, width}; }
+  float& word(std::size_t ray, std::size_t column, std::size_t width) {
+    return words[ray / width * kColumns * width + column * width + ray % width];
+  }
+
+  std::vector<float> words;
+};
+
+template <typename Columns>
+void fillRays(const Columns& rays) {
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const auto x = static_cast<float>(i);
+    rays.orgX[i] = x, rays.orgY[i] = -2 * x, rays.orgZ[i] = x + 0.5f;
+    rays.dirX[i] = 1, rays.dirY[i] = -x, rays.dirZ[i] = 0.25f * x;
+  }
+}
+
+// Each breaks the rule in a way of its own; the rays between them are good.
+template <typename Columns>
+std::vector<std::size_t> spoilSome(const Columns& rays) {
+  rays.orgX[3] = std::nanf("");
+  rays.dirZ[5] = kInf;
+  rays.orgY[20] = -kInf;
+  rays.dirX[36] = -0.999f * kReach;
+  return {3, 5, 20, 36};
+}
+
+TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
+  ColumnStore<RayColumns> rays(kRays, Groups{});
+  fillRays(*rays);
+  const std::vector<std::size_t> bad = spoilSome(*rays);
+  forEachWidthAndTarget([&](std::size_t width) {
+    simd::packRays(*rays, kRays, kReach, packets(width));
+    namespace column = packet_column;
+    for (std::size_t i = 0; i < (kRays + width - 1) / width * width; ++i) {
+      const auto at = [&](std::size_t c) { return word(i, c, width); };
+      const bool good = i < kRays && std::find(bad.begin(), bad.end(), i) == bad.end();
+      if (good) {
+        EXPECT_EQ(at(column::orgX), rays->orgX[i]) << i;
+        EXPECT_EQ(at(column::orgY), rays->orgY[i]) << i;
+        EXPECT_EQ(at(column::orgZ), rays->orgZ[i]) << i;
+        EXPECT_EQ(at(column::dirX), rays->dirX[i]) << i;
+        EXPECT_EQ(at(column::dirY), rays->dirY[i]) << i;
+        EXPECT_EQ(at(column::dirZ), rays->dirZ[i]) << i;
+        EXPECT_EQ(at(column::tFar), kInf) << i;
+        continue;
+      }
+      const float place = i < kRays ? kReach / 4 : 0;
+      for (const std::size_t c : {column::orgX, column::orgY, column::orgZ}) {
+        EXPECT_EQ(at(c), place) << i;
+      }
+      EXPECT_EQ(at(column::dirX), 0) << i;
+      EXPECT_EQ(at(column::dirY), 0) << i;
+      EXPECT_EQ(at(column::dirZ), 1) << i;
+      EXPECT_EQ(at(column::tFar), -1) << i;
+    }
+    // What kernels do not know they leave alone.
+    for (const std::size_t c : {3u, 7u, 9u, 10u, 11u, 12u, 19u}) EXPECT_EQ(word(0, c, width), -7);
+  });
+}
+
+TEST_F(Packets, HoldWhereShadowRaysEnd) {
+  ColumnStore<ShadowColumns> rays(kRays, Groups{});
+  fillRays(*rays);
+  for (std::size_t i = 0; i < kRays; ++i) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
+  const std::vector<std::size_t> bad = spoilSome(*rays);
+  forEachWidthAndTarget([&](std::size_t width) {
+    simd::packShadowRays(*rays, kRays, kReach, packets(width));
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const bool good = std::find(bad.begin(), bad.end(), i) == bad.end();
+      EXPECT_EQ(word(i, packet_column::tFar, width), good ? rays->tFar[i] : -1) << i;
+    }
+  });
+}
+
+std::uint32_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value); }
+float floatOf(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
+  const std::uint32_t triangleBase[kTriangleClasses] = {100, 2000, 30000, 400000};
+  forEachWidthAndTarget([&](std::size_t width) {
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const auto number = static_cast<std::uint32_t>(i);
+      word(i, packet_column::tFar, width) = static_cast<float>(i) + 0.5f;
+      word(i, packet_column::u, width) = 0.125f;
+      word(i, packet_column::v, width) = 0.01f * static_cast<float>(i);
+      word(i, packet_column::primitive, width) = floatOf(7 * number);
+      word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
+    }
+    ColumnStore<HitColumns> hits(kRays, Groups{});
+    simd::unpackHits(packets(width), kRays, triangleBase, *hits);
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const auto number = static_cast<std::uint32_t>(i);
+      EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
+      EXPECT_EQ(bitsOf(hits->u[i]), bitsOf(0.125f));
+      EXPECT_EQ(hits->v[i], 0.01f * static_cast<float>(i));
+      EXPECT_EQ(hits->triangle[i], i % 5 == 4 ? kMiss : triangleBase[i % 5] + 7 * number) << i;
+    }
+  });
+}
+
+TEST_F(Packets, GiveVisibilityBackToTheSlots) {
+  forEachWidthAndTarget([&](std::size_t width) {
+    std::vector<std::uint32_t> slot(kRays);
+    std::vector<float> visible(4 * kRays, -7.0f);
+    for (std::size_t i = 0; i < kRays; ++i) {
+      slot[i] = static_cast<std::uint32_t>(3 * i);
+      word(i, packet_column::tFar, width) = i % 3 == 0 ? -kInf : i % 3 == 1 ? 0.0f : 0.75f;
+    }
+    simd::unpackVisibility(packets(width), kRays, slot.data(), visible.data());
+    for (std::size_t at = 0; at < visible.size(); ++at) {
+      const bool written = at % 3 == 0 && at / 3 < kRays;
+      EXPECT_EQ(visible[at], !written ? -7.0f : at / 3 % 3 == 0 ? 0.0f : 1.0f) << at;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace whit::test
