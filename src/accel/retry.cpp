@@ -23,11 +23,14 @@ Vec3f nudged(const Vec3f& d, int attempt) {
 // thousand times their size away, rounding moves the edge by 1e-4 of it.
 constexpr float kNearEdge = 0x1p-12f;
 
-// Three comparisons, so that compilers make vectors of it.
-bool isNearEdge(float u, float v) {
+// Three comparisons without branches, so that compilers make vectors of them.
+int isNearEdge(float u, float v) {
   return static_cast<int>(u < kNearEdge) | static_cast<int>(v < kNearEdge) |
          static_cast<int>(1 - u - v < kNearEdge);
 }
+
+// Hits that are looked at together before any is by itself.
+constexpr std::size_t kRun = 4 * kBlock;
 
 }  // namespace
 
@@ -35,12 +38,14 @@ bool isNearEdge(float u, float v) {
 // which a packet's other rays change. A ray alone has but one order.
 void Accel::settleEdges(const RayColumns& rays, std::size_t n,
                         const HitColumns& hits) const noexcept {
-  for (std::size_t begin = 0; begin < n; begin += kBlock) {
-    bool any = false;
-    for (std::size_t i = begin; i < begin + kBlock; ++i) any |= isNearEdge(hits.u[i], hits.v[i]);
-    if (!any) continue;
-    for (std::size_t i = begin; i < std::min(n, begin + kBlock); ++i) {
-      if (hits.triangle[i] == kMiss || !isNearEdge(hits.u[i], hits.v[i])) continue;
+  for (std::size_t begin = 0; begin < n; begin += kRun) {
+    const std::size_t end = std::min(n, begin + kRun);
+    const float *const u = hits.u, *const v = hits.v;
+    int any = 0;
+    for (std::size_t i = begin; i < end; ++i) any |= isNearEdge(u[i], v[i]);
+    if (any == 0) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
       std::uint32_t instance = kMiss;
       const Vec3f origin{rays.orgX[i], rays.orgY[i], rays.orgZ[i]};
       const Vec3f direction{rays.dirX[i], rays.dirY[i], rays.dirZ[i]};
