@@ -6,15 +6,13 @@
 #define HWY_TARGET_INCLUDE "simd/interpolate_surfels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/crossing-inl.h"
+#include "simd/second_uvs-inl.h"
 #include "simd/surface-inl.h"
 #include "simd/surface_maps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-constexpr uint32_t kSmooth = EffectSet::bit(Effect::smoothNormals);
-constexpr uint32_t kTextured = EffectSet::bit(Effect::textures);
-constexpr uint32_t kNormalMapped = EffectSet::bit(Effect::normalMaps);
 constexpr uint32_t kInstanced = EffectSet::bit(Effect::instances);
 constexpr uint32_t kColoured = EffectSet::bit(Effect::vertexColours);
 constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
@@ -50,35 +48,23 @@ HWY_INLINE void ClearSlot(size_t slot, BlockTextures& block) {
   if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
 }
 
-// `mapHits` makes the MapHits of the vector where they are needed: a copy, for what others have the
-// address of does not stay in registers.
-template <class MakeMapHits>
 HWY_INLINE void QueueNormal(const ShadingTables& tables, VF map, const UvLanes& uv, MF valid,
-                            const Surface& s, VF flip, const TexturePoints& at,
-                            const MakeMapHits& mapHits, size_t slot, BlockTextures& block) {
-  const MF mapped =
-      hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
+                            const Surface& s, VF flip, const TexturePoints& at, size_t slot,
+                            BlockTextures& block) {
+  const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(FloatTag(), mapped)) return;
-  if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
-    QueueNormalByOwnUvs(tables, mapHits(), map, NormalSpace{s.ns, s.handedness, flip}, slot, block);
-    return;
-  }
   const TangentFrame frame = FindTangentFrame(uv, s.edge1, s.edge2, s.ns, s.handedness);
   QueueMap(tables, map, hn::And(mapped, frame.good), at, slot, block.normal);
   StoreFrame(frame, flip, slot, block);
 }
 
-template <uint32_t kBits, class MakeMapHits>
+template <uint32_t kBits>
 HWY_INLINE void StoreEmission(const ShadingTables& tables, const V3& tint, VF map, MF valid,
-                              const TexturePoints& at, const MakeMapHits& mapHits, size_t slot,
-                              BlockTextures& block, size_t i, const SurfelColumns& surfels) {
+                              const TexturePoints& at, size_t slot, BlockTextures& block, size_t i,
+                              const SurfelColumns& surfels) {
   Store3(tint, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
   if constexpr ((kBits & kTextured) != 0) {
-    if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
-      QueueEmissionByOwnUvs(tables, mapHits(), map, slot, block);
-    } else {
-      QueueMap(tables, map, valid, at, slot, block.emission);
-    }
+    QueueMap(tables, map, valid, at, slot, block.emission);
   }
 }
 
@@ -90,21 +76,17 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
                                 size_t slot, float coneSpread, BlockTextures& block,
                                 const SurfelColumns& surfels) {
   const FloatTag d;
-  const IntTag di;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f);
   ClearSlot<kBits>(slot, block);
-  const VU hit = hn::Load(du, hits.triangle + i);
-  const MF valid = hn::RebindMask(d, hn::Ne(hit, hn::Set(du, kMiss)));
+  const auto [valid, triangle] = LoadHits(hits, i);
   if ((effects.bits() & kAbsorption) != 0) Absorb(tables, rays, hits, valid, i);
   if (hn::AllFalse(d, valid)) {
     hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
     return hn::Zero(du);
   }
-  const VI triangle = hn::IfThenElseZero(hn::RebindMask(di, valid), hn::BitCast(di, hit));
   const TriangleLanes t = LoadTriangles(tables, triangle);
-  const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
-  const Weights w{hn::Sub(hn::Sub(one, u), v), u, v};
+  const Weights w = LoadWeights(hits, i);
   Surface s = InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w);
   if ((effects.bits() & kInstanced) != 0) CarryToWorld(tables, hits, valid, i, s);
   const TableReader material(tables.materials.data(), kMaterialStride, t.material, valid);
@@ -118,17 +100,13 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
     hn::Store(width, d, surfels.cone + i);
     at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
   }
-  const auto mapHits = [&]() HWY_ATTR {
-    const VF width = surfels.cone ? hn::Load(d, surfels.cone + i) : hn::Zero(d);
-    return MapHits{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
-  };
   const MF entering = hn::Lt(cosine, hn::Zero(d));
-  const VF flip = hn::IfThenElse(entering, one, hn::Set(d, -1.0f));
+  const VF flip = TurnToViewer(entering);
   if constexpr ((kBits & kTextured) != 0) {
     QueueMap(tables, diffuse.w, valid, at, slot, block.diffuse);
   }
   if constexpr ((kBits & kNormalMapped) != 0) {
-    QueueNormal(tables, material.Columns4(8).w, t.uv, valid, s, flip, at, mapHits, slot, block);
+    QueueNormal(tables, material.Columns4(8).w, t.uv, valid, s, flip, at, slot, block);
   }
   StoreSurface(s, flip, i, surfels);
   const V4 lobe = material.Columns4(12);
@@ -136,13 +114,12 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   const bool coloured = (effects.bits() & kColoured) != 0;
   V3 scattered{diffuse.x, diffuse.y, diffuse.z};
   if (coloured) {
-    tints = FindTints(VertexColour(tables, triangle, u, v), lobe.z);
+    tints = FindTints(VertexColour(tables, triangle, w.w1, w.w2), lobe.z);
     scattered = Mul3(scattered, tints.diffuse);
   }
   Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
   if (surfels.emissionR) {
-    StoreEmission<kBits>(tables, tints.emission, lobe.w, valid, at, mapHits, slot, block, i,
-                         surfels);
+    StoreEmission<kBits>(tables, tints.emission, lobe.w, valid, at, slot, block, i, surfels);
   }
   const VU materialOrMiss =
       hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
@@ -213,6 +190,11 @@ HWY_NOINLINE uint32_t InterpolateSurfelsVariant(const ShadingTables& tables, Eff
     for (size_t i = begin; i < end; i += lanes) {
       flags = hn::Or(flags, InterpolateVector<kBits>(tables, effects, rays, hits, i, i - begin,
                                                      coneSpread, block, surfels));
+      if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
+        if (HWY_UNLIKELY(tables.secondUvs != nullptr)) {
+          QueueByOwnUvs<kBits>(tables, effects, rays, hits, i, i - begin, block, surfels);
+        }
+      }
     }
     if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
       for (size_t i = begin; i < end; i += lanes) {

@@ -66,6 +66,12 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   s.handedness = hn::IfThenElse(placed, reader.Columns4(24).x, one);
 }
 
+// The sign that turns normals towards the viewer.
+HWY_INLINE VF TurnToViewer(MF entering) {
+  const FloatTag d;
+  return hn::IfThenElse(entering, hn::Set(d, 1.0f), hn::Set(d, -1.0f));
+}
+
 // Stores all that textures do not change; `flip` turns the normals towards the viewer.
 HWY_INLINE void StoreSurface(const Surface& s, VF flip, size_t i, const SurfelColumns& surfels) {
   Store3(s.position, surfels.posX, surfels.posY, surfels.posZ, i);

@@ -124,64 +124,8 @@ HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, const
               mapped, at.u, at.v, slot, queue.level);
 }
 
-// What it takes to look maps up by either set of coordinates, of scenes that have two. The
-// functions of these are not inlined: other frames shall not carry them along.
-struct MapHits {
-  UvLanes first;
-  VI triangle, material;
-  MF live;
-  Weights weights;
-  V3 edge1, edge2;
-  VF coneWidth, cosine;
-};
-
-// The second coordinates where the flags of the lane's material have `bySecond`.
-inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits,
-                                     uint32_t bySecond) {
-  const UintTag du;
-  const TableReader reader(tables.materials.data(), kMaterialStride, hits.material, hits.live);
-  const VU flags = hn::And(hn::BitCast(du, reader.Columns4(12).z), hn::Set(du, bySecond));
-  const MF second = hn::And(hits.live, hn::RebindMask(FloatTag(), hn::Ne(flags, hn::Zero(du))));
-  const UvLanes& a = hits.first;
-  if (hn::AllFalse(FloatTag(), second)) return a;
-  const UvLanes b = LoadSecondUvs(tables, hits.triangle);
-  const auto select = [&](VF yes, VF no) HWY_ATTR { return hn::IfThenElse(second, yes, no); };
-  return {select(b.u0, a.u0), select(b.v0, a.v0), select(b.u1, a.u1),
-          select(b.v1, a.v1), select(b.u2, a.u2), select(b.v2, a.v2)};
-}
-
-HWY_INLINE TexturePoints PointsAt(const ShadingTables& tables, const MapHits& hits,
-                                  const UvLanes& uv) {
-  const Weights& w = hits.weights;
-  TexturePoints at{Interpolate(w, uv.u0, uv.u1, uv.u2), Interpolate(w, uv.v0, uv.v1, uv.v2),
-                   hn::Zero(FloatTag())};
-  if (tables.shading.textureFilter == TextureFilter::trilinear) {
-    at.footprint = TextureFootprint(uv, hits.edge1, hits.edge2, hits.coneWidth, hits.cosine);
-  }
-  return at;
-}
-
-inline HWY_NOINLINE void QueueEmissionByOwnUvs(const ShadingTables& tables, const MapHits& hits,
-                                               VF mapBits, size_t slot, BlockTextures& block) {
-  const UvLanes uv = UvsOfMap(tables, hits, kMaterialEmissionBySecondUvs);
-  QueueMap(tables, mapBits, hits.live, PointsAt(tables, hits, uv), slot, block.emission);
-}
-
-// As modelled, and the sign that turns it towards the viewer.
-struct NormalSpace {
-  V3 ns;
-  VF handedness, flip;
-};
-
-inline HWY_NOINLINE void QueueNormalByOwnUvs(const ShadingTables& tables, const MapHits& hits,
-                                             VF mapBits, const NormalSpace& space, size_t slot,
-                                             BlockTextures& block) {
-  const UvLanes uv = UvsOfMap(tables, hits, kMaterialNormalBySecondUvs);
-  const TangentFrame frame =
-      FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);
-  QueueMap(tables, mapBits, hn::And(hits.live, frame.good), PointsAt(tables, hits, uv), slot,
-           block.normal);
-  StoreFrame(frame, space.flip, slot, block);
+HWY_INLINE MF MappedLanes(VF map, MF valid) {
+  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
 }
 
 // What waits at `slot`, filtered: `filter` makes a value of a footprint.

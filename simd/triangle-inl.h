@@ -7,6 +7,7 @@
 #endif
 
 #include "simd/records-inl.h"
+#include "stages/columns.h"
 #include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,10 +42,30 @@ HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
   return {a.x, a.y, a.z, a.w, b.z, b.w};
 }
 
+// What the hits are of.
+struct HitLanes {
+  MF valid;
+  VI triangle;  // some triangle where nothing was hit
+};
+
+HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t i) {
+  const UintTag du;
+  const IntTag di;
+  const VU hit = hn::Load(du, hits.triangle + i);
+  const MF valid = hn::RebindMask(FloatTag(), hn::Ne(hit, hn::Set(du, kMiss)));
+  return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), hn::BitCast(di, hit))};
+}
+
 // Barycentric weights of the corners.
 struct Weights {
   VF w0, w1, w2;
 };
+
+HWY_INLINE Weights LoadWeights(const HitColumns& hits, size_t i) {
+  const FloatTag d;
+  const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
+  return {hn::Sub(hn::Sub(hn::Set(d, 1.0f), u), v), u, v};
+}
 
 HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
   return hn::MulAdd(a, w.w0, hn::MulAdd(b, w.w1, hn::Mul(c, w.w2)));
