@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/path_numbers.h"
 #include "io/load_scene.h"
 #include "reference/generate_ray.h"
 #include "render/renderer.h"
@@ -18,6 +19,7 @@
 
 namespace whit::bench {
 
+inline constexpr ImageSize kSize{480, 300};
 inline constexpr std::size_t kTileRays = 32 * 32;
 inline constexpr float kCutoff = 3.0e-4f;
 inline constexpr float kReach = 1e10f;  // of all rays
@@ -26,8 +28,8 @@ inline constexpr std::size_t kPacket = 16, kPacketWords = 20 * kPacket;
 // A scene with its tables, and the columns of the tile.
 class BenchTile {
  public:
-  explicit BenchTile(const std::string& name, ImageSize size = {480, 300})
-      : scene_(load(name)), options_(optionsFor(size)), renderer_(scene_, options_) {
+  explicit BenchTile(const std::string& name, const RenderOptions& choices = {})
+      : scene_(load(name)), options_(timed(choices)), renderer_(scene_, options_) {
     const Groups& groups = plan().groups;
     rays.allocate(kTileRays, groups);
     hits.allocate(kTileRays, groups);
@@ -35,10 +37,10 @@ class BenchTile {
     radiance.allocate(kTileRays, groups);
     unshadowed.allocate(kTileRays, groups);
     shadows.allocate(kTileRays, groups);
-    children.allocate(2 * kTileRays, groups);
+    children.allocate(std::max<std::size_t>(2, sampling().count) * kTileRays, groups);
     unpacked.allocate(kTileRays, groups);
     codes.resize(kTileRays + kBlock);
-    pixels = pickTile(size);
+    pixels = pickTile(kSize);
     run();
   }
 
@@ -48,10 +50,12 @@ class BenchTile {
     TraceMeter meter{&tally_, 0, nullptr};
     accel().findHits(*rays, n(), true, *hits, meter);
     interpolate();
+    lift();
     writeEmitted();
     findShadowRays();
     accel().checkShadows(*shadows, shadowCount, true, unshadowed->visible, meter);
     simd::addShading(*unshadowed, n(), *radiance);
+    scattered = scatter();
     reflections = reflect();
     refractions = refract(reflections);
     simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *radiance, n(), codes.data());
@@ -60,6 +64,10 @@ class BenchTile {
   void generate() { simd::generateRays(camera_, pixels.data(), n(), *rays); }
   void interpolate() {
     simd::interpolateSurfels(tables(), plan().effects, *rays, *hits, n(), *surfels);
+  }
+  void lift() {
+    if (!plan().groups.lift) return;
+    simd::liftShadowOrigins(tables(), plan().effects, *hits, n(), *surfels);
   }
   void writeEmitted() {
     simd::writeEmittedAndReflectiveAmbient(tables(), plan().effects, *rays, *surfels, n(),
@@ -78,6 +86,13 @@ class BenchTile {
     if (!plan().traceRefractions) return 0;
     return simd::addRefractions(tables(), plan().effects, kCutoff, *rays, *surfels, n(), *children,
                                 first);
+  }
+
+  LobeSampling sampling() const { return lobeSampling(0, plan().glossySamples, 0); }
+  std::size_t scatter() {
+    if (plan().glossySamples == 0) return 0;
+    return simd::addGlossyReflections(tables(), plan().effects, kCutoff, sampling(), *rays,
+                                      *surfels, n(), *children, 0);
   }
 
   // The bits of everything that the kernels write.
@@ -114,16 +129,15 @@ class BenchTile {
   ColumnStore<UnshadowedColumns> unshadowed;
   ColumnStore<ShadowColumns> shadows;
   std::vector<std::uint32_t> codes;
-  std::size_t shadowCount = 0, reflections = 0, refractions = 0;
+  std::size_t shadowCount = 0, scattered = 0, reflections = 0, refractions = 0;
 
  private:
   static Scene load(const std::string& name) {
     Warnings warnings;
     return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
   }
-  static RenderOptions optionsFor(ImageSize size) {
-    RenderOptions o;
-    o.size = size;
+  static RenderOptions timed(RenderOptions o) {
+    o.size = kSize;
     o.threads = 1;
     return o;
   }
@@ -145,9 +159,9 @@ class BenchTile {
       if (tile.size() != kTileRays) continue;
       pixels = tile;
       run();
-      if (best.empty() || reflections + refractions > most) {
+      if (best.empty() || scattered + reflections + refractions > most) {
         best = tile;
-        most = reflections + refractions;
+        most = scattered + reflections + refractions;
       }
     }
     return best;

@@ -17,7 +17,18 @@ struct Job {
   std::string kernel;
   std::function<void(BenchTile&)> run;
   std::function<std::size_t(const BenchTile&)> rays;
+  std::string tile = "atrium";
 };
+
+// Scenes with what kernels do by choice only.
+constexpr const char *kLifted = "atrium, --terminator on", *kScattering = "glossy, --glossy 4";
+
+RenderOptions optionsOf(const std::string& tile) {
+  RenderOptions options;
+  options.shading.terminator = tile == kLifted;
+  options.glossy = tile == kScattering ? 4 : 0;
+  return options;
+}
 
 std::size_t tileRays(const BenchTile& tile) { return tile.n(); }
 
@@ -43,7 +54,9 @@ const std::vector<Job>& jobs() {
       {"addShading", [](BenchTile& t) { simd::addShading(*t.unshadowed, t.n(), *t.radiance); },
        tileRays},
       {"addReflections", [](BenchTile& t) { t.reflect(); }, tileRays},
-      {"addRefractions", [](BenchTile& t) { t.refract(t.reflections); }, tileRays},
+      {"addRefractions", [](BenchTile& t) { t.refract(t.reflections); }, tileRays, "glass"},
+      {"liftShadowOrigins", [](BenchTile& t) { t.lift(); }, tileRays, kLifted},
+      {"addGlossyReflections", [](BenchTile& t) { t.scatter(); }, tileRays, kScattering},
       {"returnImpulses",
        [](BenchTile& t) {
          simd::returnImpulses(*t.children, *t.radiance, t.reflections, *t.radiance);
@@ -89,32 +102,26 @@ void time(benchmark::State& state, BenchTile& tile, const Job& job, const std::s
       rays, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-// Absorption changes the rays' weights in place, so interpolateSurfels is not run again on glass.
-bool repeats(const BenchTile& tile, const Job& job) {
-  return job.kernel != "interpolateSurfels" || !tile.plan().effects.has(Effect::absorption);
-}
-
 int runAll() {
-  std::vector<std::unique_ptr<BenchTile>> tiles;
-  std::vector<std::map<std::string, std::string>> verdicts(2);
-  for (const std::string scene : {"atrium", "glass"}) {
-    tiles.push_back(std::make_unique<BenchTile>(scene));
-    BenchTile& tile = *tiles.back();
-    auto& known = verdicts[tiles.size() - 1];
-    for (const Job& job : jobs()) {
-      const bool refracts = job.kernel == "addRefractions";
-      if ((scene == "glass") != refracts || !repeats(tile, job)) continue;
-      for (const std::string& target : simd::availableTargets()) {
-        const std::string name = job.kernel + "/" + scene + "/" + target;
-        benchmark::RegisterBenchmark(name.c_str(), [&tile, &job, &known, target](auto& state) {
-          time(state, tile, job, target, known);
-        });
-      }
+  struct Input {
+    std::unique_ptr<BenchTile> tile;
+    std::map<std::string, std::string> verdicts;
+  };
+  std::map<std::string, Input> inputs;
+  for (const Job& job : jobs()) {
+    Input& input = inputs[job.tile];
+    const std::string scene = job.tile.substr(0, job.tile.find(','));
+    if (!input.tile) input.tile = std::make_unique<BenchTile>(scene, optionsOf(job.tile));
+    for (const std::string& target : simd::availableTargets()) {
+      const std::string name = job.kernel + "/" + scene + "/" + target;
+      benchmark::RegisterBenchmark(name.c_str(), [&input, &job, target](auto& state) {
+        time(state, *input.tile, job, target, input.verdicts);
+      });
     }
   }
   benchmark::RunSpecifiedBenchmarks();
-  for (const auto& scene : verdicts) {
-    for (const auto& [target, verdict] : scene) {
+  for (const auto& [name, input] : inputs) {
+    for (const auto& [target, verdict] : input.verdicts) {
       if (!verdict.empty()) return 1;
     }
   }
