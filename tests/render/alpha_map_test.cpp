@@ -5,6 +5,7 @@
 #include <random>
 
 #include "accel/alpha_map.h"
+#include "render/wrapped_texel.h"
 
 namespace whit::test {
 namespace {
@@ -28,11 +29,6 @@ Texture noise(int width, int height, Wrap wrap, unsigned seed) {
   return texture;
 }
 
-int wrapped(int i, int size, Wrap wrap) {
-  if (wrap == Wrap::repeat) return (i % size + size) % size;
-  return std::min(std::max(i, 0), size - 1);
-}
-
 // Bilinear alpha in double precision; mirrored coordinates are folded first.
 double alphaAt(const Texture& texture, double u, double v) {
   const auto fold = [&](double s) {
@@ -44,8 +40,8 @@ double alphaAt(const Texture& texture, double u, double v) {
   const double x = fold(u) * texture.width - 0.5, y = fold(1 - v) * texture.height - 0.5;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const auto texel = [&](int dx, int dy) {
-    const int column = wrapped(x0 + dx, texture.width, texture.wrapU);
-    const int row = wrapped(y0 + dy, texture.height, texture.wrapV);
+    const int column = wrappedTexel(x0 + dx, texture.width, texture.wrapU);
+    const int row = wrappedTexel(y0 + dy, texture.height, texture.wrapV);
     return (texture.texels[static_cast<std::size_t>(row * texture.width + column)] & 255u) / 255.0;
   };
   const double fx = x - x0, fy = y - y0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kReach = 1000;
-constexpr std::size_t kColumns = 20, kRays = 37;  // not a multiple of any width
+constexpr std::size_t kColumns = 20, kPacked = 37;  // not a multiple of any width
 
 class Packets : public testing::Test {
  protected:
@@ -28,7 +28,7 @@ class Packets : public testing::Test {
       ASSERT_TRUE(simd::chooseTarget(target));
       for (const std::size_t width : {4u, 8u, 16u}) {
         SCOPED_TRACE(target + ", packets of " + std::to_string(width));
-        words.assign((kRays + width) / width * width * kColumns, -7.0f);
+        words.assign((kPacked + width) / width * width * kColumns, -7.0f);
         check(width);
       }
     }
@@ -44,7 +44,7 @@ class Packets : public testing::Test {
 
 template <typename Columns>
 void fillRays(const Columns& rays) {
-  for (std::size_t i = 0; i < kRays; ++i) {
+  for (std::size_t i = 0; i < kPacked; ++i) {
     const auto x = static_cast<float>(i);
     rays.orgX[i] = x, rays.orgY[i] = -2 * x, rays.orgZ[i] = x + 0.5f;
     rays.dirX[i] = 1, rays.dirY[i] = -x, rays.dirZ[i] = 0.25f * x;
@@ -62,15 +62,15 @@ std::vector<std::size_t> spoilSome(const Columns& rays) {
 }
 
 TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
-  ColumnStore<RayColumns> rays(kRays, Groups{});
+  ColumnStore<RayColumns> rays(kPacked, Groups{});
   fillRays(*rays);
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
-    simd::packRays(*rays, kRays, kReach, packets(width));
+    simd::packRays(*rays, kPacked, kReach, packets(width));
     namespace column = packet_column;
-    for (std::size_t i = 0; i < (kRays + width - 1) / width * width; ++i) {
+    for (std::size_t i = 0; i < (kPacked + width - 1) / width * width; ++i) {
       const auto at = [&](std::size_t c) { return word(i, c, width); };
-      const bool good = i < kRays && std::find(bad.begin(), bad.end(), i) == bad.end();
+      const bool good = i < kPacked && std::find(bad.begin(), bad.end(), i) == bad.end();
       if (good) {
         EXPECT_EQ(at(column::orgX), rays->orgX[i]) << i;
         EXPECT_EQ(at(column::orgY), rays->orgY[i]) << i;
@@ -81,7 +81,7 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
         EXPECT_EQ(at(column::tFar), kInf) << i;
         continue;
       }
-      const float place = i < kRays ? kReach / 4 : 0;
+      const float place = i < kPacked ? kReach / 4 : 0;
       for (const std::size_t c : {column::orgX, column::orgY, column::orgZ}) {
         EXPECT_EQ(at(c), place) << i;
       }
@@ -96,13 +96,13 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
 }
 
 TEST_F(Packets, HoldWhereShadowRaysEnd) {
-  ColumnStore<ShadowColumns> rays(kRays, Groups{});
+  ColumnStore<ShadowColumns> rays(kPacked, Groups{});
   fillRays(*rays);
-  for (std::size_t i = 0; i < kRays; ++i) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
+  for (std::size_t i = 0; i < kPacked; ++i) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
-    simd::packShadowRays(*rays, kRays, kReach, packets(width));
-    for (std::size_t i = 0; i < kRays; ++i) {
+    simd::packShadowRays(*rays, kPacked, kReach, packets(width));
+    for (std::size_t i = 0; i < kPacked; ++i) {
       const bool good = std::find(bad.begin(), bad.end(), i) == bad.end();
       EXPECT_EQ(word(i, packet_column::tFar, width), good ? rays->tFar[i] : -1) << i;
     }
@@ -115,7 +115,7 @@ float floatOf(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
   const std::uint32_t triangleBase[kTriangleClasses] = {100, 2000, 30000, 400000};
   forEachWidthAndTarget([&](std::size_t width) {
-    for (std::size_t i = 0; i < kRays; ++i) {
+    for (std::size_t i = 0; i < kPacked; ++i) {
       const auto number = static_cast<std::uint32_t>(i);
       word(i, packet_column::tFar, width) = static_cast<float>(i) + 0.5f;
       word(i, packet_column::u, width) = 0.125f;
@@ -123,9 +123,9 @@ TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
       word(i, packet_column::primitive, width) = floatOf(7 * number);
       word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
     }
-    ColumnStore<HitColumns> hits(kRays, Groups{});
-    simd::unpackHits(packets(width), kRays, triangleBase, *hits);
-    for (std::size_t i = 0; i < kRays; ++i) {
+    ColumnStore<HitColumns> hits(kPacked, Groups{});
+    simd::unpackHits(packets(width), kPacked, triangleBase, *hits);
+    for (std::size_t i = 0; i < kPacked; ++i) {
       const auto number = static_cast<std::uint32_t>(i);
       EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
       EXPECT_EQ(bitsOf(hits->u[i]), bitsOf(0.125f));
@@ -137,15 +137,15 @@ TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
 
 TEST_F(Packets, GiveVisibilityBackToTheSlots) {
   forEachWidthAndTarget([&](std::size_t width) {
-    std::vector<std::uint32_t> slot(kRays);
-    std::vector<float> visible(4 * kRays, -7.0f);
-    for (std::size_t i = 0; i < kRays; ++i) {
+    std::vector<std::uint32_t> slot(kPacked);
+    std::vector<float> visible(4 * kPacked, -7.0f);
+    for (std::size_t i = 0; i < kPacked; ++i) {
       slot[i] = static_cast<std::uint32_t>(3 * i);
       word(i, packet_column::tFar, width) = i % 3 == 0 ? -kInf : i % 3 == 1 ? 0.0f : 0.75f;
     }
-    simd::unpackVisibility(packets(width), kRays, slot.data(), visible.data());
+    simd::unpackVisibility(packets(width), kPacked, slot.data(), visible.data());
     for (std::size_t at = 0; at < visible.size(); ++at) {
-      const bool written = at % 3 == 0 && at / 3 < kRays;
+      const bool written = at % 3 == 0 && at / 3 < kPacked;
       EXPECT_EQ(visible[at], !written ? -7.0f : at / 3 % 3 == 0 ? 0.0f : 1.0f) << at;
     }
   });

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "reference/small_scenes.h"
 #include "render/build_tables.h"
+#include "render/wrapped_texel.h"
 
 namespace whit::test {
 namespace {
@@ -18,11 +18,6 @@ Texture numbered(int width, int height) {
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(width * height));
   std::iota(texels.begin(), texels.end(), 1u);
   return makeTexture(TexelFormat::colour, width, height, texels);
-}
-
-// What lookups at the border read beyond it.
-int wrapped(int texel, int size, Wrap wrap) {
-  return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
 }
 
 TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
@@ -51,8 +46,8 @@ TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
       for (int x = 0; x <= record.width; ++x) {
         const int tile = y / 3 * tilesInARow + x / 3, within = y % 3 * 4 + x % 3;
         for (const auto& [stepX, stepY] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-          const int column = wrapped(x - 1 + stepX, record.width, texture.wrapU);
-          const int row = wrapped(y - 1 + stepY, record.height, texture.wrapV);
+          const int column = wrappedTexel(x - 1 + stepX, record.width, texture.wrapU);
+          const int row = wrappedTexel(y - 1 + stepY, record.height, texture.wrapV);
           const int place = tile * 16 + within + stepY * 4 + stepX;
           EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(place)],
                     texture.texels[static_cast<std::size_t>(row * record.width + column)])
