@@ -112,20 +112,20 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   hn::Store(hn::Sub(level, whole), d, queue.between + slot);
 }
 
+HWY_INLINE MF MappedLanes(VF map, MF valid) {
+  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
+}
+
 HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, const TexturePoints& at,
                          size_t slot, MapQueue& queue) {
   const VI map = hn::BitCast(IntTag(), mapBits);
-  const MF mapped = hn::And(live, hn::RebindMask(FloatTag(), NonNegative(map)));
+  const MF mapped = MappedLanes(mapBits, live);
   if (HWY_UNLIKELY(tables.shading.textureFilter == TextureFilter::trilinear)) {
     QueueLevels(tables, map, mapped, at, slot, queue);
     return;
   }
   QueueTexels(tables.shading.textureFilter, tables.textures.data(), tables.texels.data(), map,
               mapped, at.u, at.v, slot, queue.level);
-}
-
-HWY_INLINE MF MappedLanes(VF map, MF valid) {
-  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
 }
 
 // What waits at `slot`, filtered: `filter` makes a value of a footprint.

@@ -66,14 +66,15 @@ HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
   return hn::Ge(hn::Load(d, queue.fractionX + slot), hn::Zero(d));
 }
 
-// floor(x / kTexelCells) of whole numbers below 2^20: half a step away from where rounding matters.
+// floor(x / kTexelCells) of whole numbers up to kTextureSideLimit: half a step away from where
+// rounding matters.
 HWY_INLINE VF TileOf(VF x) {
   const FloatTag d;
   constexpr float kPerCell = 1.0f / kTexelCells;
   return hn::Floor(hn::MulAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
 }
 
-// Of whole numbers from 0 to 2^22, without the care that others take: the low bits of what 2^23 is
+// Of whole numbers from 0 to 2^23, without the care that others take: the low bits of what 2^23 is
 // added to.
 HWY_INLINE VI IndexOf(VF whole) {
   const FloatTag d;

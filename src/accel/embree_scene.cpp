@@ -80,9 +80,6 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   }
   if (options.instances) addInstances(scene);
   commit(top(), progress);
-  const Geometry& world = scene.geometries[0];
-  plain_ = scene.instances.empty() && world.firstTriangle == 0 &&
-           world.classBegin[1] == world.index.size();
 }
 
 void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options) {

@@ -48,8 +48,6 @@ class EmbreeScene {
   }
   // Rays with an origin or a direction beyond this are left out (see instanceReach).
   float reach() const { return reach_; }
-  // Whether primitive numbers in the world are triangle numbers as they are.
-  bool plain() const { return plain_; }
   // The width of packets that Embree leads through its BVH several at a time when their rays are
   // coherent (rtcIntersectNM), 0: none. That takes packets as wide as the CPU, and was measured on
   // AVX2 only: a twentieth less time inside Embree.
@@ -74,7 +72,6 @@ class EmbreeScene {
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries
   float reach_ = kLargestCoordinate;
-  bool plain_ = false;
   int streamWidth_ = 0;
   bool mayHang_ = false;
 };

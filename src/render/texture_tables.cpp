@@ -79,7 +79,11 @@ void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTabl
   std::size_t total = 0;
   for (std::size_t i = 0; i < used.size(); ++i) {
     for (int level = 0; used[i] && level < maps.levels(i); ++level) {
-      total += tiledTexels(maps.level(i, level));
+      const Texture& t = maps.level(i, level);
+      if (std::max(t.width, t.height) > kTextureSideLimit) {
+        throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
+      }
+      total += tiledTexels(t);
     }
   }
   if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");

@@ -8,7 +8,8 @@
 namespace whit {
 
 // Those that the materials of `tables` use, with mip levels where lookups are trilinear, made by
-// `threads` together. Throws Error(limit) when they hold more texels than a 31-bit index reaches.
+// `threads` together. Throws Error(limit) when they hold more texels than a 31-bit index
+// reaches, borders counted, or one has a side beyond kTextureSideLimit.
 void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables);
 
 }  // namespace whit

@@ -44,6 +44,8 @@ inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNorm
 // column of texels: a lookup reads one line. Footprint (0, 0) has its upper texels at (0, 0), the
 // last its lower ones at (width - 1, height - 1); what lies outside is as the wrap modes say.
 inline constexpr int kTexelTile = 4, kTexelCells = kTexelTile - 1;
+// Kernels find tiles in float: exact up to here.
+inline constexpr int kTextureSideLimit = 1 << 20;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
   std::int32_t width, height;

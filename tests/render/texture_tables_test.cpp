@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "reference/small_scenes.h"
 #include "render/build_tables.h"
+#include "render/pipeline_laws.h"
 #include "render/wrapped_texel.h"
 
 namespace whit::test {
@@ -56,6 +58,28 @@ TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
       }
     }
   }
+}
+
+// A floor under one row of texels that grow brighter from left to right.
+Scene paintedOver(int width) {
+  SceneBuilder builder;
+  Material floor = diffuseMaterial(0.5f);
+  std::vector<std::uint32_t> texels(static_cast<std::size_t>(width));
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
+  }
+  floor.diffuseMap = builder.add(makeTexture(TexelFormat::colour, width, 1, texels));
+  builder.add(floorAt(0, 1, builder.add(floor)));
+  return builder.build();
+}
+
+// The kernels find its tiles in float: at its right end, where that is coarsest, too.
+TEST(TextureTables, TheWidestTextureIsReadAsByTheReference) {
+  expectStagesAgreeOnEveryTarget(paintedOver(kTextureSideLimit), smallOptions());
+}
+
+TEST(TextureTables, AWiderOneIsRefused) {
+  EXPECT_THROW(buildTables(paintedOver(kTextureSideLimit + 1), EffectSet::all(), {}), Error);
 }
 
 }  // namespace
