@@ -13,12 +13,10 @@ namespace {
 constexpr int kTurns = 3;
 
 // The cheapest setting that still makes a picture of the scene.
-constexpr std::array<std::pair<const char*, const char*>, 15> kCheapest{
+constexpr std::array<std::pair<const char*, const char*>, 13> kCheapest{
     {{"depth", "0"},
      {"cutoff", "0.004"},
      {"light-cutoff", "0.004"},
-     {"impulse-rate", "half"},
-     {"shadow-rate", "half"},
      {"glossy", "0"},
      {"fresnel", "schlick"},
      {"texture-filter", "nearest"},

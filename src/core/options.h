@@ -15,8 +15,6 @@ enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
-// Of the pixels that get one sample: whether all of them trace a kind of ray, or every other one.
-enum class Rate { full, half };
 // How the picture is kept before exposure and encoding.
 enum class FilmPrecision { single, half, eightBit };
 // sRGB codes: rounded exactly, or looked up at the nearest of 4096 equal steps of linear light.
@@ -48,7 +46,6 @@ struct RenderOptions {
   int spp = 1;
   bool adaptive = false;
   int contrast = kDefaultContrast;
-  Rate impulseRate = Rate::full, shadowRate = Rate::full;
   int depth = kDepthLimit;
   int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
   float cutoff = 1.0e-4f;
@@ -97,11 +94,6 @@ void forEachOption(Options& o, Visitor&& visit) {
         o.adaptive);
   visit("contrast", "N", "8-bit codes by which neighbours may differ before --adaptive acts",
         o.contrast);
-  visit("impulse-rate", "full|half",
-        "half: every other pixel of one sample borrows the impulses of neighbours on its surface",
-        o.impulseRate);
-  visit("shadow-rate", "full|half", "the same for shadow rays, where the neighbours' agree",
-        o.shadowRate);
   visit("depth", "N", "deepest impulse", o.depth);
   visit("glossy", "N",
         "rays that sample the reflection of a rough surface, one where it is seen by such a ray or "

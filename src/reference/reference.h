@@ -10,7 +10,6 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
-#include "scene/light_shares.h"
 #include "scene/mip_maps.h"
 #include "scene/pixel_edges.h"
 #include "scene/scene.h"
@@ -23,8 +22,6 @@ struct Settings {
   // displayed, and all of them only where the pilot samples do.
   bool adaptive = false;
   int contrast = kDefaultContrast;
-  // Of pixels of one sample, the default or the first of adaptive ones.
-  Rate impulseRate = Rate::full, shadowRate = Rate::full;
   float exposure = 0;
   ToneCurve toneCurve = ToneCurve::none;
   SrgbEncoding srgb = SrgbEncoding::exact;
@@ -50,7 +47,6 @@ struct RayCounts {
 struct Impulse;
 struct Surfel;
 struct Crossing;
-class PrimaryShare;
 
 // Which path a ray ends: its number, and the place of the pixel's sample in the pattern.
 struct Path {
@@ -63,14 +59,11 @@ class Tracer {
  public:
   Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
   RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                    RayCounts& counts, PrimaryShare* share = nullptr, Path path = {}) const;
+                    RayCounts& counts, Path path = {}) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // Through one place of the sample pattern.
   RgbD sample(const CameraFrame& camera, int x, int y, std::size_t number, RayCounts& counts) const;
-  // Through the pixel's centre alone, lending or borrowing: those that lend come first.
-  RgbD centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
-                        RayCounts& counts) const;
   // Through the pixel's centre alone, and what that ray meets.
   RgbD centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;
@@ -78,8 +71,7 @@ class Tracer {
  private:
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
-  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
-                          PrimaryShare* share) const;
+  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
                        std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,

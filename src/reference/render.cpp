@@ -60,24 +60,12 @@ struct FirstPicture {
 RayCounts traceCentres(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                        FirstPicture& first, Progress* progress) {
   Image& image = first.image;
-  const bool half = settings.impulseRate == Rate::half || settings.shadowRate == Rate::half;
-  RayCounts counts;
-  LightShares shares(image.window, first.surfaces);
-  const auto trace = [&](int y, RayCounts& rowCounts, bool lenders) {
+  return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      if (half && LightShares::lends(x, y) != lenders) continue;
       first.surfaces[image.index(x, y)] = tracer.surfaceAtCentre(frame, x, y);
-      const RgbD radiance = half ? tracer.centreAtHalfRate(frame, x, y, shares, rowCounts)
-                                 : tracer.centre(frame, x, y, rowCounts);
-      image.at(x, y) = keptAs(settings.film, Rgb(radiance));
+      image.at(x, y) = keptAs(settings.film, Rgb(tracer.centre(frame, x, y, rowCounts)));
     }
-  };
-  counts += forEachRow(image.window, settings.threads, progress,
-                       [&](int y, RayCounts& rowCounts) { trace(y, rowCounts, true); });
-  if (!half) return counts;
-  counts += forEachRow(image.window, settings.threads, progress,
-                       [&](int y, RayCounts& rowCounts) { trace(y, rowCounts, false); });
-  return counts;
+  });
 }
 
 // Pixels at edges: the mean of the pilot samples, and those samples' codes.
@@ -106,26 +94,22 @@ RayCounts tracePilots(const Tracer& tracer, const CameraFrame& frame, const Sett
 
 // The centres of all pixels first; where that picture has edges then the pilot samples, and all
 // where these differ.
-RayCounts renderInPasses(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
-                         Image& image, Progress* progress) {
+RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+                           Image& image, Progress* progress) {
   FirstPicture first;
   first.image =
       Image(image.width, image.height, grown(image.window, kPassReach, image.width, image.height));
   first.surfaces.resize(first.image.pixels.size());
   RayCounts counts = traceCentres(tracer, frame, settings, first, progress);
   std::vector<std::uint8_t> edges(first.image.pixels.size());
-  std::optional<Pilots> pilots;
-  if (settings.adaptive) {
-    const DisplayImage display =
-        toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
-    findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
-    pilots.emplace(first.image.window, edges, samplePattern(std::max(settings.spp, kPilotSamples)));
-    counts +=
-        tracePilots(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
-                    edges, first, *pilots, progress);
-  }
+  const DisplayImage display =
+      toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
+  findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
+  Pilots pilots(first.image.window, edges, samplePattern(std::max(settings.spp, kPilotSamples)));
+  counts += tracePilots(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
+                        edges, first, pilots, progress);
   const auto refined = [&](int x, int y, RayCounts& rowCounts) {
-    RgbD mean = pilots->at(x, y).total;
+    RgbD mean = pilots.at(x, y).total;
     for (int s = kPilotSamples; s < settings.spp; ++s) {
       const auto number = static_cast<std::size_t>(s);
       mean += (tracer.sample(frame, x, y, number, rowCounts) - mean) / (s + 1.0);
@@ -135,7 +119,7 @@ RayCounts renderInPasses(const Tracer& tracer, const CameraFrame& frame, const S
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       const bool more = settings.spp > kPilotSamples && edges[first.image.index(x, y)] != 0 &&
-                        pilots->differ(x, y, settings.contrast);
+                        pilots.differ(x, y, settings.contrast);
       image.at(x, y) = more ? refined(x, y, rowCounts) : first.image.at(x, y);
     }
   });
@@ -149,10 +133,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   frame.media = mediaAround(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
-  const bool half = settings.impulseRate == Rate::half || settings.shadowRate == Rate::half;
-  if (settings.adaptive || (half && settings.spp == 1)) {
-    return renderInPasses(tracer, frame, settings, image, progress);
-  }
+  if (settings.adaptive) return renderAdaptively(tracer, frame, settings, image, progress);
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       image.at(x, y) = keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));

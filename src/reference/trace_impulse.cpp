@@ -31,42 +31,6 @@ PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
 
 }  // namespace
 
-// What the first ray of a pixel lends to others, or borrows from them.
-class PrimaryShare {
- public:
-  PrimaryShare(LightShares& shares, const Settings& settings, int x, int y)
-      : shares_(shares),
-        x_(x),
-        y_(y),
-        sharesImpulses_(settings.impulseRate == Rate::half),
-        sharesShadows_(settings.shadowRate == Rate::half) {
-    if (LightShares::lends(x, y)) own_ = &(shares.at(x, y) = LightShare{});
-  }
-
-  void meet(const PixelSurface& surface) {
-    if (!own_) lenders_ = shares_.lendersOf(x_, y_, surface);
-  }
-  std::optional<bool> visibility(std::size_t light) const {
-    return sharesShadows_ ? lenders_.visibility(light) : std::nullopt;
-  }
-  void lendVisibility(std::size_t light, bool visible) {
-    if (own_) own_->saw(light, visible);
-  }
-  std::optional<Rgb> impulses() const {
-    return sharesImpulses_ ? lenders_.impulses() : std::nullopt;
-  }
-  void lendImpulses(const Rgb& radiance) {
-    if (own_) own_->impulses = radiance;
-  }
-
- private:
-  LightShares& shares_;
-  int x_, y_;
-  bool sharesImpulses_, sharesShadows_;
-  LightShare* own_ = nullptr;
-  Lenders lenders_;  // none for who lends
-};
-
 Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
     : scene_(scene),
       intersector_(intersector),
@@ -78,7 +42,7 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
 }
 
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
-                          RayCounts& counts, PrimaryShare* share, Path path) const {
+                          RayCounts& counts, Path path) const {
   const bool absorbs = settings_.effects.has(Effect::absorption) && media != 0;
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) {
@@ -94,7 +58,6 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
                              {ray.cone.widthAt(hit.t), ray.cone.spread}};
   const Surfel surfel =
       makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction, lookup);
-  if (share) share->meet(surfaceOf(surfel, candidate));
   const Crossing crossing =
       crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
 
@@ -103,12 +66,10 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, settings_.effects, surfel);
     if (settings_.effects.has(Effect::lights)) {
-      radiance += radianceFromLights(surfel, left, counts, share);
+      radiance += radianceFromLights(surfel, left, counts);
     }
   }
-  if (const auto borrowed = share ? share->impulses() : std::nullopt) {
-    radiance += RgbD(*borrowed);
-  } else if (depth < settings_.depth) {
+  if (depth < settings_.depth) {
     const Impulses children =
         findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
     const float kept = crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare();
@@ -120,7 +81,6 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
                                   childOf(path, kRefractedBranch));
     radiance += reflected;
     radiance += refracted;
-    if (share) share->lendImpulses(Rgb(reflected + refracted));
   }
   return radiance * arrives;
 }
@@ -152,26 +112,19 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
   if (!(largest > 0 && contribution >= settings_.cutoff)) return {};
   ++counter;
   return impulse.weight *
-         traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, nullptr, path);
+         traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
 }
 
-RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts,
-                                PrimaryShare* share) const {
+RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const {
   RgbD sum;
-  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-    const Light& light = scene_.lights[i];
+  for (const Light& light : scene_.lights) {
     const LightArrival arrival =
         radianceFromLight(settings_.effects, surfel, light, settings_.shading);
     const double largest = maxComponent(arrival.radiance);
     if (!(largest > 0 && throughput * largest >= settings_.shading.lightCutoff)) continue;
     if (settings_.effects.has(Effect::shadows)) {
-      std::optional<bool> visible = share ? share->visibility(i) : std::nullopt;
-      if (!visible) {
-        ++counts.shadow;
-        visible = !intersector_.occluded(arrival.shadowRay, arrival.tFar);
-        if (share) share->lendVisibility(i, *visible);
-      }
-      if (!*visible) continue;
+      ++counts.shadow;
+      if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;
     }
     sum += arrival.radiance;
   }
@@ -197,19 +150,11 @@ RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) 
   return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
 }
 
-RgbD Tracer::centreAtHalfRate(const CameraFrame& camera, int x, int y, LightShares& shares,
-                              RayCounts& counts) const {
-  ++counts.primary;
-  PrimaryShare share(shares, settings_, x, y);
-  return traceImpulse(generateRay(camera, x + 0.5, y + 0.5), 0, 1.0, camera.media, counts, &share,
-                      pathOf(x, y, 0));
-}
-
 RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                      RayCounts& counts) const {
   ++counts.primary;
   const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
-  return traceImpulse(ray, 0, 1.0, camera.media, counts, nullptr, pathOf(x, y, sample));
+  return traceImpulse(ray, 0, 1.0, camera.media, counts, pathOf(x, y, sample));
 }
 
 PixelSurface Tracer::surfaceAtCentre(const CameraFrame& camera, int x, int y) const {

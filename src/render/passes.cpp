@@ -17,24 +17,11 @@ namespace {
 // many samples, and no worker is to wait long for another's last list.
 constexpr std::size_t kListLength = 256;
 
-// Those pixels of the lists that lend, or those that borrow.
-PixelLists fieldsOf(const PixelLists& lists, bool lenders) {
-  PixelLists fields;
-  for (const auto& list : lists) {
-    std::vector<std::uint32_t>& field = fields.emplace_back();
-    for (const std::uint32_t pixel : list) {
-      if (LightShares::lends(pixelX(pixel), pixelY(pixel)) == lenders) field.push_back(pixel);
-    }
-  }
-  padForVectors(fields);
-  return fields;
-}
-
 }  // namespace
 
 Crop Renderer::Parts::tracedWindow(const Film& film) const {
   const Image& image = film.image;
-  return inPasses() ? grown(image.window, kPassReach, image.width, image.height) : image.window;
+  return adaptive() ? grown(image.window, kPassReach, image.width, image.height) : image.window;
 }
 
 FrameStats Renderer::Parts::renderInPasses(FrameJob& job, std::vector<RayLog>* logs) {
@@ -45,15 +32,14 @@ FrameStats Renderer::Parts::renderInPasses(FrameJob& job, std::vector<RayLog>* l
     firstSamples.image = Image(film.image.width, film.image.height, laidOut);
     sizeDisplay(firstSamples);
     surfaces.resize(kept.pixels.size());
-    shares.reset();
     pilots.reset();
   }
   contrasting.assign(surfaces.size(), 0);
   FrameStats stats = renderCentres(job, logs);
-  if (adaptive()) stats.add(refine(job, logs));
+  stats.add(refine(job, logs));
   stats.nonFinitePixels = 0;  // of pictures that are kept only
   keepFirstSamples(film, stats);
-  if (adaptive()) stats.add(renderMarked(job, film.image.window, contrasting, logs));
+  stats.add(renderMarked(job, film.image.window, contrasting, logs));
   return stats;
 }
 
@@ -62,22 +48,7 @@ FrameStats Renderer::Parts::renderCentres(FrameJob& job, std::vector<RayLog>* lo
   first.samples = samplePattern(1);
   first.film = &firstSamples;
   first.surfaces = &surfaces;
-  if (!halfRate()) return renderLists(first, tiles, batches, logs);
-  const bool whole = options.batch == Batch::frame && !logs;
-  if (!shares || whole != fieldsOfBatches) {
-    shares.emplace(laidOut, surfaces);
-    lenders = fieldsOf(whole ? batches : tiles, true);
-    borrowers = fieldsOf(whole ? batches : tiles, false);
-    fieldsOfBatches = whole;
-  }
-  first.shares = &*shares;
-  first.shareImpulses = options.impulseRate == Rate::half;
-  first.shareShadows = options.shadowRate == Rate::half;
-  first.lends = true;
-  FrameStats stats = renderLists(first, lenders, lenders, logs);
-  first.lends = false;
-  stats.add(renderLists(first, borrowers, borrowers, logs));
-  return stats;
+  return renderLists(first, tiles, batches, logs);
 }
 
 FrameStats Renderer::Parts::refine(FrameJob& job, std::vector<RayLog>* logs) {

@@ -26,8 +26,6 @@ reference::Settings Renderer::Parts::referenceSettings() const {
   settings.spp = options.spp;
   settings.adaptive = adaptive();
   settings.contrast = options.contrast;
-  settings.impulseRate = options.impulseRate;
-  settings.shadowRate = options.shadowRate;
   settings.exposure = options.exposure;
   settings.toneCurve = options.toneCurve;
   settings.srgb = options.srgb;

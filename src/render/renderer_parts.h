@@ -22,11 +22,6 @@ struct Renderer::Parts {
 
   reference::Settings referenceSettings() const;
   bool adaptive() const { return options.adaptive && options.spp > 1; }
-  bool halfRate() const {
-    return (adaptive() || options.spp == 1) &&
-           (options.impulseRate == Rate::half || options.shadowRate == Rate::half);
-  }
-  bool inPasses() const { return adaptive() || halfRate(); }
   // The pixels that a frame traces: the film's, and those next to them when they are compared.
   Crop tracedWindow(const Film& film) const;
   // A job over the tiles of `window`.
@@ -87,9 +82,6 @@ struct Renderer::Parts {
   std::vector<PixelSurface> surfaces;
   std::vector<std::uint8_t> edges, contrasting;
   std::optional<Pilots> pilots;
-  std::optional<LightShares> shares;  // at half rate
-  PixelLists lenders, borrowers;      // the pixels of `tiles`, or of `batches`
-  bool fieldsOfBatches = false;       // which of the two
 };
 
 }  // namespace whit

@@ -12,8 +12,6 @@ void takeOver(const RenderOptions& from, RenderOptions& to) {
   to.spp = from.spp;
   to.adaptive = from.adaptive;
   to.contrast = from.contrast;
-  to.impulseRate = from.impulseRate;
-  to.shadowRate = from.shadowRate;
   to.depth = from.depth;
   to.glossy = from.glossy;
   to.cutoff = from.cutoff;

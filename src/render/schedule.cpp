@@ -80,7 +80,7 @@ FrameStats Renderer::Parts::renderLists(FrameJob& job, const PixelLists& tileLis
 FrameStats Renderer::Parts::renderFrame(FrameJob& job, std::vector<RayLog>* logs) {
   const Stopwatch stopwatch;
   FrameStats stats =
-      inPasses() ? renderInPasses(job, logs) : renderLists(job, tiles, batches, logs);
+      adaptive() ? renderInPasses(job, logs) : renderLists(job, tiles, batches, logs);
   stats.frameMs = stopwatch.ms();
   stats.workers = machine.threads;
   return stats;

@@ -16,7 +16,6 @@ void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixel
     Pass pass{job, batch, job.samples[0], stats, clock, log};
     if (job.samples.size() == 1 && !job.pilots) {
       traceSample(pass);
-      if (job.shares && job.lends && job.shareImpulses) lendImpulses(pass);
     } else {
       traceSamples(pass);
     }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/pixel.h"
 
 namespace whit {
 
@@ -128,9 +129,6 @@ void TileTracer::shadeChunk(Pass& pass, std::size_t depth) {
   endStage(pass, Stage::writeEmittedAndReflectiveAmbient, depth);
   if (plan_.effects.has(Effect::lights)) shadeLights(pass, depth, rays);
   pass.children = 0;
-  const bool sharing = depth == 0 && pass.job.shares && pass.job.shareImpulses;
-  if (sharing && pass.job.lends) keepLocalRadiance(pass);
-  if (sharing && !pass.job.lends) borrowImpulses(pass);
   if (depth < static_cast<std::size_t>(plan_.depth)) addImpulses(pass, depth, rays);
 }
 
@@ -158,28 +156,38 @@ void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColum
     simd::liftShadowOrigins(*pass.job.tables, plan_.effects, *hits_, level.chunk, *surfels_);
   }
   if (depth == 0 && pass.job.surfaces) recordSurfaces(pass);
-  if (depth == 0 && pass.job.shares) findLenders(pass);
   endStage(pass, Stage::findIntersections, depth);
+}
+
+void TileTracer::recordSurfaces(const Pass& pass) {
+  const SurfelColumns& s = *surfels_;
+  for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
+    const std::uint32_t pixel = pass.pixels[i];
+    PixelSurface& surface =
+        (*pass.job.surfaces)[pass.job.film->image.index(pixelX(pixel), pixelY(pixel))];
+    surface = {};
+    if (s.material[i] == kMiss) continue;
+    surface.material = s.material[i];
+    if (hits_->instance) surface.instance = hits_->instance[i];
+    surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
+    surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
+  }
 }
 
 void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays) {
   const Level& level = levels_[depth];
   const EffectSet effects = neededBy(materialFlags_, plan_.effects);
-  const bool sharing = depth == 0 && pass.job.shares && pass.job.shareShadows;
-  for (std::size_t number = 0; number < pass.job.tables->lights.size(); ++number) {
-    const Light& light = pass.job.tables->lights[number];
+  for (const Light& light : pass.job.tables->lights) {
     if (isLeftOut(light, effects)) continue;
     shadowCount_ =
         simd::findRadianceAndShadowRays(*pass.job.tables, neededBy(light, effects), light, rays,
                                         *surfels_, level.chunk, *unshadowed_, *shadows_);
     endStage(pass, Stage::findRadianceAndShadowRays, depth, &light);
     if (plan_.traceShadows) {
-      if (sharing && !pass.job.lends) borrowVisibility(pass, number);
       TraceMeter meter{&tallyOf(pass.stats, RayKind::shadow), 0, pass.log};
       pass.job.accel->checkShadows(*shadows_, shadowCount_, isCoherent(plan_, depth),
                                    unshadowed_->visible, meter);
       pass.stats.embreeWorkerMs += meter.embreeMs;
-      if (sharing && pass.job.lends) lendVisibility(pass, number);
       endStage(pass, Stage::checkShadows, depth, &light);
     }
     simd::addShading(*unshadowed_, level.chunk, *level.radiance);
@@ -198,11 +206,7 @@ void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& ra
   reserveLevel(depth + 1, children * roundUpToBlock(level.chunk));
   Level& next = levels_[depth + 1];
   next.count = 0;
-  float cutoff = pass.job.cutoff;
-  if (depth == 0 && pass.job.shareImpulses && !pass.job.lends) {
-    // Above zero: pixels that borrow their impulses have no throughput to hand down.
-    cutoff = std::max(cutoff, std::numeric_limits<float>::min());
-  }
+  const float cutoff = pass.job.cutoff;
   if (plan_.traceReflections && (materialFlags_ & kMaterialReflects) != 0) {
     next.count = simd::addReflections(*pass.job.tables, plan_.effects, cutoff, rays, *surfels_,
                                       level.chunk, *next.rays, 0);

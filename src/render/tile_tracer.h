@@ -16,8 +16,8 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/renderer.h"
-#include "scene/light_shares.h"
 #include "scene/pilots.h"
+#include "scene/pixel_edges.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 
@@ -68,9 +68,6 @@ struct FrameJob {
   std::size_t firstSample = 0;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;
-  // Half rates, with the surfaces: pixels that lend are traced before those that borrow.
-  LightShares* shares = nullptr;
-  bool lends = false, shareImpulses = false, shareShadows = false;
   std::barrier<>* stageBarrier = nullptr;  // --batch frame: everyone waits after each stage
   StageObserver* observer = nullptr;
 };
@@ -107,13 +104,6 @@ class TileTracer {
   void shadeChunk(Pass& pass, std::size_t depth);
   void findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays);
   void recordSurfaces(const Pass& pass);
-  // Half rates, at depth 0.
-  void findLenders(const Pass& pass);
-  void borrowVisibility(const Pass& pass, std::size_t light);
-  void lendVisibility(const Pass& pass, std::size_t light);
-  void borrowImpulses(const Pass& pass);
-  void keepLocalRadiance(const Pass& pass);
-  void lendImpulses(const Pass& pass);
   void shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays);
   void addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays);
   void finishChunk(Pass& pass, std::size_t depth);
@@ -130,11 +120,8 @@ class TileTracer {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
   std::size_t shadowCount_ = 0;
-  std::uint32_t materialFlags_ = 0;  // kMaterial flags of the chunk's surfels, all together
-  std::vector<RgbD> sums_;           // a pixel each, when there are several samples
-  // Half rates, a pixel each: who lends, and radiance without impulses of those that lend.
-  std::vector<Lenders> lenders_;
-  std::vector<Rgb> local_;
+  std::uint32_t materialFlags_ = 0;   // kMaterial flags of the chunk's surfels, all together
+  std::vector<RgbD> sums_;            // a pixel each, when there are several samples
   std::vector<std::uint32_t> codes_;  // display codes
 };
 

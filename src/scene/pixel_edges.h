@@ -24,9 +24,9 @@ bool onSameSurface(const PixelSurface& a, const PixelSurface& b);
 
 // The pixels of `window` and `more` on each side, as far as the image reaches.
 Crop grown(const Crop& window, int more, int width, int height);
-// How far a pixel of several passes looks: to its neighbours' pilots, these to theirs for edges,
-// and they to theirs for half rates.
-inline constexpr int kPassReach = 3;
+// How far a pixel of several passes looks: to its neighbours' pilots, and these to theirs for
+// edges.
+inline constexpr int kPassReach = 2;
 
 // Sets edges[i] to 1 for each pixel i of the window's rows [row0, row1), counted from its top, that
 // has a neighbour among its eight on another surface, or with a display code that differs by more
