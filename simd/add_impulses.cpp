@@ -40,7 +40,7 @@ size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cuto
                       r,
                       weight,
                       media,
-                      ChildPathsAt(rays, i, kMirroredBranch),
+                      ChildStreamsAt(rays, i, kMirroredBranch),
                       hn::Mul(MaxComponent(weight), mirror.w),
                       ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);
@@ -68,7 +68,7 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
     const VF counts = hn::IfThenElse(lobes.rough, share, one);
     const V3 origin = ChildOrigin(tables, surfels, lanes, i, 1.0f);
     const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
-    const VU path = PathsAt(rays, i);
+    const VU path = StreamsAt(rays, i);
     const VF cone = ConesAt(surfels, i);
     // A smooth lobe is one impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
@@ -81,7 +81,7 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
                         r,
                         Scale3(sample.weight, counts),
                         media,
-                        ChildPath(path, kFirstGlossyBranch + k),
+                        ChildStream(path, kFirstGlossyBranch + k),
                         hn::Mul(MaxComponent(sample.weight), impulseShare),
                         cone};
       count += Append(child, live, cutoff, rays, i, children, count);
@@ -125,7 +125,7 @@ size_t AddRefractions(const ShadingTables& tables, EffectSet /*effects*/, float 
                       r,
                       weight,
                       hn::Load(du, surfels.mediaBehind + i),
-                      ChildPathsAt(rays, i, kRefractedBranch),
+                      ChildStreamsAt(rays, i, kRefractedBranch),
                       hn::Mul(MaxComponent(weight), impulseShare),
                       ConesAt(surfels, i)};
     count += Append(child, lanes.live, cutoff, rays, i, children, count);

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/path_numbers-inl.h"
+#include "simd/random_streams-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -38,7 +38,7 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     hn::Store(hn::Iota(du, static_cast<uint32_t>(i)), du, rays.parent + i);
     if (rays.media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
     if (rays.cone) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
-    if (rays.path) hn::Store(PathOfPixel(packed, camera.sampleNumber), du, rays.path + i);
+    if (rays.path) hn::Store(StreamOfPixel(packed, camera.sampleNumber), du, rays.path + i);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "hwy/contrib/math/math-inl.h"
 #include "scene/material.h"
 #include "simd/fresnel-inl.h"
-#include "simd/path_numbers-inl.h"
+#include "simd/random_streams-inl.h"
 #include "stages/columns.h"
 
 HWY_BEFORE_NAMESPACE();

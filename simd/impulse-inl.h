@@ -12,7 +12,7 @@
 #include "simd/compact-inl.h"
 #include "simd/fresnel-inl.h"
 #include "simd/media-inl.h"
-#include "simd/path_numbers-inl.h"
+#include "simd/random_streams-inl.h"
 #include "simd/ray_origin-inl.h"
 #include "stages/columns.h"
 
@@ -114,12 +114,12 @@ HWY_INLINE size_t Append(const Child& child, MF live, float cutoff, const RayCol
 }
 
 // The numbers of the paths, where there are any, and of their children.
-HWY_INLINE VU PathsAt(const RayColumns& rays, size_t i) {
+HWY_INLINE VU StreamsAt(const RayColumns& rays, size_t i) {
   const UintTag du;
   return rays.path ? hn::Load(du, rays.path + i) : hn::Zero(du);
 }
-HWY_INLINE VU ChildPathsAt(const RayColumns& rays, size_t i, uint32_t branch) {
-  return rays.path ? ChildPath(PathsAt(rays, i), branch) : hn::Zero(UintTag());
+HWY_INLINE VU ChildStreamsAt(const RayColumns& rays, size_t i, uint32_t branch) {
+  return rays.path ? ChildStream(StreamsAt(rays, i), branch) : hn::Zero(UintTag());
 }
 
 // Where there are cones, the children's begin as wide as their parents' end.

@@ -14,17 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
 constexpr uint32_t kInstanced = EffectSet::bit(Effect::instances);
-constexpr uint32_t kColoured = EffectSet::bit(Effect::vertexColours);
+constexpr uint32_t kColored = EffectSet::bit(Effect::vertexColors);
 constexpr uint32_t kGlossy = EffectSet::bit(Effect::glossy);
 constexpr uint32_t kTransmission = EffectSet::bit(Effect::transmission);
 constexpr uint32_t kAbsorption = EffectSet::bit(Effect::absorption);
 
-// What vertex colours multiply, as the flags of the lanes' materials say.
+// What vertex colors multiply, as the flags of the lanes' materials say.
 struct Tints {
   V3 diffuse, specular, emission;
 };
 
-HWY_INLINE Tints FindTints(const V3& colour, VF flagBits) {
+HWY_INLINE Tints FindTints(const V3& color, VF flagBits) {
   const FloatTag d;
   const UintTag du;
   const VU flags = hn::BitCast(du, flagBits);
@@ -34,8 +34,8 @@ HWY_INLINE Tints FindTints(const V3& colour, VF flagBits) {
   const VF one = hn::Set(d, 1.0f);
   const V3 white{one, one, one};
   const MF emission = has(kMaterialTintsEmission);
-  return {Select3(emission, white, colour), Select3(has(kMaterialTintsSpecular), colour, white),
-          Select3(emission, colour, white)};
+  return {Select3(emission, white, color), Select3(has(kMaterialTintsSpecular), color, white),
+          Select3(emission, color, white)};
 }
 
 // No maps wait there yet.
@@ -111,10 +111,10 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
   StoreSurface(s, flip, i, surfels);
   const V4 lobe = material.Columns4(12);
   Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
-  const bool coloured = (effects.bits() & kColoured) != 0;
+  const bool colored = (effects.bits() & kColored) != 0;
   V3 scattered{diffuse.x, diffuse.y, diffuse.z};
-  if (coloured) {
-    tints = FindTints(VertexColour(tables, triangle, w.w1, w.w2), lobe.z);
+  if (colored) {
+    tints = FindTints(VertexColor(tables, triangle, w.w1, w.w2), lobe.z);
     scattered = Mul3(scattered, tints.diffuse);
   }
   Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
@@ -130,7 +130,7 @@ HWY_INLINE VU InterpolateVector(const ShadingTables& tables, EffectSet effects,
       QueueMap(tables, specular.w, valid, at, slot, block.specular);
     }
     V3 f0{specular.x, specular.y, specular.z};
-    if (coloured) f0 = Mul3(f0, tints.specular);
+    if (colored) f0 = Mul3(f0, tints.specular);
     Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.x, d, surfels.alpha + i);
   }
@@ -145,14 +145,14 @@ HWY_INLINE void ApplyTextures(const ShadingTables& tables, EffectSet effects,
                               size_t i) {
   if constexpr ((kBits & kTextured) != 0) {
     if (surfels.emissionR) {
-      ApplyColour(tables, block.emission, slot, surfels.emissionR, surfels.emissionG,
-                  surfels.emissionB, i);
+      ApplyColor(tables, block.emission, slot, surfels.emissionR, surfels.emissionG,
+                 surfels.emissionB, i);
     }
-    ApplyColour(tables, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
-                i);
+    ApplyColor(tables, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
+               i);
     if ((effects.bits() & kGlossy) != 0) {
-      ApplyColour(tables, block.specular, slot, surfels.specularR, surfels.specularG,
-                  surfels.specularB, i);
+      ApplyColor(tables, block.specular, slot, surfels.specularR, surfels.specularG,
+                 surfels.specularB, i);
     }
   }
   if constexpr ((kBits & kNormalMapped) != 0) {

@@ -79,7 +79,7 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
 // `live` lanes only; the others may hold anything.
 HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
   switch (sky.kind) {
-    case Sky::Kind::colour:
+    case Sky::Kind::color:
       return Broadcast3(sky.zenith);
     case Sky::Kind::gradient:
       return GradientSky(sky, direction);

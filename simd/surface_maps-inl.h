@@ -141,13 +141,13 @@ HWY_INLINE V3 FilterMap(const ShadingTables& tables, const MapQueue& queue, size
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColour(const ShadingTables& tables, const MapQueue& queue, size_t slot,
-                            float* r, float* g, float* b, size_t i) {
+HWY_INLINE void ApplyColor(const ShadingTables& tables, const MapQueue& queue, size_t slot,
+                           float* r, float* g, float* b, size_t i) {
   if (!queue.level.any[slot]) return;
-  const V3 colour = Load3(r, g, b, i);
+  const V3 color = Load3(r, g, b, i);
   const V3 texture =
-      FilterMap(tables, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColour(f); });
-  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(colour, texture), colour), r, g, b, i);
+      FilterMap(tables, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
+  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.

@@ -156,7 +156,7 @@ HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
           hn::Mul(gx, gy),      hn::Mul(fx, gy),      hn::Mul(gx, fy),      hn::Mul(fx, fy)};
 }
 
-// (code / 1023)^2: linear light of a 10-bit channel (TexelFormat::colour).
+// (code / 1023)^2: linear light of a 10-bit channel (TexelFormat::color).
 template <int kShift>
 HWY_INLINE VF SquaredCode(VU texel) {
   const UintTag du;
@@ -165,15 +165,15 @@ HWY_INLINE VF SquaredCode(VU texel) {
   return hn::Mul(value, value);
 }
 template <int kShift>
-HWY_INLINE VF FilterColourChannel(const Footprint& f) {
+HWY_INLINE VF FilterColorChannel(const Footprint& f) {
   VF sum = hn::Mul(SquaredCode<kShift>(f.t00), f.w00);
   sum = hn::MulAdd(SquaredCode<kShift>(f.t10), f.w10, sum);
   sum = hn::MulAdd(SquaredCode<kShift>(f.t01), f.w01, sum);
   sum = hn::MulAdd(SquaredCode<kShift>(f.t11), f.w11, sum);
   return hn::Mul(sum, hn::Set(FloatTag(), 1.0f / (1023.0f * 1023.0f)));
 }
-HWY_INLINE V3 FilterColour(const Footprint& f) {
-  return {FilterColourChannel<0>(f), FilterColourChannel<10>(f), FilterColourChannel<20>(f)};
+HWY_INLINE V3 FilterColor(const Footprint& f) {
+  return {FilterColorChannel<0>(f), FilterColorChannel<10>(f), FilterColorChannel<20>(f)};
 }
 
 // code / 255 of an 8-bit channel (TexelFormat::data).

@@ -101,10 +101,10 @@ HWY_INLINE CornerNormals LoadNormals(const ShadingTables& tables, VI triangle) {
   return LoadCorners(tables.normals, tables.normalStride, triangle);
 }
 
-// Of the vertices: the first corner's and what the others add to it, so that one colour at all
-// corners is that colour exactly.
-HWY_INLINE V3 VertexColour(const ShadingTables& tables, VI triangle, VF u, VF v) {
-  const auto [c0, c1, c2] = LoadCorners(tables.colours, tables.colourStride, triangle);
+// Of the vertices: the first corner's and what the others add to it, so that one color at all
+// corners is that color exactly.
+HWY_INLINE V3 VertexColor(const ShadingTables& tables, VI triangle, VF u, VF v) {
+  const auto [c0, c1, c2] = LoadCorners(tables.colors, tables.colorStride, triangle);
   const V3 there = MulAdd3(Sub3(c2, c0), v, MulAdd3(Sub3(c1, c0), u, c0));
   const VF zero = hn::Zero(FloatTag());
   return {hn::Max(there.x, zero), hn::Max(there.y, zero), hn::Max(there.z, zero)};

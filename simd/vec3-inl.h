@@ -107,7 +107,7 @@ HWY_INLINE VF InverseSqrt(VF a, Reciprocal how) {
 HWY_INLINE V3 Normalize3(const V3& a, Reciprocal how = Reciprocal::exact) {
   return Scale3(a, InverseSqrt(Dot(a, a), how));
 }
-// `a` normalised, or `fallback` where it has no length.
+// `a` normalized, or `fallback` where it has no length.
 HWY_INLINE V3 NormalizeOr(const V3& a, const V3& fallback, Reciprocal how = Reciprocal::exact) {
   const FloatTag d;
   const VF squared = Dot(a, a);

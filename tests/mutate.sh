@@ -41,7 +41,7 @@ try() {
   WHIT_SOURCE_DIR=$copy timeout 600 "$copy/build/tests/hard_test" >"$copy/test.log" 2>&1
   local status=$?
   local red
-  red=$(sed -n 's|^\[  FAILED  \] Hard/CaseTest.holds/\([A-Za-z0-9]*\), where.*|\1|p' \
+  red=$(sed -n 's|^\[  FAILED  \] Hard/CaseTest.Holds/\([A-Za-z0-9]*\), where.*|\1|p' \
     "$copy/test.log" | sort -Vu | paste -sd' ')
   if [ $status -eq 0 ]; then
     echo "$1: SURVIVED"
@@ -49,7 +49,7 @@ try() {
   elif [ -n "$red" ]; then
     echo "$1: caught by $red"
   else
-    red=$(sed -n 's|^\[ RUN      \] Hard/CaseTest.holds/||p' "$copy/test.log" | tail -1)
+    red=$(sed -n 's|^\[ RUN      \] Hard/CaseTest.Holds/||p' "$copy/test.log" | tail -1)
     echo "$1: caught by $red (the program ended with status $status)"
   fi
 }

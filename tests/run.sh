@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
-#   tests/run.sh           formatting, clang-tidy, thread sanitizer, address and undefined-behaviour
+#   tests/run.sh           formatting, clang-tidy, thread sanitizer, address and undefined-behavior
 #                          sanitizers with Clang (unit and reference with g++, too), fuzzing, MPI,
 #                          Embree 4 with Clang in Release, the Debian package in a clean system,
 #                          Release with warnings as errors
@@ -77,7 +77,7 @@ checkThreads() {
   local areas=(unit render) area
   local filter='WorkerPool*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
-  filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimisedAndResized'
+  filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
   if [ -d build-tsan/viewer/CMakeFiles/whit_view.dir ]; then
     areas+=(viewer)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compares pictures of the shipped scenes among the SIMD targets of this machine, as a table, and exits
-# 1 when two differ by more than Twins.targetsAgreeWithEachOther allows.
+# 1 when two differ by more than Twins.TargetsAgreeWithEachOther allows.
 #   tests/targets.sh [WHIT]    the program (build/whit)
 set -euo pipefail
 

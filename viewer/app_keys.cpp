@@ -60,8 +60,8 @@ void App::obey(const ScriptCommand& command) {
   using Kind = ScriptCommand::Kind;
   if (command.kind == Kind::resize) {
     window_.resize({static_cast<int>(command.x), static_cast<int>(command.y)});
-  } else if (command.kind == Kind::minimise) {
-    window_.minimise();
+  } else if (command.kind == Kind::minimize) {
+    window_.minimize();
   } else if (command.kind == Kind::restore) {
     window_.restore();
   } else if (command.kind == Kind::panel) {

@@ -45,9 +45,9 @@ bool CameraControl::step(const CameraMotion& m, double seconds) {
   if (turns) turn(right, up);
   const bool orbits = m.orbitX != 0 || m.orbitY != 0;
   if (orbits) {
-    const Vec3d centre = eye_ + forward() * distance_;
+    const Vec3d center = eye_ + forward() * distance_;
     turn(m.orbitX * kRadiansPerPixel, -m.orbitY * kRadiansPerPixel);
-    eye_ = centre - forward() * distance_;
+    eye_ = center - forward() * distance_;
   }
   const Vec3d direction =
       normalized(forward() * m.forward + right_ * m.right + up_ * m.up);  // zero when at rest

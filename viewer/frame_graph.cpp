@@ -27,17 +27,17 @@ void FrameGraph::draw(double rate) const {
     return to.y - padding.y - ms / scale * (to.y - from.y - 2 * padding.y);
   };
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   const float y = heightOf(budget);
   list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
   char text[48];
   std::snprintf(text, sizeof text, "%.1f ms for %.0f/s", static_cast<double>(budget), rate);
   // Below its line, unless that lies low.
   const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
-  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text).x, below), colour, text);
+  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text).x, below), color, text);
   if (count_ == 0) return;
   std::snprintf(text, sizeof text, "%.1f ms at most", static_cast<double>(highest));
-  list.AddText(ImVec2(from.x + padding.x, from.y), colour, text);
+  list.AddText(ImVec2(from.x + padding.x, from.y), color, text);
 }
 
 }  // namespace whit::view

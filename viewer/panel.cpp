@@ -52,7 +52,7 @@ void drawRays(const FrameStats& stats) {
   ImGui::EndTable();
 }
 
-// A box for each effect that the scene calls for; the others greyed; why, for all of them.
+// A box for each effect that the scene calls for; the others grayed; why, for all of them.
 void drawEffects(const TracedFrame& frame, const KnobCosts& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
@@ -82,11 +82,11 @@ void drawPicture(PanelSettings& settings) {
   ImGui::Checkbox("supersample at rest (N)", &settings.supersample);
 }
 
-void drawEffectColours() {
-  for (const EffectColour& c : effectColours()) {
+void drawEffectColors() {
+  for (const EffectColor& c : effectColors()) {
     const auto& name = kEffectNames[static_cast<std::size_t>(c.effect)].name;
-    const ImVec4 colour(c.colour[0], c.colour[1], c.colour[2], 1);
-    ImGui::ColorButton(name.data(), colour, ImGuiColorEditFlags_NoTooltip,
+    const ImVec4 color(c.color[0], c.color[1], c.color[2], 1);
+    ImGui::ColorButton(name.data(), color, ImGuiColorEditFlags_NoTooltip,
                        ImVec2(ImGui::GetFontSize(), ImGui::GetFontSize()));
     ImGui::SameLine();
     ImGui::TextUnformatted(name.data());
@@ -102,7 +102,7 @@ void drawView(const TracedFrame& frame, PanelSettings& settings) {
     settings.view = static_cast<DebugView>(view);
   }
   if (!frame.legend.empty()) ImGui::TextWrapped("%s", frame.legend.c_str());
-  if (settings.view == DebugView::effects) drawEffectColours();
+  if (settings.view == DebugView::effects) drawEffectColors();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::Combo("reference (X)", &compare, "not compared\0side by side\0differences\0")) {
     settings.compare = static_cast<CompareMode>(compare);

@@ -12,21 +12,21 @@ namespace {
 constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
 constexpr float kLargestIntensity = 1e6f, kLargestRadiance = 1e4f;
 
-bool drawColour(const char* label, Rgb& colour) {
-  if (!ImGui::ColorEdit3(label, &colour.x, ImGuiColorEditFlags_Float)) return false;
-  colour = min(max(colour, Rgb(0.0f)), Rgb(1.0f));
+bool drawColor(const char* label, Rgb& color) {
+  if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
+  color = min(max(color, Rgb(0.0f)), Rgb(1.0f));
   return true;
 }
 
-// Colour and strength of what has no upper limit. The colour's largest channel is 1.
+// Color and strength of what has no upper limit. The color's largest channel is 1.
 bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
   float strength = maxComponent(value);
-  Rgb colour = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
-  const bool recoloured = drawColour(label, colour);
+  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
+  const bool recolored = drawColor(label, color);
   constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
   const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
-  if (!recoloured && !turned) return false;
-  value = colour * strength;
+  if (!recolored && !turned) return false;
+  value = color * strength;
   return true;
 }
 
@@ -50,7 +50,7 @@ bool drawCone(Light& light) {
 
 bool drawLight(Light& light) {
   const bool directional = light.kind == Light::Kind::directional;
-  bool changed = drawBright("colour", directional ? "irradiance" : "intensity", kLargestIntensity,
+  bool changed = drawBright("color", directional ? "irradiance" : "intensity", kLargestIntensity,
                             light.intensity);
   if (light.kind != Light::Kind::point) changed |= drawDirection(light.direction);
   if (light.kind == Light::Kind::spot) changed |= drawCone(light);
@@ -64,12 +64,12 @@ bool drawLight(Light& light) {
 
 bool drawMaterial(Material& m) {
   constexpr float kLeastIor = 1, kLargestIor = 3, kLargestAbsorption = 100;
-  bool changed = drawColour("diffuse", m.diffuse);
-  changed |= drawColour("specular", m.specular);
+  bool changed = drawColor("diffuse", m.diffuse);
+  changed |= drawColor("specular", m.specular);
   if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1, "%.3f", kClamp);
-  changed |= drawColour("mirror", m.mirror);
-  changed |= drawColour("mirror, grazing", m.mirrorGrazing);
-  changed |= drawColour("transmission", m.transmission);
+  changed |= drawColor("mirror", m.mirror);
+  changed |= drawColor("mirror, grazing", m.mirrorGrazing);
+  changed |= drawColor("transmission", m.transmission);
   if (m.hasTransmission()) {
     changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f", kClamp);
     changed |= drawBright("absorption", "absorption per unit", kLargestAbsorption, m.absorption);

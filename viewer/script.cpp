@@ -106,7 +106,7 @@ ScriptCommand panelCommand(const Words& words) {
 }
 
 constexpr std::pair<const char*, Kind> kPlainCommands[] = {
-    {"minimise", Kind::minimise}, {"restore", Kind::restore}, {"quit", Kind::quit}};
+    {"minimize", Kind::minimize}, {"restore", Kind::restore}, {"quit", Kind::quit}};
 
 ScriptCommand commandOf(const Words& words) {
   if (words[0] == "key") return keyCommand(words);
@@ -138,7 +138,7 @@ ScriptCommand commandOf(const Words& words) {
     if (words[0] == name && words.size() == 1) return {kind};
   }
   expected(
-      "key, mouse, wheel, wait, screenshot, click, panel, drop, resize, minimise, restore, errors "
+      "key, mouse, wheel, wait, screenshot, click, panel, drop, resize, minimize, restore, errors "
       "or quit, got '" +
       words[0] + "'");
 }
@@ -201,7 +201,7 @@ ScriptPlayer::Step ScriptPlayer::next(bool sharp, Input& input) {
       break;
     case Kind::panel:
     case Kind::resize:
-    case Kind::minimise:
+    case Kind::minimize:
     case Kind::restore:
     case Kind::showErrors:
     case Kind::endErrors:

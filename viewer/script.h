@@ -8,7 +8,7 @@
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
 //   panel NAME                    turns to that tab of the panel
 //   drop FILE                     a file dropped on the window
-//   resize W H | minimise | restore
+//   resize W H | minimize | restore
 //   errors show | errors end      errors are shown as to a user; by default they end the script
 //   quit
 //
@@ -37,7 +37,7 @@ struct ScriptCommand {
     panel,
     drop,
     resize,
-    minimise,
+    minimize,
     restore,
     showErrors,
     endErrors,

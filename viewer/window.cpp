@@ -121,7 +121,7 @@ void Window::toggleFullScreen() {
 
 void Window::resize(const ImageSize& size) { glfwSetWindowSize(window_, size.width, size.height); }
 
-void Window::minimise() { glfwIconifyWindow(window_); }
+void Window::minimize() { glfwIconifyWindow(window_); }
 
 void Window::restore() { glfwRestoreWindow(window_); }
 

@@ -31,13 +31,13 @@ class Window {
 
   bool closing() const;
   void close();
-  ImageSize pixels() const;  // of the framebuffer; zero when minimised
+  ImageSize pixels() const;  // of the framebuffer; zero when minimized
   double contentScale() const;
   void setTitle(const std::string& title);
   void setVsync(bool on);
   void toggleFullScreen();
   void resize(const ImageSize& size);
-  void minimise();
+  void minimize();
   void restore();
 
   // Handles what happened, after waiting for it so long at most.

@@ -83,8 +83,8 @@ void writeErrors(CsvWriter& csv, const Point& point) {
   const auto optional = [&](const char* name, double value) {
     csv.text(name, a ? formatted("%.6g", value) : "");
   };
-  optional("path_flips", a ? static_cast<double>(a->flips) : 0);
-  optional("path_flips_per_mpx", a ? a->flipsPerMpx : 0);
+  optional("path_flips", a ? static_cast<double>(a->divergences) : 0);
+  optional("path_flips_per_mpx", a ? a->divergencesPerMpx : 0);
   optional("median_ulp", a ? a->medianUlp : 0);
   optional("p999_ulp", a ? a->ulp999 : 0);
   optional("worst_ulp", a ? a->worstUlp : 0);

@@ -60,7 +60,7 @@ constexpr bool kPlain<TriangleRecord> = sizeof(TriangleRecord) == 16 * sizeof(fl
 template <>
 constexpr bool kPlain<NormalRecord> = sizeof(NormalRecord) == 9 * sizeof(float);
 template <>
-constexpr bool kPlain<ColourRecord> = sizeof(ColourRecord) == 9 * sizeof(float);
+constexpr bool kPlain<ColorRecord> = sizeof(ColorRecord) == 9 * sizeof(float);
 template <>
 constexpr bool kPlain<UvRecord> = sizeof(UvRecord) == 6 * sizeof(float);
 template <>
@@ -151,13 +151,13 @@ void add(Digester& d, const Sky& sky) {
 
 std::string digestOf(const Scene& scene) {
   const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
-               mediumOfMaterial, media, textures, geometries, instances, triangles, normals,
-               colours, secondUvs, lower, upper, instancedTriangles, effects, reasons] = scene;
+               mediumOfMaterial, media, textures, geometries, instances, triangles, normals, colors,
+               secondUvs, lower, upper, instancedTriangles, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
-  addTable(d, colours), addTable(d, secondUvs);
+  addTable(d, colors), addTable(d, secondUvs);
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

@@ -29,7 +29,7 @@ class Digester {
   std::unique_ptr<State> state_;
 };
 
-// Every table of the finalised scene that a picture can depend on. Its name, its own size, its
+// Every table of the finalized scene that a picture can depend on. Its name, its own size, its
 // cameras and the reasons for its effects are left out: what is used of them comes from elsewhere.
 std::string digestOf(const Scene& scene);
 // Every option that can change a picture, those of changesPicture(), but the name of the preset:

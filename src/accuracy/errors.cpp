@@ -27,12 +27,12 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
                                 const ReferencePaths& reference) {
   PathComparison paths = comparePaths(renderer, camera, film, reference);
   ArithmeticError error;
-  error.flips = paths.flips;
-  const double pixels = static_cast<double>(paths.flipped.size());
-  error.flipsPerMpx = 1e6 * static_cast<double>(paths.flips) / pixels;
+  error.divergences = paths.divergences;
+  const double pixels = static_cast<double>(paths.diverged.size());
+  error.divergencesPerMpx = 1e6 * static_cast<double>(paths.divergences) / pixels;
   std::vector<double> ulps;
-  for (std::size_t i = 0; i < paths.flipped.size(); ++i) {
-    if (paths.flipped[i]) {
+  for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
+    if (paths.diverged[i]) {
       paths.packets.pixels[i] = paths.reference.pixels[i];
     } else {
       ulps.push_back(ulpsApart(paths.packets.pixels[i], paths.reference.pixels[i]));

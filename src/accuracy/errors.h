@@ -8,7 +8,7 @@
 #include "accuracy/reference_cache.h"
 #include "accuracy/timing.h"
 #include "metrics/hdr_flip.h"
-#include "render/path_flips.h"
+#include "render/path_divergence.h"
 
 namespace whit::accuracy {
 

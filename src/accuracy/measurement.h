@@ -32,9 +32,9 @@ struct Timing {
 
 // Packets against the scalar reference with the same options and samples.
 struct ArithmeticError {
-  ImageDifference samePath;  // pixels whose path flipped count as equal
-  std::uint64_t flips = 0;   // pixels
-  double flipsPerMpx = 0;
+  ImageDifference samePath;       // pixels whose path diverged count as equal
+  std::uint64_t divergences = 0;  // pixels
+  double divergencesPerMpx = 0;
   // |packets - reference| in ulps of the pixel's largest channel, over pixels of the same path.
   double medianUlp = 0, ulp999 = 0, worstUlp = 0;  // ulp999: 99.9 % are at most that far off
 };

@@ -108,7 +108,7 @@ std::string head(const SceneSweep& sweep, Against against) {
                    escaped(sweep.scene).c_str(), what);
   svg += formatted(
       "<text class=\"s\" x=\"16\" y=\"44\">%dx%d pixels, %d thread%s, %s, packets of %d; "
-      "%d reference samples; grey: beaten in time and error by another</text>\n",
+      "%d reference samples; gray: beaten in time and error by another</text>\n",
       sweep.width, sweep.height, sweep.machine.threads, sweep.machine.threads == 1 ? "" : "s",
       escaped(sweep.machine.simd).c_str(), sweep.machine.packet, sweep.referenceSamples);
   return svg;
@@ -221,7 +221,7 @@ std::string paretoSvg(const SceneSweep& sweep, Against against) {
     m.y = m.error > 0 ? y.at(m.error) : kZeroY;
   }
   std::string svg = head(sweep, against) + axes(x, y, zeros) + frontPath(marks);
-  // Grey points first, so that none hides the front.
+  // Gray points first, so that none hides the front.
   for (auto m = marks.rbegin(); m != marks.rend(); ++m) {
     svg += formatted(
         "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.0f\"><title>%s</title>"

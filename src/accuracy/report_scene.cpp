@@ -98,7 +98,7 @@ std::string verdictList(const SceneSweep& sweep) {
     html += verdict(a.samePath.maxCode <= 1,
                     "arithmetic alone moves no pixel of the same path by more than a code",
                     formatted("at most %d; %llu pixels saw another surface", a.samePath.maxCode,
-                              static_cast<unsigned long long>(a.flips)));
+                              static_cast<unsigned long long>(a.divergences)));
   }
   const Point* fast = nullptr;
   for (const Point& point : sweep.points) {

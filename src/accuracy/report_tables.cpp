@@ -117,8 +117,8 @@ std::string causeTable(const SceneSweep& sweep) {
     html += cell(escaped(point.label())) + group(&point.sampling) + group(&point.algorithm) +
             group(a ? &a->samePath : nullptr);
     html += a ? cell("%.3g", a->medianUlp) + cell("%.3g", a->ulp999) + cell("%.3g", a->worstUlp) +
-                    cell("%llu", static_cast<unsigned long long>(a->flips)) +
-                    cell("%.1f", a->flipsPerMpx)
+                    cell("%llu", static_cast<unsigned long long>(a->divergences)) +
+                    cell("%.1f", a->divergencesPerMpx)
               : cell("") + cell("") + cell("") + cell("") + cell("");
     html += "</tr>\n";
   }

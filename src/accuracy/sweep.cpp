@@ -80,7 +80,7 @@ class SceneSweeper {
     if (!scope_.longFrames()) return;
     const std::string& baseline = sweep_.points.front().label();
     if (!scope_.chosenKnobs)
-      sweep_.idle.push_back({"path flips", "of '" + baseline + "' alone: frames take long"});
+      sweep_.idle.push_back({"path divergences", "of '" + baseline + "' alone: frames take long"});
     sweep_.idle.push_back({"stages", "in the middle quarter of the picture alone: likewise"});
   }
 

@@ -28,7 +28,7 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
   } else {
     row += formatted("  %8s %7s %7s", "-", "-", "-");
   }
-  row += point.arithmetic ? formatted(" %7.1f", point.arithmetic->flipsPerMpx)
+  row += point.arithmetic ? formatted(" %7.1f", point.arithmetic->divergencesPerMpx)
                           : formatted(" %7s", "-");
   return row + formatted(" %5llu\n", static_cast<unsigned long long>(d.nonFinite));
 }
@@ -48,8 +48,8 @@ std::string causesOf(const Point& point) {
     text += formatted(
         "  %-11s%llu pixels saw another surface (%.1f in a million); of the others "
         "half are within %.3g ulp, 99.9 %% within %.3g, all within %.3g\n",
-        "", static_cast<unsigned long long>(a.flips), a.flipsPerMpx, a.medianUlp, a.ulp999,
-        a.worstUlp);
+        "", static_cast<unsigned long long>(a.divergences), a.divergencesPerMpx, a.medianUlp,
+        a.ulp999, a.worstUlp);
   }
   return text;
 }
@@ -80,7 +80,7 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
     text += formatted(" %8s", kind);
   text += formatted("  %9s %9s %6s %7s %4s %8s %8s", "RMSE", "relMSE", "PSNR", ">=1 %", "max",
                     "FLIP", "HDR-FLIP");
-  text += formatted("  %8s %7s %7s %7s %5s\n", "FLIP", ">=1 %", ">=2 %", "flips/M", "inf");
+  text += formatted("  %8s %7s %7s %7s %5s\n", "FLIP", ">=1 %", ">=2 %", "diverge/M", "inf");
   for (const Point& point : sweep.points) text += rowOf(point, width);
   text += formatted(
       "* on the front of FLIP over time; ~ noisy: half of the times spread over more "

@@ -13,7 +13,7 @@ BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& c
       renderer_(open_->scene, options, progress),
       camera_(chooseCamera(open_->scene, options)),
       film_(openFilm(open_->scene, common)),
-      summary_(summarise(open_->scene, options, renderer_, film_, open_->loadMs)) {}
+      summary_(summarize(open_->scene, options, renderer_, film_, open_->loadMs)) {}
 
 FrameStats BenchRun::frame() {
   return farm_ ? renderShared(*farm_, renderer_, options_, camera_, film_)

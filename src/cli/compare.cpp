@@ -9,7 +9,7 @@
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
-#include "render/path_flips.h"
+#include "render/path_divergence.h"
 
 namespace whit::cli {
 
@@ -69,8 +69,8 @@ Compared compareModes(const CompareJob& job) {
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
   result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
   const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;
-  result.numbers.pathFlipsPerMpx =
-      static_cast<double>(comparePaths(renderer, camera, packets).flips) / megapixels;
+  result.numbers.pathDivergencesPerMpx =
+      static_cast<double>(comparePaths(renderer, camera, packets).divergences) / megapixels;
   if (job.stages) {
     Film scratch = openFilm(open->scene, job.common);
     result.numbers.stages = compareStages(renderer, camera, scratch);
@@ -92,8 +92,8 @@ void printNumbers(FILE* out, const Comparison& c) {
   std::fprintf(out, "%-26s%.6f\n", "energy of A over B", d.energyRatio);
   std::fprintf(out, "%-26s%llu\n", "pixels not finite",
                static_cast<unsigned long long>(d.nonFinite));
-  if (c.pathFlipsPerMpx) {
-    std::fprintf(out, "%-26s%.1f per million pixels\n", "other path", *c.pathFlipsPerMpx);
+  if (c.pathDivergencesPerMpx) {
+    std::fprintf(out, "%-26s%.1f per million pixels\n", "other path", *c.pathDivergencesPerMpx);
   }
   if (c.timeMsA && c.timeMsB) {
     std::fprintf(out, "%-26s%.1f ms, %.1f ms\n", "time of A, B", *c.timeMsA, *c.timeMsB);

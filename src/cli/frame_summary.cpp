@@ -4,7 +4,7 @@
 
 namespace whit::cli {
 
-RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
+RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs) {
   RunSummary run;
   run.scene = scene.name;

@@ -26,7 +26,7 @@ struct RunSummary {
   std::vector<FarmFrame> shares;   // how the frames were shared; empty for one process
 };
 
-RunSummary summarise(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
+RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs);
 
 using whit::quantile;

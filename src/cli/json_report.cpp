@@ -135,7 +135,7 @@ Json compareJson(const Comparison& comparison) {
             {"pixels_ge_1_code_pct", d.pixelsGe1CodePct},
             {"pixels_ge_2_codes_pct", d.pixelsGe2CodesPct},
             {"energy_ratio", d.energyRatio},
-            {"path_flips_per_mpx", orNull(comparison.pathFlipsPerMpx)},
+            {"path_flips_per_mpx", orNull(comparison.pathDivergencesPerMpx)},
             {"nonfinite", d.nonFinite},
             {"time_ms", {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}}}};
   if (!comparison.stages) return json;

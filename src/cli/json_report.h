@@ -25,7 +25,7 @@ Json benchJson(const std::vector<RunSummary>& runs, bool abEffects = false);
 
 struct Comparison {
   ImageDifference difference;
-  std::optional<double> pathFlipsPerMpx;               // unknown of two files
+  std::optional<double> pathDivergencesPerMpx;         // unknown of two files
   std::optional<double> timeMsA, timeMsB;              // unknown of two files
   std::optional<std::vector<StageDifference>> stages;  // with --stages
 };

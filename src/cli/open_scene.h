@@ -21,11 +21,11 @@ struct OpenScene {
   double loadMs = 0;                  // reading and baking
 };
 
-// Loads and bakes; tells people on standard error what was mended, unless --quiet.
+// Loads and bakes; tells people on standard error what was repaired, unless --quiet.
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress);
 
-// What was mended, one line each on standard error.
+// What was repaired, one line each on standard error.
 void tellWarnings(const Warnings& warnings);
 
 // A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.

@@ -75,7 +75,7 @@ class ImageWriter {
         progress_(progress),
         renderer_(open.scene, job.common.render, progress),
         film_(openFilm(open.scene, job.common)),
-        run_(summarise(open.scene, job.common.render, renderer_, film_, open.loadMs)) {
+        run_(summarize(open.scene, job.common.render, renderer_, film_, open.loadMs)) {
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
     film_.wantDisplay = false;
     for (const std::string& output : job.outputs) {

@@ -12,7 +12,7 @@ namespace whit {
 
 // name, what it stands for
 #define WHIT_EFFECTS(X)                                        \
-  X(textures, "colour textures")                               \
+  X(textures, "color textures")                                \
   X(normalMaps, "tangent-space normal maps")                   \
   X(alphaMasks, "holes cut by alpha masks")                    \
   X(smoothNormals, "interpolated vertex normals")              \
@@ -20,7 +20,7 @@ namespace whit {
   X(glossyReflection, "sampled reflections of rough surfaces") \
   X(emission, "emitting surfaces")                             \
   X(emissionMaps, "textures of emission")                      \
-  X(vertexColours, "vertex colours")                           \
+  X(vertexColors, "vertex colors")                             \
   X(sky, "sky that is not black")                              \
   X(skyImage, "sky from an image")                             \
   X(ambient, "ambient light")                                  \

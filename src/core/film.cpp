@@ -41,7 +41,7 @@ float linearOfCode(int code) {
   return table[static_cast<std::size_t>(code)];
 }
 
-Rgb keptAs(FilmPrecision precision, const Rgb& pixel) {
+Rgb quantized(FilmPrecision precision, const Rgb& pixel) {
   const auto eachChannel = [&](auto&& keep) {
     return Rgb{keep(pixel.x), keep(pixel.y), keep(pixel.z)};
   };

@@ -14,6 +14,6 @@ float roundedToHalf(float x);
 float linearOfCode(int code);
 
 // A pixel as the film keeps it. 8-bit film holds nothing outside [0, 1], and no NaN.
-Rgb keptAs(FilmPrecision precision, const Rgb& pixel);
+Rgb quantized(FilmPrecision precision, const Rgb& pixel);
 
 }  // namespace whit

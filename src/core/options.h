@@ -32,7 +32,7 @@ struct Crop {
   bool operator==(const Crop&) const = default;
 };
 
-// Neighbouring pixels that differ by more in some 8-bit code show an edge.
+// Neighboring pixels that differ by more in some 8-bit code show an edge.
 inline constexpr int kDefaultContrast = 8;
 
 inline constexpr int kDepthLimit = 64;
@@ -90,9 +90,9 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("crop", "x0,y0,x1,y1", "pixels traced; the EXR's data window", o.crop);
   visit("spp", "N", "samples per pixel", o.spp);
   visit("adaptive", "on|off",
-        "--spp samples only where neighbours differ in surface or contrast, elsewhere one",
+        "--spp samples only where neighbors differ in surface or contrast, elsewhere one",
         o.adaptive);
-  visit("contrast", "N", "8-bit codes by which neighbours may differ before --adaptive acts",
+  visit("contrast", "N", "8-bit codes by which neighbors may differ before --adaptive acts",
         o.contrast);
   visit("depth", "N", "deepest impulse", o.depth);
   visit("glossy", "N",
@@ -120,7 +120,7 @@ void forEachOption(Options& o, Visitor&& visit) {
         o.shading.bend);
   visit(
       "reciprocal", "exact|refined|approximate",
-      "1/sqrt of the kernels' normalisations: divided, or estimated with or without a Newton step",
+      "1/sqrt of the kernels' normalizations: divided, or estimated with or without a Newton step",
       o.shading.reciprocal);
   visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
   visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
@@ -147,7 +147,7 @@ void forEachOption(Options& o, Visitor&& visit) {
   visit("srgb", "exact|table", "how 8-bit codes are found", o.srgb);
   visit("tile", "N", "side of a tile in pixels", o.tile);
   visit("queue", "N", "rays a queue holds before the deeper one is drained (0: one tile)", o.queue);
-  visit("strict", "", "anything that would be mended and counted is an error", o.strict);
+  visit("strict", "", "anything that would be repaired and counted is an error", o.strict);
 }
 
 }  // namespace whit

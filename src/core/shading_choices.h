@@ -9,7 +9,7 @@ namespace whit {
 // rendering"). Where reflection is total, both are 1.
 enum class FresnelModel { exact, schlick };
 
-// Of colours, reflectances and normal maps; alpha masks are always bilinear. Trilinear: between the
+// Of colors, reflectances and normal maps; alpha masks are always bilinear. Trilinear: between the
 // two mip levels whose texels come closest to the pixel's footprint, which follows from a cone
 // about the ray (Akenine-Moeller et al. 2019, "Texture level of detail strategies for real-time ray
 // tracing", Ray Tracing Gems, chapter 20). Mirrors and glass hand the cone's spread on as it is,
@@ -34,7 +34,7 @@ inline constexpr float kFixedOffset = 1e-3f;
 // Less than the whole, because the surface that the viewer's ray started on may be that close.
 inline constexpr float kTowardsViewer = 0.5f;
 
-// How kernels find 1 / sqrt(x), where they normalise: by division and root, both correctly rounded;
+// How kernels find 1 / sqrt(x), where they normalize: by division and root, both correctly rounded;
 // or by the processor's estimate, alone (approximate: 12 bits on x86-64) or after one step of
 // Newton's method (refined: 22 bits). The estimates differ among processors. The reference is exact
 // always.

@@ -87,7 +87,7 @@ using Vec3d = Vec3<double>;
 using Rgb = Vec3<float>;  // linear, Rec. 709 primaries
 using RgbD = Vec3<double>;
 
-// Nothing of any colour; NaN counts as nothing.
+// Nothing of any color; NaN counts as nothing.
 inline bool isBlack(const Rgb& c) { return !(maxComponent(c) > 0); }
 
 struct Vec2f {

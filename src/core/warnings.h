@@ -1,5 +1,6 @@
-// Things that were mended while loading: counted by kind, with the first place of each. `--strict`
-// turns the first one into an error. Thread-safe, because textures are decoded in parallel.
+// Things that were repaired while loading: counted by kind, with the first place of each.
+// `--strict` turns the first one into an error. Thread-safe, because textures are decoded in
+// parallel.
 #pragma once
 
 #include <cstdint>

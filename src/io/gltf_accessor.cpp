@@ -21,33 +21,33 @@ T loadAs(const std::uint8_t* from) {
   return value;
 }
 
-// Section 3.11 of the specification for normalised integers.
+// Section 3.11 of the specification for normalized integers.
 template <typename T>
-float floatAt(const std::uint8_t* from, bool normalised) {
+float floatAt(const std::uint8_t* from, bool normalized) {
   const T value = loadAs<T>(from);
   if constexpr (std::is_floating_point_v<T>) {
     return value;
   } else {
-    if (!normalised) return static_cast<float>(value);
+    if (!normalized) return static_cast<float>(value);
     const double unit = static_cast<double>(value) / std::numeric_limits<T>::max();
     return static_cast<float>(std::max(unit, -1.0));
   }
 }
 
-float component(const std::uint8_t* from, int type, bool normalised) {
+float component(const std::uint8_t* from, int type, bool normalized) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return floatAt<std::int8_t>(from, normalised);
+      return floatAt<std::int8_t>(from, normalized);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return floatAt<std::uint8_t>(from, normalised);
+      return floatAt<std::uint8_t>(from, normalized);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return floatAt<std::int16_t>(from, normalised);
+      return floatAt<std::int16_t>(from, normalized);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return floatAt<std::uint16_t>(from, normalised);
+      return floatAt<std::uint16_t>(from, normalized);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return floatAt<std::uint32_t>(from, normalised);
+      return floatAt<std::uint32_t>(from, normalized);
     default:
-      return floatAt<float>(from, normalised);
+      return floatAt<float>(from, normalized);
   }
 }
 
@@ -207,14 +207,14 @@ std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor) {
   return elements;
 }
 
-GltfColours readColours(const GltfDocument& document, std::size_t accessor) {
+GltfColors readColors(const GltfDocument& document, std::size_t accessor) {
   const bool alpha = document.model().accessors[accessor].type == TINYGLTF_TYPE_VEC4;
   const Reader reader(document, accessor, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
                       "VEC3 or VEC4");
-  GltfColours result{makeElements<Rgb>(document, reader), false};
+  GltfColors result{makeElements<Rgb>(document, reader), false};
   reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    result.colours[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1),
-                         reader.componentAt(from, 2)};
+    result.colors[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1),
+                        reader.componentAt(from, 2)};
     if (alpha) result.translucent = result.translucent || reader.componentAt(from, 3) < 1;
   });
   return result;

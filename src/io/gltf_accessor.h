@@ -10,17 +10,17 @@
 
 namespace whit {
 
-// Every component type, normalised or not, with any stride, sparse or not. Each throws badScene
+// Every component type, normalized or not, with any stride, sparse or not. Each throws badScene
 // "file#/accessors/i" where the accessor is of another type (VEC3, VEC2, SCALAR; indices: unsigned)
 // or reaches beyond its buffer view, limit where its elements do not fit into memory.
 std::vector<Vec3f> readVectors(const GltfDocument& document, std::size_t accessor);
 std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor);
 // VEC3 or VEC4; tells whether some alpha is below 1.
-struct GltfColours {
-  std::vector<Rgb> colours;
+struct GltfColors {
+  std::vector<Rgb> colors;
   bool translucent = false;
 };
-GltfColours readColours(const GltfDocument& document, std::size_t accessor);
+GltfColors readColors(const GltfDocument& document, std::size_t accessor);
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor);
 
 }  // namespace whit

@@ -10,7 +10,7 @@ namespace whit {
 namespace {
 
 struct Texel {
-  Rgb colour;  // linear
+  Rgb color;  // linear
   std::array<float, 4> code{1, 1, 1, 1};
 };
 
@@ -28,12 +28,12 @@ class Stretched {
     const auto channels = static_cast<std::size_t>(raw_->channels);
     const std::size_t first = (row * static_cast<std::size_t>(raw_->width) + column) * channels;
     for (std::size_t c = 0; c < 4; ++c) {
-      const bool colour = c < 3, grey = channels < 3;
-      if (!colour && channels % 2 == 1) break;  // without alpha
-      const std::size_t at = first + (grey ? (colour ? 0 : 1) : c);
+      const bool color = c < 3, gray = channels < 3;
+      if (!color && channels % 2 == 1) break;  // without alpha
+      const std::size_t at = first + (gray ? (color ? 0 : 1) : c);
       texel.code[c] = raw_->linear ? raw_->values[at] : static_cast<float>(raw_->codes[at]) / 255;
-      if (colour) {
-        texel.colour[static_cast<int>(c)] =
+      if (color) {
+        texel.color[static_cast<int>(c)] =
             raw_->linear ? raw_->values[at] : linearOfCode()[raw_->codes[at]];
       }
     }
@@ -50,7 +50,7 @@ class Baker {
   Baker(const GltfMaterial& material, const GltfBakeImages& images, const ImageLimits& limits)
       : material_(material), limits_(limits), rawBase_(images.base) {
     for (const RawImage* raw :
-         {images.base, images.metallicRoughness, images.specular, images.specularColour}) {
+         {images.base, images.metallicRoughness, images.specular, images.specularColor}) {
       if (!raw) continue;
       width_ = std::max(width_, raw->width);
       height_ = std::max(height_, raw->height);
@@ -59,7 +59,7 @@ class Baker {
     base_.emplace(images.base, width_, height_);
     metal_.emplace(images.metallicRoughness, width_, height_);
     specular_.emplace(images.specular, width_, height_);
-    specularColour_.emplace(images.specularColour, width_, height_);
+    specularColor_.emplace(images.specularColor, width_, height_);
   }
 
   GltfBaked bake(GltfMeans& means) {
@@ -67,15 +67,15 @@ class Baker {
     for (const GltfBakedMap map : {kGltfDiffuse, kGltfSpecular}) {
       if (!wantsBaked(material_, map)) continue;
       maps[map].emplace();
-      start(*maps[map], TexelFormat::colour);
+      start(*maps[map], TexelFormat::color);
     }
     sum(maps);
     const double texels = static_cast<double>(width_) * height_;
-    means.base = Rgb(colour_ / texels);
+    means.base = Rgb(color_ / texels);
     means.metallic = static_cast<float>(metallic_ / texels);
     means.roughness = static_cast<float>(roughness_ / texels);
     means.specular = static_cast<float>(strength_ / texels);
-    means.specularColour = Rgb(tint_ / texels);
+    means.specularColor = Rgb(tint_ / texels);
     if (rawBase_ && hasTranslucentAlpha(*rawBase_)) bakeAlpha(maps[kGltfAlpha], means);
     return maps;
   }
@@ -99,21 +99,21 @@ class Baker {
         const Texel base = base_->at(x, y), other = metal_->at(x, y);
         const float metal = material_.metallic * other.code[2];
         const float strength = specular_->at(x, y).code[3];
-        const Rgb tint = specularColour_->at(x, y).colour;
-        colour_ += RgbD(base.colour);
+        const Rgb tint = specularColor_->at(x, y).color;
+        color_ += RgbD(base.color);
         metallic_ += other.code[2];
         roughness_ += other.code[1];
         strength_ += strength;
         tint_ += RgbD(tint);
         if (maps[kGltfDiffuse]) {
-          const Rgb diffuse = mixes ? base.colour * (1 - metal) : base.colour;
-          maps[kGltfDiffuse]->texels.push_back(encodeColourTexel(diffuse));
+          const Rgb diffuse = mixes ? base.color * (1 - metal) : base.color;
+          maps[kGltfDiffuse]->texels.push_back(encodeColorTexel(diffuse));
         }
         if (!maps[kGltfSpecular]) continue;
-        const Rgb f0 = whole ? material_.f0(tint, strength) * (1 - metal) +
-                                   material_.base * base.colour * metal
-                             : base.colour;
-        maps[kGltfSpecular]->texels.push_back(encodeColourTexel(f0));
+        const Rgb f0 =
+            whole ? material_.f0(tint, strength) * (1 - metal) + material_.base * base.color * metal
+                  : base.color;
+        maps[kGltfSpecular]->texels.push_back(encodeColorTexel(f0));
       }
     }
   }
@@ -149,17 +149,17 @@ class Baker {
   const RawImage* rawBase_;
   int width_ = 1, height_ = 1;
   MemoryHold held_;  // of diffuse and specular
-  std::optional<Stretched> base_, metal_, specular_, specularColour_;
-  RgbD colour_, tint_;
+  std::optional<Stretched> base_, metal_, specular_, specularColor_;
+  RgbD color_, tint_;
   double metallic_ = 0, roughness_ = 0, strength_ = 0;
 };
 
 }  // namespace
 
 bool wantsBaked(const GltfMaterial& m, GltfBakedMap map) {
-  const bool coloured = m.baseMap.exists();
-  return map == kGltfDiffuse ? m.mixesMetal() || (coloured && m.metallic < 1)
-                             : m.bakesSpecular() || (coloured && m.metallic > 0);
+  const bool colored = m.baseMap.exists();
+  return map == kGltfDiffuse ? m.mixesMetal() || (colored && m.metallic < 1)
+                             : m.bakesSpecular() || (colored && m.metallic > 0);
 }
 
 GltfBaked bake(const GltfMaterial& material, const GltfBakeImages& images,

@@ -17,7 +17,7 @@ struct GltfBakeImages {
   const RawImage* base = nullptr;
   const RawImage* metallicRoughness = nullptr;
   const RawImage* specular = nullptr;
-  const RawImage* specularColour = nullptr;
+  const RawImage* specularColor = nullptr;
 };
 
 // One for each GltfBakedMap that there is; the largest image's size, the others stretched to it.
@@ -30,7 +30,7 @@ bool wantsBaked(const GltfMaterial& material, GltfBakedMap map);
 GltfBaked bake(const GltfMaterial& material, const GltfBakeImages& images,
                const ImageLimits& limits, GltfMeans& means);
 
-// Of codes 0 to 1; a grey image has one for r, g and b, a missing alpha is 1.
+// Of codes 0 to 1; a gray image has one for r, g and b, a missing alpha is 1.
 struct ChannelMean {
   float mean = 0;
   bool varies = false;

@@ -68,7 +68,7 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
 }
 
 Texture emissionTexture(const GltfMaterial& material, const RawImage& raw) {
-  Texture texture = makeTexture(material.name, raw, TexelFormat::colour);
+  Texture texture = makeTexture(material.name, raw, TexelFormat::color);
   texture.wrapU = material.emissiveMap.wrapU;
   texture.wrapV = material.emissiveMap.wrapV;
   return texture;
@@ -84,7 +84,7 @@ std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
   for (const GltfTexture* map :
        {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.specularMap,
-        &m.specularColourMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap}) {
+        &m.specularColorMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap}) {
     key << map->image << ' ' << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
@@ -92,7 +92,7 @@ std::string keyOf(const GltfMaterial& m) {
       << ' ';
   if (m.bakesSpecular()) {
     key << m.f90 << ' ';
-    for (int i = 0; i < 3; ++i) key << m.specularColour[i] << ' ' << m.base[i] << ' ';
+    for (int i = 0; i < 3; ++i) key << m.specularColor[i] << ' ' << m.base[i] << ' ';
   }
   return key.str();
 }
@@ -121,7 +121,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     const auto slots = textures.add(
         kGltfBakedMaps,
         [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap),
-         strength = image(m.specularMap), tint = image(m.specularColourMap), &textures] {
+         strength = image(m.specularMap), tint = image(m.specularColorMap), &textures] {
           const ImageLimits limits = textures.limits();
           const auto rawBase = decoded(base, limits), rawMetal = decoded(metal, limits);
           const auto rawStrength = decoded(strength, limits), rawTint = decoded(tint, limits);

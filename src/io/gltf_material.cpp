@@ -13,9 +13,9 @@ namespace {
 using Value = tinygltf::Value;
 
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
-constexpr float kLeastAttenuation = 1e-6f;  // of a colour; the logarithm is taken
+constexpr float kLeastAttenuation = 1e-6f;  // of a color; the logarithm is taken
 
-Rgb colourOf(const Value& object, const char* key, const Rgb& fallback) {
+Rgb colorOf(const Value& object, const char* key, const Rgb& fallback) {
   if (!object.Has(key)) return fallback;
   const Value& list = object.Get(key);
   const auto at = [&](int i) { return static_cast<float>(list.Get(i).GetNumberAsDouble()); };
@@ -107,17 +107,17 @@ class GltfMaterialReader {
       return map.exists() && !(map.uv == m_.surfaceMap().uv);
     };
     if (m_.mixesMetal() && apart(m_.metallicRoughnessMap)) {
-      warn("metalness by a texture with other coordinates than the base colour's: these taken");
+      warn("metalness by a texture with other coordinates than the base color's: these taken");
     }
-    if (m_.variesF0() && (apart(m_.specularMap) || apart(m_.specularColourMap))) {
-      warn("specular by a texture with other coordinates than the base colour's: these taken");
+    if (m_.variesF0() && (apart(m_.specularMap) || apart(m_.specularColorMap))) {
+      warn("specular by a texture with other coordinates than the base color's: these taken");
     }
   }
 
   void extensions() {
     if (const Value* e = named("KHR_materials_ior")) ior(numberOf(*e, "ior", 1.5));
     const float step = (m_.ior - 1) / (m_.ior + 1);
-    m_.specularColour = Rgb(step * step);
+    m_.specularColor = Rgb(step * step);
     if (const Value* e = named("KHR_materials_specular")) specular(*e);
     if (const Value* e = named("KHR_materials_emissive_strength")) {
       m_.emission *= static_cast<float>(
@@ -154,9 +154,9 @@ class GltfMaterialReader {
 
   void specular(const Value& e) {
     m_.f90 = unit(numberOf(e, "specularFactor", 1));
-    m_.specularColour = m_.specularColour * colourOf(e, "specularColorFactor", Rgb(1.0f));
+    m_.specularColor = m_.specularColor * colorOf(e, "specularColorFactor", Rgb(1.0f));
     m_.specularMap = texture(e, "specularTexture");
-    m_.specularColourMap = texture(e, "specularColorTexture");
+    m_.specularColorMap = texture(e, "specularColorTexture");
   }
 
   void transmission(const Value& e) {
@@ -167,9 +167,9 @@ class GltfMaterialReader {
   void volume(const Value& e) {
     const double distance = numberOf(e, "attenuationDistance", 0);
     if (!(distance > 0)) return;  // infinite
-    const Rgb colour = unit(colourOf(e, "attenuationColor", Rgb(1.0f)));
+    const Rgb color = unit(colorOf(e, "attenuationColor", Rgb(1.0f)));
     for (int i = 0; i < 3; ++i) {
-      const double kept = std::max(colour[i], kLeastAttenuation);
+      const double kept = std::max(color[i], kLeastAttenuation);
       m_.absorption[i] = static_cast<float>(std::min(-std::log(kept) / distance, 1e18));
     }
   }
@@ -184,9 +184,7 @@ class GltfMaterialReader {
 const GltfTexture& GltfMaterial::surfaceMap() const {
   if (baseMap.exists()) return baseMap;
   if (mixesMetal()) return metallicRoughnessMap;
-  return variesF0() && specularMap.exists() ? specularMap
-         : variesF0()                       ? specularColourMap
-                                            : baseMap;
+  return variesF0() && specularMap.exists() ? specularMap : variesF0() ? specularColorMap : baseMap;
 }
 
 GltfMaterial::Coordinates GltfMaterial::coordinates() const {

@@ -16,8 +16,8 @@ struct GltfMaterial {
   std::string name, where;
   Rgb base{1, 1, 1};
   float alpha = 1, metallic = 1, roughness = 1;
-  Rgb specularColour{0.04f, 0.04f, 0.04f};  // of what is no metal: its ior's, times a factor
-  float f90 = 1;                            // its reflectance at grazing incidence
+  Rgb specularColor{0.04f, 0.04f, 0.04f};  // of what is no metal: its ior's, times a factor
+  float f90 = 1;                           // its reflectance at grazing incidence
   Rgb emission{0, 0, 0};
   Alpha alphaMode = Alpha::opaque;
   float alphaCutoff = 0.5f;
@@ -26,7 +26,7 @@ struct GltfMaterial {
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap;
-  GltfTexture specularMap, specularColourMap;  // strength in alpha, colour
+  GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1;
 
@@ -43,11 +43,11 @@ struct GltfMaterial {
     return metallic > 0 && (metallicRoughnessMap.exists() || (baseMap.exists() && metallic < 1));
   }
   // The reflectance at normal incidence of what is no metal, where maps have these values.
-  Rgb f0(const Rgb& colour, float strength) const {
-    return min(max(specularColour * colour, Rgb(0.0f)), Rgb(1.0f)) * (f90 * strength);
+  Rgb f0(const Rgb& color, float strength) const {
+    return min(max(specularColor * color, Rgb(0.0f)), Rgb(1.0f)) * (f90 * strength);
   }
   bool variesF0() const {
-    return (specularMap.exists() || specularColourMap.exists()) && metallic < 1 &&
+    return (specularMap.exists() || specularColorMap.exists()) && metallic < 1 &&
            maxComponent(f0(Rgb(1.0f), 1)) > 0;
   }
   // Whether the map of specular reflectance holds all of it.

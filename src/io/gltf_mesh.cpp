@@ -38,7 +38,7 @@ class PrimitiveReader {
     readNormals(mesh);
     mesh.uvs = textureCoordinates(mesh, coordinates_.first);
     if (coordinates_.areTwo()) mesh.secondUvs = secondTextureCoordinates(mesh);
-    readVertexColours(mesh);
+    readVertexColors(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
     if (!primitive_.targets.empty()) warn("morph targets left out");
@@ -77,13 +77,13 @@ class PrimitiveReader {
     checkLength(mesh.normals, mesh, "NORMAL");
   }
 
-  void readVertexColours(Mesh& mesh) {
-    const int colour = attribute("COLOR_0");
-    if (colour < 0) return;
-    GltfColours read = readColours(document_, static_cast<std::size_t>(colour));
-    mesh.colours = std::move(read.colours);
-    checkLength(mesh.colours, mesh, "COLOR_0");
-    if (read.translucent && !opaque_) warn("alpha of vertex colours left out");
+  void readVertexColors(Mesh& mesh) {
+    const int color = attribute("COLOR_0");
+    if (color < 0) return;
+    GltfColors read = readColors(document_, static_cast<std::size_t>(color));
+    mesh.colors = std::move(read.colors);
+    checkLength(mesh.colors, mesh, "COLOR_0");
+    if (read.translucent && !opaque_) warn("alpha of vertex colors left out");
   }
 
   // None where the primitive has none of that set.

@@ -13,7 +13,7 @@ namespace whit {
 // One Mesh for each of its primitives that are triangles, strips or fans, with its only material:
 // an index into `materials`, whose last entry is that of primitives without one. Texture
 // coordinates are those of the material, with its transforms applied, v pointing up. Points, lines,
-// the alpha of vertex colours and deformations are counted in the document's warnings. Throws as
+// the alpha of vertex colors and deformations are counted in the document's warnings. Throws as
 // the accessors do, and badScene where the attributes of a primitive differ in length.
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t mesh,
                                const std::vector<GltfMaterial>& materials);

@@ -149,7 +149,7 @@ class TreeReader {
     light.name = source.name.empty() ? model_.nodes[index].name : source.name;
     if (source.type == "spot") {
       light.kind = Light::Kind::spot;
-      if (!setCone(source.spot, light)) warn("spot light's cone mended", index);
+      if (!setCone(source.spot, light)) warn("spot light's cone repaired", index);
     } else if (source.type == "directional") {
       light.kind = Light::Kind::directional;
     } else if (source.type != "point") {
@@ -159,10 +159,10 @@ class TreeReader {
       warn("light's range left out, it shines on", index);
     }
     const std::vector<double>& c = source.color;
-    const Vec3d colour = c.empty() ? Vec3d(1.0) : Vec3d{c[0], c[1], c[2]};
+    const Vec3d color = c.empty() ? Vec3d(1.0) : Vec3d{c[0], c[1], c[2]};
     light.position = Vec3f(map.p);
     light.direction = Vec3f(-normalized(map.z));
-    light.intensity = Rgb(colour * (source.intensity / kLumensPerWatt));
+    light.intensity = Rgb(color * (source.intensity / kLumensPerWatt));
     stage_.lights.push_back(light);
   }
 

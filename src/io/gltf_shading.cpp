@@ -15,7 +15,7 @@ Material invisible(Material m) {
   return m;
 }
 
-// Emits its colour, and lets the rest straight through.
+// Emits its color, and lets the rest straight through.
 Material unlit(Material m, const Rgb& base, float coverage) {
   m.diffuse = Rgb(0.0f);
   m.emission = base * coverage;
@@ -48,7 +48,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   const float coverage = blends ? g.alpha * means.alpha : 1.0f;
   if (g.unlit) return unlit(std::move(m), g.base, coverage);
   const Rgb base = g.base * means.base;
-  const Rgb f0 = g.f0(means.specularColour, means.specular);
+  const Rgb f0 = g.f0(means.specularColor, means.specular);
   const float f90 = g.f90 * means.specular;
   const float metal = g.metallic * means.metallic;
   const float clear = g.transmission * means.transmission;

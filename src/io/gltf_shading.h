@@ -12,7 +12,7 @@ struct GltfMeans {
   Rgb base{1, 1, 1};
   float metallic = 1, roughness = 1, transmission = 1;
   float specular = 1;  // its strength
-  Rgb specularColour{1, 1, 1};
+  Rgb specularColor{1, 1, 1};
   float clearcoat = 1, clearcoatRoughness = 1;
   float alpha = 1;  // of a texture that blends evenly; 1 where it cuts
 };
@@ -21,21 +21,21 @@ struct GltfMeans {
 inline constexpr float kGltfSmoothRoughness = 0.25f;
 
 // The Material, without its maps:
-// - diffuse is the base colour of what is neither metal nor transmission. It is not reduced by what
+// - diffuse is the base color of what is neither metal nor transmission. It is not reduced by what
 //   the surface reflects specularly.
 // - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
-//   colour of metal, texel by texel, as are strength and colour of KHR_materials_specular. The
+//   color of metal, texel by texel, as are strength and color of KHR_materials_specular. The
 //   roughness is the mean of its map.
 // - Smooth surfaces also mirror the scene, from the mean of that to f90 at grazing incidence. Rough
 //   ones reflect it in samples of the lobe, unless they transmit.
 // - transmission bounds a dielectric of this ior (exact Fresnel reflectance), tinted by the base
-//   colour at each crossing, with the absorption of its volume; surfaces must be closed. It is
+//   color at each crossing, with the absorption of its volume; surfaces must be closed. It is
 //   clear whatever the roughness, and a map of it counts by its mean.
 // - blending lets 1 - alpha straight through, by the mean of a map that has mostly intermediate
 //   values; other maps cut at 1/2.
 // - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
-// - unlit colours are emitted, and nothing else is.
-// - vertex colours multiply the base colour: diffuse, of what is mostly metal specular as well, but
+// - unlit colors are emitted, and nothing else is.
+// - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
 //   no mirror; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 

@@ -42,7 +42,7 @@ RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnin
 RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
                         const ImageLimits& limits, Warnings& warnings);
 
-// As linear RGB: 8-bit codes decoded from sRGB, grey spread to three channels, alpha dropped. EXR
+// As linear RGB: 8-bit codes decoded from sRGB, gray spread to three channels, alpha dropped. EXR
 // keeps its data window (the part inside the display window), and floats keep their bits, NaN and
 // infinities included.
 Image readImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
@@ -61,7 +61,7 @@ ImageMetadata readPngMetadata(const std::string& path);
 // The bytes of such a file without metadata.
 std::string encodePng(const DisplayImage& image);
 
-// A texture of the given format. Colour textures decode sRGB from 8-bit codes; data textures take
+// A texture of the given format. Color textures decode sRGB from 8-bit codes; data textures take
 // codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
 // alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);

@@ -58,7 +58,7 @@ class Decoder {
 
   int width() const { return static_cast<int>(decoder_.image_width); }
   int height() const { return static_cast<int>(decoder_.image_height); }
-  // 0: colours that libjpeg does not turn into RGB.
+  // 0: colors that libjpeg does not turn into RGB.
   int channels() const {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     return decoder_.num_components == 3 ? 3 : 0;
@@ -93,7 +93,7 @@ class Decoder {
     common->err->format_message(common, self.message_);
     std::longjmp(self.escape_, 1);
   }
-  // libjpeg goes on with grey where data is missing. Other warnings are of oddities that every
+  // libjpeg goes on with gray where data is missing. Other warnings are of oddities that every
   // viewer overlooks.
   static void onMessage(j_common_ptr common, int level) {
     const int code = common->err->msg_code;
@@ -126,7 +126,7 @@ RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& fi
   image.width = decoder.width();
   image.height = decoder.height();
   image.channels = decoder.channels();
-  if (image.channels == 0) throwBadScene(path, "expected grey or RGB, found four inks");
+  if (image.channels == 0) throwBadScene(path, "expected gray or RGB, found four inks");
   image.held = holdImage(path, image.width, image.height,
                          static_cast<std::uint64_t>(image.channels), limits);
   const MemoryHold working(limits.budget, decoder.workingBytes(), 1, path);

@@ -126,10 +126,10 @@ bool isPng(const std::vector<std::uint8_t>& file) {
 // is too large for it one of an unknown type.
 void checkPngSize(const std::string& path, const std::vector<std::uint8_t>& file,
                   const ImageLimits& limits) {
-  constexpr std::size_t kWidth = 16, kHeight = 20, kColourType = 25;
+  constexpr std::size_t kWidth = 16, kHeight = 20, kColorType = 25;
   constexpr std::uint64_t kMostBytes = 1 << 30;                 // that stb_image takes
-  constexpr std::uint64_t kChannels[] = {1, 0, 3, 4, 2, 0, 4};  // of the colour types
-  if (file.size() <= kColourType) return;
+  constexpr std::uint64_t kChannels[] = {1, 0, 3, 4, 2, 0, 4};  // of the color types
+  if (file.size() <= kColorType) return;
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | file[i];
@@ -137,7 +137,7 @@ void checkPngSize(const std::string& path, const std::vector<std::uint8_t>& file
   };
   const std::int64_t width = number(kWidth), height = number(kHeight);
   const MemoryHold claimed = holdImage(path, width, height, 1, limits);
-  const std::size_t type = std::min<std::size_t>(file[kColourType], 6);
+  const std::size_t type = std::min<std::size_t>(file[kColorType], 6);
   if (static_cast<std::uint64_t>(width * height) * kChannels[type] > kMostBytes) {
     throwLimit(path + ": " + std::to_string(width) + "x" + std::to_string(height) +
                " is more than the " + std::to_string(kMostBytes) + " bytes that a PNG may have");

@@ -125,9 +125,9 @@ Vec3d JsonValue::vector() const {
   return {e[0].number(), e[1].number(), e[2].number()};
 }
 
-Rgb JsonValue::colour(double high) const {
+Rgb JsonValue::color(double high) const {
   if (isNumber()) return Rgb(static_cast<float>(number(0, high)));
-  const std::vector<JsonValue> e = elements(3, "a colour [r, g, b] or a number");
+  const std::vector<JsonValue> e = elements(3, "a color [r, g, b] or a number");
   return Rgb(Vec3d{e[0].number(0, high), e[1].number(0, high), e[2].number(0, high)});
 }
 
@@ -179,9 +179,9 @@ Vec3f JsonObject::vector(const std::string& key, const Vec3f& fallback) {
   return value ? Vec3f(value->vector()) : fallback;
 }
 
-Rgb JsonObject::colour(const std::string& key, const Rgb& fallback, double high) {
+Rgb JsonObject::color(const std::string& key, const Rgb& fallback, double high) {
   const auto value = find(key);
-  return value ? value->colour(high) : fallback;
+  return value ? value->color(high) : fallback;
 }
 
 void JsonObject::finish() const {

@@ -48,7 +48,7 @@ class JsonValue {
   // One of `choices`; an error names the nearest.
   std::string word(const std::vector<std::string>& choices) const;
   Vec3d vector() const;
-  Rgb colour(double high = kLargestNumber) const;  // [r, g, b] or one number, at least 0
+  Rgb color(double high = kLargestNumber) const;  // [r, g, b] or one number, at least 0
   std::vector<JsonValue> elements() const;
   std::vector<JsonValue> elements(std::size_t count, const std::string& expected) const;
   // Members in the file's order.
@@ -77,7 +77,7 @@ class JsonObject {
   float number(const std::string& key, double fallback, double low = -kLargestNumber,
                double high = kLargestNumber);
   Vec3f vector(const std::string& key, const Vec3f& fallback);
-  Rgb colour(const std::string& key, const Rgb& fallback, double high = kLargestNumber);
+  Rgb color(const std::string& key, const Rgb& fallback, double high = kLargestNumber);
 
   // Fails at a key that was never asked for, naming the nearest that was.
   void finish() const;

@@ -18,7 +18,7 @@
 
 namespace whit {
 
-inline constexpr float kModelGrey = 0.6f;  // albedo of what has no material
+inline constexpr float kModelGray = 0.6f;  // albedo of what has no material
 
 // Names of a material's members that a scene file gives itself or that follow from those, in place
 // of what a model's own file says.

@@ -12,7 +12,7 @@ namespace whit {
 namespace {
 
 constexpr std::uint64_t kMtlBytesLimit = 64u << 20;
-constexpr float kDielectricReflectance = 0.04f;  // of what Pm below 1 leaves uncoloured
+constexpr float kDielectricReflectance = 0.04f;  // of what Pm below 1 leaves uncolored
 
 class MtlMaterialReader {
  public:
@@ -24,7 +24,7 @@ class MtlMaterialReader {
     result_.where = summary_.where;
     m_.name = source_.name;
     maps();
-    colours();
+    colors();
     roughness();
     metalness();
     illumination();
@@ -37,7 +37,7 @@ class MtlMaterialReader {
   Rgb albedo(const tinyobj::real_t (&c)[3]) {
     const Rgb given(c[0], c[1], c[2]);
     const Rgb clamped = min(max(given, Rgb(0.0f)), Rgb(1.0f));
-    if (!(given == clamped)) warnings_.add("material colour clamped to [0, 1]", summary_.where);
+    if (!(given == clamped)) warnings_.add("material color clamped to [0, 1]", summary_.where);
     return clamped;
   }
   float unit(float x) {
@@ -60,7 +60,7 @@ class MtlMaterialReader {
     }
   }
 
-  void colours() {
+  void colors() {
     const bool diffuseMap = !result_.diffuse.name.empty();
     if (has("Kd")) {
       m_.diffuse = albedo(source_.diffuse);
@@ -134,7 +134,7 @@ class MtlMaterialReader {
 
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings) {
-  const MtlText text = normaliseMtl(readTextFile(path, kMtlBytesLimit), path.string(), warnings);
+  const MtlText text = normalizeMtl(readTextFile(path, kMtlBytesLimit), path.string(), warnings);
   std::istringstream stream(text.text);
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> found;
@@ -163,16 +163,16 @@ Material loadTextures(const MtlMaterial& source, const std::filesystem::path& fo
   const bool hasMask = !source.alpha.name.empty();
   if (!source.diffuse.name.empty()) {
     if (hasMask || !source.alphaFromDiffuse) {
-      material.diffuseMap = load(source.diffuse, {TextureUse::colour})[0];
+      material.diffuseMap = load(source.diffuse, {TextureUse::color})[0];
     } else {
-      const auto slots = load(source.diffuse, {TextureUse::colour, TextureUse::colourAlpha});
+      const auto slots = load(source.diffuse, {TextureUse::color, TextureUse::colorAlpha});
       material.diffuseMap = slots[0];
       material.alphaMap = slots[1];
     }
   }
   if (hasMask) material.alphaMap = load(source.alpha, {TextureUse::mask})[0];
   if (material.hasGlossy() && !source.specular.name.empty()) {
-    material.specularMap = load(source.specular, {TextureUse::colour})[0];
+    material.specularMap = load(source.specular, {TextureUse::color})[0];
   }
   if (!source.normal.name.empty()) {
     material.normalMap = load(source.normal, {TextureUse::data})[0];

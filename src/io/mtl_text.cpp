@@ -14,7 +14,7 @@
 namespace whit {
 namespace {
 
-constexpr std::array<std::string_view, 4> kColours{"Kd", "Ks", "Ke", "Tf"};
+constexpr std::array<std::string_view, 4> kColors{"Kd", "Ks", "Ke", "Tf"};
 constexpr std::array<std::string_view, 6> kScalars{"Ns", "Ni", "d", "Tr", "Pr", "Pm"};
 constexpr std::array<std::string_view, 10> kMapStatements{"map_Kd",   "map_Ks", "map_Ke", "map_d",
                                                           "map_Bump", "bump",   "norm",   "map_Pr",
@@ -52,9 +52,9 @@ std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
-class Normaliser {
+class Normalizer {
  public:
-  Normaliser(std::string file, Warnings& warnings) : file_(std::move(file)), warnings_(warnings) {}
+  Normalizer(std::string file, Warnings& warnings) : file_(std::move(file)), warnings_(warnings) {}
 
   MtlText run(const std::string& text) {
     for (std::size_t begin = 0; begin < text.size(); ++line_) {
@@ -74,7 +74,7 @@ class Normaliser {
     if (sameWord(words[0], "newmtl")) return newMaterial(line);
     if (result_.materials.empty()) return;
     const std::string word = sameWord(words[0], "Kt") ? "Tf" : words[0];
-    if (const auto colour = spelling(kColours, word)) return colourStatement(*colour, words);
+    if (const auto color = spelling(kColors, word)) return colorStatement(*color, words);
     if (const auto scalar = spelling(kScalars, word)) return scalarStatement(*scalar, words);
     if (sameWord(word, "illum")) return scalarStatement("illum", words);
     if (const auto map = spelling(kMapStatements, word)) return mapStatement(*map, words, line);
@@ -97,9 +97,9 @@ class Normaliser {
     result_.text += keyword + " " + rest + "\n";
   }
 
-  void colourStatement(const std::string& keyword, const std::vector<std::string>& words) {
+  void colorStatement(const std::string& keyword, const std::vector<std::string>& words) {
     if (words.size() > 1 && (words[1] == "spectral" || words[1] == "xyz")) {
-      return warnings_.add("material colour in a form that is not supported", here());
+      return warnings_.add("material color in a form that is not supported", here());
     }
     std::string numbers;
     for (std::size_t i = 1; i <= 3; ++i) {
@@ -163,8 +163,8 @@ class Normaliser {
 
 }  // namespace
 
-MtlText normaliseMtl(const std::string& text, const std::string& file, Warnings& warnings) {
-  return Normaliser(file, warnings).run(text);
+MtlText normalizeMtl(const std::string& text, const std::string& file, Warnings& warnings) {
+  return Normalizer(file, warnings).run(text);
 }
 
 }  // namespace whit

@@ -27,6 +27,6 @@ struct MtlText {
 // Spelling of keywords, numbers that may be left out (`Kd 0.5`, `-s 2 2`), `-halo`. Statements
 // whose form is not understood (`Kd spectral`) are left out with a warning. Throws badScene
 // "file:line" where a number is missing.
-MtlText normaliseMtl(const std::string& text, const std::string& file, Warnings& warnings);
+MtlText normalizeMtl(const std::string& text, const std::string& file, Warnings& warnings);
 
 }  // namespace whit

@@ -34,7 +34,7 @@ class VertexTable {
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
 
-  // The finaliser of MurmurHash3 over the three indices.
+  // The finalizer of MurmurHash3 over the three indices.
   static std::size_t hash(const ObjCorner& c) {
     std::uint64_t h = static_cast<std::uint32_t>(c.position);
     h = (h << 32 | static_cast<std::uint32_t>(c.uv)) ^

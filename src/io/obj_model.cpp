@@ -12,12 +12,12 @@
 namespace whit {
 namespace {
 
-MtlMaterial greyMaterial(const std::string& name, const std::string& where) {
-  MtlMaterial grey;
-  grey.material.name = name;
-  grey.material.diffuse = Rgb(kModelGrey);
-  grey.where = where;
-  return grey;
+MtlMaterial grayMaterial(const std::string& name, const std::string& where) {
+  MtlMaterial gray;
+  gray.material.name = name;
+  gray.material.diffuse = Rgb(kModelGray);
+  gray.where = where;
+  return gray;
 }
 
 // A library's name may hold blanks, or the line may name several libraries: the name that exists.
@@ -68,10 +68,10 @@ void ObjModel::readMaterials() {
       continue;
     }
     const std::string where = path_.string() + ":" + std::to_string(name.line);
-    warnings_.add("material missing, grey instead", where + ": " + name.text);
-    sources_.push_back(greyMaterial(name.text, where));
+    warnings_.add("material missing, gray instead", where + ": " + name.text);
+    sources_.push_back(grayMaterial(name.text, where));
   }
-  sources_.push_back(greyMaterial("default", path_.string()));
+  sources_.push_back(grayMaterial("default", path_.string()));
 }
 
 TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMembers& given,

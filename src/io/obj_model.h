@@ -14,11 +14,11 @@ namespace whit {
 class ObjModel : public Model {
  public:
   // Reads the text and the material libraries. A library or a material that is not there is a
-  // warning; such materials are grey.
+  // warning; such materials are gray.
   ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
            Warnings& warnings);
 
-  // One for each material that faces use, and a grey one last for faces without any.
+  // One for each material that faces use, and a gray one last for faces without any.
   const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override;

@@ -84,7 +84,7 @@ std::string_view trimmed(std::string_view text) {
 
 ObjText::ObjText(std::string text, std::string file)
     : text_(std::move(text)), file_(std::move(file)) {
-  mendLineEnds();
+  repairLineEnds();
   std::size_t nextJoined = 0;
   for (std::size_t begin = 0; begin < text_.size(); ++line_) {
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
@@ -94,7 +94,7 @@ ObjText::ObjText(std::string text, std::string file)
   }
 }
 
-void ObjText::mendLineEnds() {
+void ObjText::repairLineEnds() {
   for (std::size_t i = text_.find('\r'); i != std::string::npos; i = text_.find('\r', i + 1)) {
     if (i + 1 == text_.size() || text_[i + 1] != '\n') text_[i] = '\n';
   }

@@ -24,7 +24,7 @@ struct ObjSummary {
 
 class ObjText {
  public:
-  // Mends what OBJ writers differ in: lines continued by a backslash, bare carriage returns,
+  // Repairs what OBJ writers differ in: lines continued by a backslash, bare carriage returns,
   // comments after faces. Throws badScene "file:line" where v, vn or vt lack numbers.
   ObjText(std::string text, std::string file);
 
@@ -35,7 +35,7 @@ class ObjText {
   std::string placeOf(std::uint64_t offset);
 
  private:
-  void mendLineEnds();
+  void repairLineEnds();
   void readLine(std::size_t begin, std::size_t end);
   void readVertex(std::size_t begin, std::size_t end);
   void readFace(std::size_t begin, std::size_t end);

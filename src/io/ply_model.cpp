@@ -28,7 +28,7 @@ Component componentOf(const std::string& name) {
   return kComponents;
 }
 
-double linearColour(double value, PlyType type) {
+double linearColor(double value, PlyType type) {
   const double largest = type == PlyType::uint8 || type == PlyType::int8     ? 255
                          : type == PlyType::uint16 || type == PlyType::int16 ? 65535
                          : type == PlyType::uint32 || type == PlyType::int32 ? 4294967295.0
@@ -78,27 +78,27 @@ class PlyReader {
       throwBadScene(file_, "expected one element \"vertex\" with x, y and z");
     }
     const bool normals = has[kNx] && has[kNy] && has[kNz], uvs = has[kU] && has[kV];
-    const bool colours = has[kR] && has[kG] && has[kB];
-    if (has[kR] && !colours) warnings_.add("vertex colours that lack a channel left out", file_);
-    reserve(element.count, normals, uvs, colours);
+    const bool colors = has[kR] && has[kG] && has[kB];
+    if (has[kR] && !colors) warnings_.add("vertex colors that lack a channel left out", file_);
+    reserve(element.count, normals, uvs, colors);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       const std::array<float, kComponents> v = readVertex(element, components);
       mesh_.positions.push_back({v[kX], v[kY], v[kZ]});
       if (normals) mesh_.normals.push_back({v[kNx], v[kNy], v[kNz]});
       if (uvs) mesh_.uvs.push_back({v[kU], v[kV]});
-      if (colours) mesh_.colours.push_back({v[kR], v[kG], v[kB]});
+      if (colors) mesh_.colors.push_back({v[kR], v[kG], v[kB]});
     }
   }
 
-  void reserve(std::uint64_t count, bool normals, bool uvs, bool colours) {
+  void reserve(std::uint64_t count, bool normals, bool uvs, bool colors) {
     if (count > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(file_ + " has more than 2^32 - 1 vertices");
     }
-    budget_.charge(count, 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colours ? sizeof(Rgb) : 0), file_);
+    budget_.charge(count, 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colors ? sizeof(Rgb) : 0), file_);
     mesh_.positions.reserve(count);
     if (normals) mesh_.normals.reserve(count);
     if (uvs) mesh_.uvs.reserve(count);
-    if (colours) mesh_.colours.reserve(count);
+    if (colors) mesh_.colors.reserve(count);
   }
 
   std::array<float, kComponents> readVertex(const PlyElement& element,
@@ -109,7 +109,7 @@ class PlyReader {
       const std::uint64_t count = property.isList ? data_.listLength(property) : 1;
       for (std::uint64_t i = 0; i < count; ++i) {
         double value = data_.number(property.type);
-        if (components[p] >= kR) value = linearColour(value, property.type);
+        if (components[p] >= kR) value = linearColor(value, property.type);
         if (components[p] != kComponents) values[components[p]] = static_cast<float>(value);
       }
     }
@@ -179,15 +179,15 @@ class PlyReader {
 PlyModel::PlyModel(const std::filesystem::path& path, const PathRules&, MemoryBudget& budget,
                    Warnings& warnings)
     : file_(path.string()), budget_(budget) {
-  Material grey;
-  grey.name = "default";
-  grey.diffuse = Rgb(kModelGrey);
-  materials_.push_back(grey);
+  Material gray;
+  gray.name = "default";
+  gray.diffuse = Rgb(kModelGray);
+  materials_.push_back(gray);
   const std::string text = readTextFile(path, budget.left());
   budget.charge(text.size(), 1, file_);
   Mesh mesh = PlyReader(text, file_, budget, warnings).read();
   if (mesh.triangles.empty()) return;
-  if (!mesh.colours.empty()) materials_[0].diffuse = Rgb(1.0f);
+  if (!mesh.colors.empty()) materials_[0].diffuse = Rgb(1.0f);
   mesh.name = path.stem().string();
   mesh.materials = {0};
   meshes_.push_back(std::move(mesh));

@@ -15,12 +15,12 @@ namespace whit {
 class PlyModel : public Model {
  public:
   // Reads all of it. Elements other than vertex and face are passed over; faces that
-  // name vertices that are not there, and files without faces are counted. Colours of vertices are
+  // name vertices that are not there, and files without faces are counted. Colors of vertices are
   // sRGB where they are whole numbers, as scanners and their tools write them, else linear.
   PlyModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
            Warnings& warnings);
 
-  // A grey one; white where vertices have colours.
+  // A gray one; white where vertices have colors.
   const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t, Material material, const GivenMembers&,
                             TextureLoader&) override {

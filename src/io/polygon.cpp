@@ -110,7 +110,7 @@ class EarClipper {
     }
     return true;
   }
-  // A corner on the line between its neighbours: its triangle is degenerate, the rest is not.
+  // A corner on the line between its neighbors: its triangle is degenerate, the rest is not.
   std::size_t findFlat() const {
     const std::size_t n = left_.size();
     for (std::size_t i = 0; i < n; ++i) {

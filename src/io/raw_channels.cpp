@@ -49,7 +49,7 @@ RawImage alphaOf(const RawImage& raw) {
 
 bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
-  constexpr float kChromaNoise = 16.0f / 255.0f;  // of a grey picture stored as JPEG
+  constexpr float kChromaNoise = 16.0f / 255.0f;  // of a gray picture stored as JPEG
   const std::size_t count = texelCount(raw);
   for (std::size_t i = 0; i < count; ++i) {
     const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);

@@ -12,8 +12,8 @@ bool hasTranslucentAlpha(const RawImage& raw);
 // The alpha channel as an image of one channel.
 RawImage alphaOf(const RawImage& raw);
 
-// Whether an image named as a bump map holds heights: one or two channels, or grey. Normal maps
-// are never grey: their blue is near 1 where red and green are near 1/2.
+// Whether an image named as a bump map holds heights: one or two channels, or gray. Normal maps
+// are never gray: their blue is near 1 where red and green are near 1/2.
 bool looksLikeHeights(const RawImage& raw);
 
 // The width of a tile, in heights: `-bm 1` raises white above black by 1/kTileHeights of the tile.

@@ -52,7 +52,7 @@ class BodyOrder {
 std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
-         mesh.colours.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
+         mesh.colors.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
          mesh.materials.size() * sizeof(std::uint32_t);
 }
 

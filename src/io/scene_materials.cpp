@@ -14,14 +14,14 @@ namespace {
 constexpr double kLeastIor = 0.1;
 constexpr int kLargestPriority = 1000;
 
-std::vector<std::string> useNames() { return {"colour", "data"}; }
+std::vector<std::string> useNames() { return {"color", "data"}; }
 
 const char* formatName(TexelFormat format) {
-  return format == TexelFormat::colour ? "colour" : "data";
+  return format == TexelFormat::color ? "color" : "data";
 }
 
 TexelFormat formatOf(TextureUse use) {
-  return use == TextureUse::colour ? TexelFormat::colour : TexelFormat::data;
+  return use == TextureUse::color ? TexelFormat::color : TexelFormat::data;
 }
 
 Wrap readWrapWord(const JsonValue& value) {
@@ -131,9 +131,9 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
   readWrap(object, source.wrapU, source.wrapV);
   if (const auto as = object.find("as")) {
     const bool data = as->word(useNames()) == "data";
-    const TexelFormat is = data ? TexelFormat::data : TexelFormat::colour;
+    const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
     if (is != formatOf(use)) failFormat(name, is, formatOf(use));
-    use = data ? TextureUse::data : TextureUse::colour;
+    use = data ? TextureUse::data : TextureUse::color;
   }
   object.finish();
   return context_.textures.add(source, {use})[0];
@@ -158,7 +158,7 @@ void MaterialReader::checkUnused() {
       });
     } else {
       const bool data = as && as->word(useNames()) == "data";
-      load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::colour);
+      load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::color);
     }
   }
 }
@@ -170,23 +170,23 @@ void MaterialReader::readMap(JsonObject& object, const std::string& key, Texture
 }
 
 void MaterialReader::read(JsonObject& object, Material& m) {
-  m.diffuse = object.colour("diffuse", m.diffuse, 1);
-  readMap(object, "diffuseMap", TextureUse::colour, m.diffuseMap);
-  m.specular = object.colour("specular", m.specular, 1);
-  readMap(object, "specularMap", TextureUse::colour, m.specularMap);
+  m.diffuse = object.color("diffuse", m.diffuse, 1);
+  readMap(object, "diffuseMap", TextureUse::color, m.diffuseMap);
+  m.specular = object.color("specular", m.specular, 1);
+  readMap(object, "specularMap", TextureUse::color, m.specularMap);
   m.roughness = object.number("roughness", m.roughness, 0, 1);
-  m.emission = object.colour("emission", m.emission);
-  readMap(object, "emissionMap", TextureUse::colour, m.emissionMap);
+  m.emission = object.color("emission", m.emission);
+  readMap(object, "emissionMap", TextureUse::color, m.emissionMap);
   readMap(object, "normalMap", TextureUse::data, m.normalMap);
   readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
   m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);
   const bool mirrorGiven = object.has("mirror");
-  m.mirror = object.colour("mirror", m.mirror, 1);
-  m.mirrorGrazing = object.colour("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
+  m.mirror = object.color("mirror", m.mirror, 1);
+  m.mirrorGrazing = object.color("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
   const bool transmissionGiven = object.has("transmission");
-  m.transmission = object.colour("transmission", m.transmission, 1);
+  m.transmission = object.color("transmission", m.transmission, 1);
   m.ior = object.number("ior", m.ior, kLeastIor, kLargestIor);
-  m.absorption = object.colour("absorption", m.absorption);
+  m.absorption = object.color("absorption", m.absorption);
   if (const auto priority = object.find("priority")) {
     m.priority = priority->integer(-kLargestPriority, kLargestPriority);
   }

@@ -20,7 +20,7 @@ class MaterialReader {
 
   // The index of the material that the text of `name` stands for.
   std::uint32_t find(const JsonValue& name) const;
-  // Of items that name none: the one called "default", or else a grey one.
+  // Of items that name none: the one called "default", or else a gray one.
   std::uint32_t defaultMaterial();
   // Adds the material as it is, returns its index.
   std::uint32_t add(Material material);

@@ -53,7 +53,7 @@ void readDirection(JsonObject& object, Light& light) {
 void readDirectional(JsonObject& object, Light& light) {
   light.kind = Light::Kind::directional;
   readDirection(object, light);
-  light.intensity = object.need("irradiance").colour();
+  light.intensity = object.need("irradiance").color();
 }
 
 void readCone(JsonObject& object, Light& light) {
@@ -106,7 +106,7 @@ void readLights(JsonObject& file, SceneDescription& scene) {
       readDirectional(object, light);
     } else {
       light.position = Vec3f(object.need("position").vector());
-      light.intensity = object.need("intensity").colour();
+      light.intensity = object.need("intensity").color();
       light.radius = object.number("radius", light.radius, kLeastRadius);
       if (kind == "spot") readCone(object, light);
     }
@@ -126,18 +126,18 @@ void readSky(JsonObject& file, SceneContext& context) {
     sky.rotation = object.number("rotation", sky.rotation);
     const auto path = context.rules.resolve(image->text(), context.folder, image->where());
     context.textures.addEnvironment(path.string(), sky.image);
-  } else if (const auto colour = object.find("colour")) {
-    sky.kind = Sky::Kind::colour;
-    sky.zenith = sky.horizon = sky.ground = colour->colour();
+  } else if (const auto color = object.find("color")) {
+    sky.kind = Sky::Kind::color;
+    sky.zenith = sky.horizon = sky.ground = color->color();
   } else if (const auto zenith = object.find("zenith")) {
     sky.kind = Sky::Kind::gradient;
-    sky.zenith = zenith->colour();
-    sky.horizon = object.need("horizon").colour();
-    sky.ground = object.need("ground").colour();
+    sky.zenith = zenith->color();
+    sky.horizon = object.need("horizon").color();
+    sky.ground = object.need("ground").color();
   } else {
     object.finish();
     value->fail(
-        "a sky with \"colour\", with \"zenith\", \"horizon\" and \"ground\", or with \"image\"");
+        "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", or with \"image\"");
   }
   object.finish();
 }
@@ -150,14 +150,14 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   if (const auto strength = object.find("fromSky")) {
     fromSky = strength->number(0);
     if (scene.sky.kind == Sky::Kind::none) strength->fail("a scene with a sky");
-  } else if (const auto colour = object.find("colour")) {
-    scene.ambient.up = scene.ambient.down = colour->colour();
+  } else if (const auto color = object.find("color")) {
+    scene.ambient.up = scene.ambient.down = color->color();
   } else if (const auto up = object.find("up")) {
-    scene.ambient.up = up->colour();
-    scene.ambient.down = object.need("down").colour();
+    scene.ambient.up = up->color();
+    scene.ambient.down = object.need("down").color();
   } else {
     object.finish();
-    value->fail("\"fromSky\", \"colour\", or \"up\" and \"down\"");
+    value->fail("\"fromSky\", \"color\", or \"up\" and \"down\"");
   }
   object.finish();
   return fromSky;

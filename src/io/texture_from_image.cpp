@@ -37,21 +37,21 @@ std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, 
   }
 }
 
-// The 10 bits that a colour texel keeps of each sRGB code: the same for every image, so the square
+// The 10 bits that a color texel keeps of each sRGB code: the same for every image, so the square
 // roots are taken once.
-const std::array<std::uint32_t, 256>& colourBitsOfCode() {
+const std::array<std::uint32_t, 256>& colorBitsOfCode() {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> bits{};
     for (std::size_t code = 0; code < 256; ++code)
-      bits[code] = encodeColourTexel({linearOfCode()[code], 0, 0}) & 1023u;
+      bits[code] = encodeColorTexel({linearOfCode()[code], 0, 0}) & 1023u;
     return bits;
   }();
   return table;
 }
 
 std::uint32_t texelOfCodes(const std::array<std::uint8_t, 4>& c, TexelFormat format) {
-  if (format == TexelFormat::colour) {
-    const auto& bits = colourBitsOfCode();
+  if (format == TexelFormat::color) {
+    const auto& bits = colorBitsOfCode();
     return bits[c[0]] | bits[c[1]] << 10 | bits[c[2]] << 20;
   }
   return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 |
@@ -59,7 +59,7 @@ std::uint32_t texelOfCodes(const std::array<std::uint8_t, 4>& c, TexelFormat for
 }
 
 std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
-  if (format == TexelFormat::colour) return encodeColourTexel({v[0], v[1], v[2]});
+  if (format == TexelFormat::color) return encodeColorTexel({v[0], v[1], v[2]});
   return encodeDataTexel(v[0], v[1], v[2], v[3]);
 }
 

@@ -18,8 +18,8 @@ std::uint64_t texelsOf(const RawImage& raw) {
 std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
                                const TextureSource& source) {
   switch (use) {
-    case TextureUse::colour:
-      return makeTexture(name, raw, TexelFormat::colour);
+    case TextureUse::color:
+      return makeTexture(name, raw, TexelFormat::color);
     case TextureUse::data:
       return makeTexture(name, raw, TexelFormat::data);
     case TextureUse::bump:
@@ -28,7 +28,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, Tex
     case TextureUse::mask:
       return hasTranslucentAlpha(raw) ? makeTexture(name, alphaOf(raw), TexelFormat::data)
                                       : makeTexture(name, raw, TexelFormat::data);
-    case TextureUse::colourAlpha:
+    case TextureUse::colorAlpha:
       if (!hasTranslucentAlpha(raw)) return std::nullopt;
       return makeTexture(name, alphaOf(raw), TexelFormat::data);
   }
@@ -113,7 +113,7 @@ ImageLimits TextureLoader::limits() const {
 }
 
 MemoryHold TextureLoader::holdCopy(const RawImage& raw, TextureUse use) {
-  const bool copies = use == TextureUse::mask || use == TextureUse::colourAlpha;
+  const bool copies = use == TextureUse::mask || use == TextureUse::colorAlpha;
   return {&budget_, copies ? texelsOf(raw) : 0, raw.linear ? sizeof(float) : 1, "an alpha channel"};
 }
 
@@ -148,7 +148,7 @@ void TextureLoader::decode(const TextureSource& source, const std::vector<Textur
 void TextureLoader::finish(SceneDescription& scene) {
   queue_.finish();
   for (const auto& change : changes_) change(scene);
-  // Only what some material refers to is kept: a colour without alpha leaves an empty slot, and an
+  // Only what some material refers to is kept: a color without alpha leaves an empty slot, and an
   // override may have replaced a map.
   std::vector<std::int32_t> number(slots_.size(), kNoTexture);
   const auto renumber = [&](std::int32_t& map) {

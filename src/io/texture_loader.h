@@ -21,11 +21,11 @@ namespace whit {
 
 // What an image is used for.
 enum class TextureUse {
-  colour,
+  color,
   data,
-  bump,         // a height map becomes a normal map, a normal map stays what it is
-  mask,         // alpha, if any texel is not opaque; else the first channel
-  colourAlpha,  // alpha, if any texel is not opaque; else no texture at all
+  bump,        // a height map becomes a normal map, a normal map stays what it is
+  mask,        // alpha, if any texel is not opaque; else the first channel
+  colorAlpha,  // alpha, if any texel is not opaque; else no texture at all
 };
 
 struct TextureSource {

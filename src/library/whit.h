@@ -36,7 +36,7 @@ class Error : public std::runtime_error {
 
 struct LoadOptions {
   bool allowOutside = false;  // a scene may name files outside its own folder and $WHIT_DATA
-  bool strict = false;        // what would be mended is an error
+  bool strict = false;        // what would be repaired is an error
   double maxMemoryGb = 16;    // 10^9 bytes that geometry and images may take
   int threads = 0;            // 0: what affinity and cgroup quota allow
 };
@@ -49,7 +49,7 @@ class Scene {
   std::vector<std::string> cameras() const;
   double pathSeconds() const;                 // when its camera path ends; 0 without a path
   std::uint64_t triangles() const;            // as seen, instances multiplied out
-  std::vector<std::string> warnings() const;  // what was mended while loading
+  std::vector<std::string> warnings() const;  // what was repaired while loading
 
  private:
   friend class Renderer;

@@ -24,7 +24,7 @@ struct Plane {
 // Weights at -radius .. radius, so always an odd number of them.
 using Taps = std::vector<float>;
 
-// Each value is the sum of taps[i] * neighbour i; beyond the border the nearest value is repeated.
+// Each value is the sum of taps[i] * neighbor i; beyond the border the nearest value is repeated.
 Plane filterAlongX(const Plane& plane, const Taps& taps);
 Plane filterAlongY(const Plane& plane, const Taps& taps);
 

@@ -17,7 +17,7 @@ namespace whit {
 namespace {
 
 constexpr double kPixelsPerDegree = 67;           // a 0.7 m wide 3840 pixel display seen from 0.7 m
-constexpr double kColourExponent = 0.7;           // q_c
+constexpr double kColorExponent = 0.7;            // q_c
 constexpr double kKnee = 0.4, kKneeError = 0.95;  // p_c, p_t
 constexpr double kFeatureWidth = 0.082;           // w, degrees
 constexpr float kFeatureExponent = 0.5f;          // q_f
@@ -37,17 +37,17 @@ struct Matrix {
   }
 };
 
-// XYZ here is always relative to the white of (1, 1, 1), so that grey has X = Y = Z.
-struct ColourSpace {
+// XYZ here is always relative to the white of (1, 1, 1), so that gray has X = Y = Z.
+struct ColorSpace {
   Matrix toXyz, toRgb;
 };
-const ColourSpace& colourSpace() {
-  static const ColourSpace space = [] {
+const ColorSpace& colorSpace() {
+  static const ColorSpace space = [] {
     std::array<Vec3d, 3> m = kRgbToXyz;
     for (Vec3d& row : m) row = row / (row.x + row.y + row.z);
     const Vec3d a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
     const double determinant = dot(m[0], a);
-    ColourSpace s;
+    ColorSpace s;
     for (std::size_t i = 0; i < 3; ++i) {
       const int k = static_cast<int>(i);
       s.toXyz.rows[i] = Vec3f(m[i]);
@@ -82,7 +82,7 @@ std::vector<Rgb> linearOf(const DisplayImage& image) {
 }
 
 Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
-  const Matrix& toXyz = colourSpace().toXyz;
+  const Matrix& toXyz = colorSpace().toXyz;
   Planes planes;
   planes.fill(Plane(width, height));
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -92,7 +92,7 @@ Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
   return planes;
 }
 
-Taps normalised(const std::vector<double>& weights) {
+Taps normalized(const std::vector<double>& weights) {
   double sum = 0;
   for (const double w : weights) sum += w;
   Taps taps;
@@ -121,7 +121,7 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
       weights.push_back(std::exp(-std::numbers::pi * std::numbers::pi * d * d / g.b));
       line += weights.back();
     }
-    taps.push_back(normalised(weights));
+    taps.push_back(normalized(weights));
     masses.push_back(g.a * std::sqrt(std::numbers::pi / g.b) * line * line);
     total += masses.back();
   }
@@ -133,13 +133,13 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
   return sum;
 }
 
-// 3.1.2: L*a*b* with Hunt's adjustment: colours lose their chroma with their lightness.
+// 3.1.2: L*a*b* with Hunt's adjustment: colors lose their chroma with their lightness.
 Vec3f huntLab(const Vec3f& rgb) {
   constexpr float kDelta = 6.0f / 29.0f;
   const auto f = [](float t) {
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29.0f;
   };
-  const Vec3f xyz = colourSpace().toXyz * rgb;
+  const Vec3f xyz = colorSpace().toXyz * rgb;
   const float x = f(xyz.x), y = f(xyz.y), z = f(xyz.z);
   const float lightness = 116 * y - 16;
   return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
@@ -153,8 +153,8 @@ float hyAb(const Vec3f& p, const Vec3f& q) {
 // reach, the rest.
 float redistribute(float distance) {
   static const double largest =
-      std::pow(static_cast<double>(hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))), kColourExponent);
-  const double powered = std::pow(static_cast<double>(distance), kColourExponent);
+      std::pow(static_cast<double>(hyAb(huntLab({0, 1, 0}), huntLab({0, 0, 1}))), kColorExponent);
+  const double powered = std::pow(static_cast<double>(distance), kColorExponent);
   const double knee = kKnee * largest;
   return static_cast<float>(powered < knee ? powered * kKneeError / knee
                                            : kKneeError + (powered - knee) / (largest - knee) *
@@ -165,7 +165,7 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   const Planes filtered{filterContrast(opponent[0], {{1, 0.0047}}),
                         filterContrast(opponent[1], {{1, 0.0053}}),
                         filterContrast(opponent[2], {{34.1, 0.04}, {13.5, 0.025}})};
-  const Matrix& toRgb = colourSpace().toRgb;
+  const Matrix& toRgb = colorSpace().toRgb;
   std::vector<Vec3f> lab;
   lab.reserve(filtered[0].values.size());
   for (std::size_t i = 0; i < filtered[0].values.size(); ++i) {
@@ -200,7 +200,7 @@ FeatureTaps makeFeatureTaps() {
     edge.push_back(-x * g);
     point.push_back((square - 1) * g);
   }
-  return {normalised(gaussian), balanced(edge), balanced(point)};
+  return {normalized(gaussian), balanced(edge), balanced(point)};
 }
 
 std::vector<float> magnitudes(const Plane& x, const Plane& y) {
@@ -234,12 +234,12 @@ FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height) {
 std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
   std::vector<float> flip(a.lab.size());
   for (std::size_t i = 0; i < flip.size(); ++i) {
-    const float colour = redistribute(hyAb(a.lab[i], b.lab[i]));
+    const float color = redistribute(hyAb(a.lab[i], b.lab[i]));
     const float feature =
         std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i]));
     const float scaled = std::pow(feature / std::sqrt(2.0f), kFeatureExponent);
     // 3.3
-    flip[i] = std::pow(colour, 1 - std::min(scaled, 1.0f));
+    flip[i] = std::pow(color, 1 - std::min(scaled, 1.0f));
   }
   return flip;
 }

@@ -5,16 +5,16 @@
 
 #include "core/display.h"
 #include "metrics/codes.h"
-#include "metrics/heat_colour.h"
+#include "metrics/heat_color.h"
 #include "metrics/metrics.h"
 
 namespace whit {
 
 namespace {
 
-using Colour = std::array<std::uint8_t, 3>;
+using Color = std::array<std::uint8_t, 3>;
 
-constexpr int kLargest = 16;  // codes; differences beyond have the last colour
+constexpr int kLargest = 16;  // codes; differences beyond have the last color
 constexpr std::array<int, 6> kTicks = {0, 1, 2, 4, 8, 16};
 
 // The scale beneath the image, in rows of its own pixels from the top: gap, bar, ticks, digits,
@@ -48,24 +48,24 @@ class ScalePainter {
 
   int columns() const { return image_.width / zoom_; }
 
-  void set(int x, int y, const Colour& colour) {
+  void set(int x, int y, const Color& color) {
     for (int dy = 0; dy < zoom_; ++dy)
       for (int dx = 0; dx < zoom_; ++dx) {
         const int row = top_ + y * zoom_ + dy, column = x * zoom_ + dx;
         const std::size_t pixel = static_cast<std::size_t>(row) * image_.width + column;
-        std::copy(colour.begin(), colour.end(), image_.rgba.data() + 4 * pixel);
+        std::copy(color.begin(), color.end(), image_.rgba.data() + 4 * pixel);
       }
   }
 
-  void digits(int centre, int y, const std::string& text, const Colour& colour) {
-    int left = centre - (4 * static_cast<int>(text.size()) - 1) / 2;
+  void digits(int center, int y, const std::string& text, const Color& color) {
+    int left = center - (4 * static_cast<int>(text.size()) - 1) / 2;
     for (const char c : text) {
       for (int row = 0; row < 5; ++row)
         for (int column = 0; column < 3; ++column)
           if (kDigits[static_cast<std::size_t>(c - '0')][static_cast<std::size_t>(row)] >>
                   (2 - column) &
               1)
-            set(left + column, y + row, colour);
+            set(left + column, y + row, color);
       left += 4;
     }
   }
@@ -76,11 +76,11 @@ class ScalePainter {
 };
 
 void drawScale(ScalePainter painter) {
-  constexpr Colour kInk{255, 255, 255};
+  constexpr Color kInk{255, 255, 255};
   const int length = painter.columns() - 2 * kMargin - 1;
   for (int x = 0; x <= length; ++x)
     for (int y = 0; y < kBarRows; ++y)
-      painter.set(kMargin + x, kBarTop + y, heatColour(static_cast<double>(x) / length));
+      painter.set(kMargin + x, kBarTop + y, heatColor(static_cast<double>(x) / length));
   for (const int tick : kTicks) {
     const int x = kMargin + static_cast<int>(std::lround(position(tick) * length));
     for (int y = 0; y < kTickRows; ++y) painter.set(x, kBarTop + kBarRows + y, kInk);
@@ -90,17 +90,17 @@ void drawScale(ScalePainter painter) {
 
 }  // namespace
 
-std::array<std::uint8_t, 3> heatColour(double t) {
+std::array<std::uint8_t, 3> heatColor(double t) {
   constexpr std::array<std::array<double, 3>, 5> kStops{
       {{0, 0, 0}, {70, 20, 120}, {180, 50, 100}, {245, 130, 40}, {255, 245, 170}}};
   const double at = t * (kStops.size() - 1);
   const std::size_t low = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   const double f = at - static_cast<double>(low);
-  std::array<std::uint8_t, 3> colour{};
+  std::array<std::uint8_t, 3> color{};
   for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = static_cast<std::uint8_t>(
+    color[c] = static_cast<std::uint8_t>(
         std::lround(kStops[low][c] + f * (kStops[low + 1][c] - kStops[low][c])));
-  return colour;
+  return color;
 }
 
 DisplayImage heatMap(const Image& a, const Image& b) {
@@ -116,14 +116,14 @@ DisplayImage heatMap(const Image& a, const Image& b) {
       std::size_t{4} * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
       0);
   for (std::size_t i = 3; i < map.rgba.size(); i += 4) map.rgba[i] = 255;
-  std::array<Colour, 256> colours{};
+  std::array<Color, 256> colors{};
   for (int code = 0; code < 256; ++code)
-    colours[static_cast<std::size_t>(code)] = heatColour(position(code));
+    colors[static_cast<std::size_t>(code)] = heatColor(position(code));
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const std::size_t x = i % static_cast<std::size_t>(width);
     const std::size_t y = i / static_cast<std::size_t>(width);
-    const Colour& colour = colours[codes[i]];
-    std::copy(colour.begin(), colour.end(),
+    const Color& color = colors[codes[i]];
+    std::copy(color.begin(), color.end(),
               map.rgba.data() + 4 * (y * static_cast<std::size_t>(map.width) + x));
   }
   drawScale(ScalePainter(map, height, zoom));

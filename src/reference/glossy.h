@@ -1,7 +1,7 @@
 // Rays that a rough surface reflects: samples of its GGX lobe.
 #pragma once
 
-#include "core/path_numbers.h"
+#include "core/random_streams.h"
 #include "reference/impulses.h"
 
 namespace whit::reference {

@@ -28,7 +28,7 @@ class Intersector {
   virtual ~Intersector() = default;
   // The nearest triangle along the ray; alpha masks are respected. False: none.
   virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
-  // Whether something that casts shadows lies at 0 < t < tFar (direction not normalised).
+  // Whether something that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };
 

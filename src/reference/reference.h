@@ -18,8 +18,8 @@ namespace whit::reference {
 
 struct Settings {
   int spp = 1;
-  // Several samples only where findEdges says so, in the picture of pixels' centres as it would be
-  // displayed, and all of them only where the pilot samples do.
+  // Several samples only where findEdges says so, in the picture of pixels' centers as it would be
+  // displayed, and all of them only where the probe samples do.
   bool adaptive = false;
   int contrast = kDefaultContrast;
   float exposure = 0;
@@ -64,9 +64,9 @@ class Tracer {
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // Through one place of the sample pattern.
   RgbD sample(const CameraFrame& camera, int x, int y, std::size_t number, RayCounts& counts) const;
-  // Through the pixel's centre alone, and what that ray meets.
-  RgbD centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
-  PixelSurface surfaceAtCentre(const CameraFrame& camera, int x, int y) const;
+  // Through the pixel's center alone, and what that ray meets.
+  RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;
 
  private:
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,

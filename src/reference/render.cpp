@@ -10,9 +10,9 @@
 
 #include "core/display.h"
 #include "core/film.h"
-#include "reference/eye_media.h"
+#include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
-#include "scene/pilots.h"
+#include "scene/probe_samples.h"
 
 namespace whit::reference {
 
@@ -51,31 +51,31 @@ RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const 
   return sum;
 }
 
-// The picture of pixels' centres, and what is seen there.
+// The picture of pixels' centers, and what is seen there.
 struct FirstPicture {
   Image image;
   std::vector<PixelSurface> surfaces;
 };
 
-RayCounts traceCentres(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+RayCounts traceCenters(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                        FirstPicture& first, Progress* progress) {
   Image& image = first.image;
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      first.surfaces[image.index(x, y)] = tracer.surfaceAtCentre(frame, x, y);
-      image.at(x, y) = keptAs(settings.film, Rgb(tracer.centre(frame, x, y, rowCounts)));
+      first.surfaces[image.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
+      image.at(x, y) = quantized(settings.film, Rgb(tracer.center(frame, x, y, rowCounts)));
     }
   });
 }
 
-// Pixels at edges: the mean of the pilot samples, and those samples' codes.
-RayCounts tracePilots(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
+// Pixels at edges: the mean of the probe samples, and those samples' codes.
+RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                       const Crop& window, const std::vector<std::uint8_t>& edges,
-                      FirstPicture& first, Pilots& pilots, Progress* progress) {
+                      FirstPicture& first, ProbeSamples& probes, Progress* progress) {
   const double scale = std::exp2(static_cast<double>(settings.exposure));
-  const int samples = std::min(settings.spp, kPilotSamples);
+  const int samples = std::min(settings.spp, kProbeSamples);
   const auto trace = [&](int x, int y, RayCounts& counts) {
-    PilotSamples& own = pilots.at(x, y);
+    PixelProbes& own = probes.at(x, y);
     for (int s = 0; s < samples; ++s) {
       const auto number = static_cast<std::size_t>(s);
       const RgbD value = tracer.sample(frame, x, y, number, counts);
@@ -83,7 +83,7 @@ RayCounts tracePilots(const Tracer& tracer, const CameraFrame& frame, const Sett
       const auto codes = displayCodes(Rgb(value), scale, settings.toneCurve, settings.srgb);
       own.codes[number] = codes[0] | std::uint32_t{codes[1]} << 8 | std::uint32_t{codes[2]} << 16;
     }
-    first.image.at(x, y) = keptAs(settings.film, Rgb(own.total));
+    first.image.at(x, y) = quantized(settings.film, Rgb(own.total));
   };
   return forEachRow(window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = window.x0; x < window.x1; ++x) {
@@ -92,7 +92,7 @@ RayCounts tracePilots(const Tracer& tracer, const CameraFrame& frame, const Sett
   });
 }
 
-// The centres of all pixels first; where that picture has edges then the pilot samples, and all
+// The centers of all pixels first; where that picture has edges then the probe samples, and all
 // where these differ.
 RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                            Image& image, Progress* progress) {
@@ -100,26 +100,27 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   first.image =
       Image(image.width, image.height, grown(image.window, kPassReach, image.width, image.height));
   first.surfaces.resize(first.image.pixels.size());
-  RayCounts counts = traceCentres(tracer, frame, settings, first, progress);
+  RayCounts counts = traceCenters(tracer, frame, settings, first, progress);
   std::vector<std::uint8_t> edges(first.image.pixels.size());
   const DisplayImage display =
       toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
   findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
-  Pilots pilots(first.image.window, edges, samplePattern(std::max(settings.spp, kPilotSamples)));
-  counts += tracePilots(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
-                        edges, first, pilots, progress);
+  ProbeSamples probes(first.image.window, edges,
+                      samplePattern(std::max(settings.spp, kProbeSamples)));
+  counts += traceProbes(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
+                        edges, first, probes, progress);
   const auto refined = [&](int x, int y, RayCounts& rowCounts) {
-    RgbD mean = pilots.at(x, y).total;
-    for (int s = kPilotSamples; s < settings.spp; ++s) {
+    RgbD mean = probes.at(x, y).total;
+    for (int s = kProbeSamples; s < settings.spp; ++s) {
       const auto number = static_cast<std::size_t>(s);
       mean += (tracer.sample(frame, x, y, number, rowCounts) - mean) / (s + 1.0);
     }
-    return keptAs(settings.film, Rgb(mean));
+    return quantized(settings.film, Rgb(mean));
   };
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      const bool more = settings.spp > kPilotSamples && edges[first.image.index(x, y)] != 0 &&
-                        pilots.differ(x, y, settings.contrast);
+      const bool more = settings.spp > kProbeSamples && edges[first.image.index(x, y)] != 0 &&
+                        probes.differ(x, y, settings.contrast);
       image.at(x, y) = more ? refined(x, y, rowCounts) : first.image.at(x, y);
     }
   });
@@ -131,12 +132,12 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-  frame.media = mediaAround(scene, settings.effects, intersector, frame.eye);
+  frame.media = initialMediumStack(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
   if (settings.adaptive) return renderAdaptively(tracer, frame, settings, image, progress);
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      image.at(x, y) = keptAs(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));
+      image.at(x, y) = quantized(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));
     }
   });
 }

@@ -9,7 +9,7 @@ namespace whit::reference {
 // Radiance of the sky along the unit direction, black where the effects leave it out.
 RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction);
 
-// Emission, and the ambient light reflected by the diffuse colour.
+// Emission, and the ambient light reflected by the diffuse color.
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
 
 // The glossy lobe's reflectance density (1/sr) towards the viewer for light from the unit direction
@@ -21,7 +21,7 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight);
 
 struct LightArrival {
   RgbD radiance;    // towards the viewer if nothing is in between; all 0: no need to look
-  Ray shadowRay;    // from the surfel to the light, not normalised
+  Ray shadowRay;    // from the surfel to the light, not normalized
   double tFar = 0;  // a little before the light; infinite where it is directional
 };
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,

@@ -63,13 +63,12 @@ class Lookups {
 
   const float* uvs(bool second) const { return scene_.uvsOf(triangle_, second); }
 
-  RgbD colour(std::int32_t map, bool second) const {
+  RgbD color(std::int32_t map, bool second) const {
     const TexturePoint at = texturePoint(uvs(second), hit_);
     if (how_.filter != TextureFilter::trilinear) {
-      return sampleColour(textureOf(map), at.u, at.v, how_.filter);
+      return sampleColor(textureOf(map), at.u, at.v, how_.filter);
     }
-    return sampleColour(*how_.maps, static_cast<std::size_t>(map), at.u, at.v,
-                        levelOf(map, second));
+    return sampleColor(*how_.maps, static_cast<std::size_t>(map), at.u, at.v, levelOf(map, second));
   }
   DataSample data(std::int32_t map, bool second) const {
     const TexturePoint at = texturePoint(uvs(second), hit_);
@@ -134,40 +133,40 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
   }
 }
 
-// Of the vertices: the first corner's and what the others add to it, so that one colour at all
-// corners is that colour exactly.
-RgbD vertexColour(const ColourRecord& record, const TriangleHit& hit) {
-  const RgbD c0 = triple(record.colour);
+// Of the vertices: the first corner's and what the others add to it, so that one color at all
+// corners is that color exactly.
+RgbD vertexColor(const ColorRecord& record, const TriangleHit& hit) {
+  const RgbD c0 = triple(record.color);
   const RgbD there =
-      c0 + (triple(record.colour + 3) - c0) * hit.u + (triple(record.colour + 6) - c0) * hit.v;
+      c0 + (triple(record.color + 3) - c0) * hit.u + (triple(record.color + 6) - c0) * hit.v;
   return max(there, RgbD(0.0));
 }
 
-void tint(const RgbD& colour, VertexTint what, Surfel& s) {
+void tint(const RgbD& color, VertexTint what, Surfel& s) {
   if (what == VertexTint::emission) {
-    s.emission = s.emission * colour;
+    s.emission = s.emission * color;
     return;
   }
-  s.diffuse = s.diffuse * colour;
-  if (what == VertexTint::diffuseAndSpecular) s.specular = s.specular * colour;
+  s.diffuse = s.diffuse * color;
+  if (what == VertexTint::diffuseAndSpecular) s.specular = s.specular * color;
 }
 
-void findColours(const Scene& scene, EffectSet effects, std::uint32_t number,
-                 const TriangleHit& hit, const Lookups& lookups, Surfel& s) {
+void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, const TriangleHit& hit,
+                const Lookups& lookups, Surfel& s) {
   const TriangleRecord& triangle = scene.triangles[number];
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
   const auto textured = [&](const Rgb& factor, std::int32_t map, bool second = false) {
     if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
-    return RgbD(factor) * lookups.colour(map, second);
+    return RgbD(factor) * lookups.color(map, second);
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
   if (effects.has(Effect::emissionMaps)) {
     s.emission = textured(Rgb(1.0f), material.emissionMap, material.emissionBySecondUvs);
   }
-  if (effects.has(Effect::vertexColours) && !scene.colours.empty()) {
-    tint(vertexColour(scene.colours[number], hit), material.vertexTint, s);
+  if (effects.has(Effect::vertexColors) && !scene.colors.empty()) {
+    tint(vertexColor(scene.colors[number], hit), material.vertexTint, s);
   }
   const double roughness = std::max(material.roughness, kMinRoughness);
   s.alpha = roughness * roughness;
@@ -244,7 +243,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
     s.shadingNormal = -s.shadingNormal;
   }
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
-  findColours(scene, effects, candidate.triangle, hit, lookups, s);
+  findColors(scene, effects, candidate.triangle, hit, lookups, s);
   return s;
 }
 

@@ -21,7 +21,7 @@ struct Surfel {
   double offset = 0;      // how far along the geometric normal a new ray must start
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
-  RgbD diffuse, specular;  // textures and vertex colours applied
+  RgbD diffuse, specular;  // textures and vertex colors applied
   RgbD emission{1, 1, 1};  // what they multiply the material's by
   double alpha = 1;        // width of the glossy lobe (GGX), roughness squared
   RayCone cone;            // of rays that go on from here

@@ -59,7 +59,7 @@ double filtered(const Texture& texture, double u, double v, TextureFilter filter
 
 }  // namespace
 
-RgbD sampleColour(const Texture& texture, double u, double v, TextureFilter filter) {
+RgbD sampleColor(const Texture& texture, double u, double v, TextureFilter filter) {
   const auto channel = [&](int shift) {
     return filtered(texture, u, v, filter, [shift](std::uint32_t texel) {
       const double root = (texel >> shift & 1023u) / 1023.0;
@@ -81,11 +81,11 @@ double mipLevel(double area) {
   return area > 1 ? 0.5 * std::log2(std::min(area, double{kLargestArea})) : 0;
 }
 
-RgbD sampleColour(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
+RgbD sampleColor(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
   const int lower = static_cast<int>(level);
   const double between = level - lower;
-  const RgbD a = sampleColour(maps.level(texture, lower), u, v),
-             b = sampleColour(maps.level(texture, lower + 1), u, v);
+  const RgbD a = sampleColor(maps.level(texture, lower), u, v),
+             b = sampleColor(maps.level(texture, lower + 1), u, v);
   return a + (b - a) * between;
 }
 

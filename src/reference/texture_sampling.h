@@ -6,11 +6,11 @@
 
 namespace whit::reference {
 
-// u to the right, v upwards; texel centres lie at half-integers. Coordinates that are not finite or
+// u to the right, v upwards; texel centers lie at half-integers. Coordinates that are not finite or
 // beyond 2^20 either way, where a float holds no fraction of a texel any more, count as 0.
-// Linear light, of a texture in TexelFormat::colour.
-RgbD sampleColour(const Texture& texture, double u, double v,
-                  TextureFilter filter = TextureFilter::bilinear);
+// Linear light, of a texture in TexelFormat::color.
+RgbD sampleColor(const Texture& texture, double u, double v,
+                 TextureFilter filter = TextureFilter::bilinear);
 
 struct DataSample {
   double r = 0, g = 0, b = 0, a = 0;
@@ -24,7 +24,7 @@ DataSample sampleData(const Texture& texture, double u, double v,
 double mipLevel(double area);
 
 // Bilinear lookups in the levels below and above `level`, mixed by its fraction.
-RgbD sampleColour(const MipMaps& maps, std::size_t texture, double u, double v, double level);
+RgbD sampleColor(const MipMaps& maps, std::size_t texture, double u, double v, double level);
 DataSample sampleData(const MipMaps& maps, std::size_t texture, double u, double v, double level);
 
 }  // namespace whit::reference

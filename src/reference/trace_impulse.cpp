@@ -2,8 +2,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/path_numbers.h"
 #include "core/pixel.h"
+#include "core/random_streams.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"
 #include "reference/impulses.h"
@@ -19,10 +19,10 @@ namespace {
 
 Path pathOf(int x, int y, std::size_t sample) {
   const auto number = static_cast<std::uint32_t>(sample);
-  return {pathOfPixel(packedPixel(x, y), number), number};
+  return {streamOfPixel(packedPixel(x, y), number), number};
 }
 Path childOf(const Path& path, std::uint32_t branch) {
-  return {childPath(path.number, branch), path.sample};
+  return {childStream(path.number, branch), path.sample};
 }
 
 PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
@@ -146,7 +146,7 @@ RgbD Tracer::sample(const CameraFrame& camera, int x, int y, std::size_t number,
   return sampled(camera, x, y, samples_[number], number, counts);
 }
 
-RgbD Tracer::centre(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
 }
 
@@ -157,7 +157,7 @@ RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, s
   return traceImpulse(ray, 0, 1.0, camera.media, counts, pathOf(x, y, sample));
 }
 
-PixelSurface Tracer::surfaceAtCentre(const CameraFrame& camera, int x, int y) const {
+PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
   const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) return {};

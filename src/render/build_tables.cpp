@@ -114,13 +114,13 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   // What rays that miss read, masked; a scene may be empty.
   static const TriangleRecord nowhere{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}, 0};
   static const NormalRecord flat{};
-  static const ColourRecord white{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
+  static const ColorRecord white{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
   ShadingTables tables;
   tables.triangles = scene.triangles.empty() ? &nowhere : scene.triangles.data();
   tables.normals = scene.normals.empty() ? &flat : scene.normals.data();
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);
-  tables.colours = scene.colours.empty() ? &white : scene.colours.data();
-  tables.colourStride = scene.colours.empty() ? 0 : sizeof(ColourRecord) / sizeof(float);
+  tables.colors = scene.colors.empty() ? &white : scene.colors.data();
+  tables.colorStride = scene.colors.empty() ? 0 : sizeof(ColorRecord) / sizeof(float);
   tables.secondUvs = scene.secondUvs.empty() ? nullptr : scene.secondUvs.data();
   tables.shading = shading;
   addMaterials(scene, effects, tables);

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "core/pixel.h"
-#include "render/false_colours.h"
+#include "render/false_colors.h"
 #include "render/pixel_tracker.h"
 #include "render/renderer_parts.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr EffectColour kEffectColours[] = {
+constexpr EffectColor kEffectColors[] = {
     {Effect::textures, {0.25f, 0.25f, 0.25f}},   {Effect::normalMaps, {0.35f, 0.05f, 0.35f}},
     {Effect::alphaMasks, {0.05f, 0.35f, 0.05f}}, {Effect::glossy, {0.45f, 0.4f, 0.0f}},
     {Effect::emission, {0.7f, 0.25f, 0.0f}},     {Effect::mirror, {0.0f, 0.2f, 0.65f}},
@@ -33,10 +33,10 @@ EffectSet effectsOf(const Material& m) {
   return e;
 }
 
-Rgb colourOf(EffectSet effects) {
+Rgb colorOf(EffectSet effects) {
   Rgb sum{0, 0, 0};
-  for (const EffectColour& c : kEffectColours) {
-    if (effects.has(c.effect)) sum += Rgb{c.colour[0], c.colour[1], c.colour[2]};
+  for (const EffectColor& c : kEffectColors) {
+    if (effects.has(c.effect)) sum += Rgb{c.color[0], c.color[1], c.color[2]};
   }
   return sum;
 }
@@ -122,7 +122,7 @@ class Watcher : public StageObserver {
       if (view_ == DebugView::effects) {
         const EffectSet sky = EffectSet().with(Effect::sky);
         const EffectSet all = hit ? effectsOf(parts_.scene.materials[s.material[i]]) : sky;
-        add(chunk, i, colourOf(EffectSet(all.bits() & parts_.plan.effects.bits())), 1);
+        add(chunk, i, colorOf(EffectSet(all.bits() & parts_.plan.effects.bits())), 1);
       } else if (!hit) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
@@ -146,7 +146,7 @@ class Watcher : public StageObserver {
 
 }  // namespace
 
-std::span<const EffectColour> effectColours() { return kEffectColours; }
+std::span<const EffectColor> effectColors() { return kEffectColors; }
 
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
   Renderer::Parts& parts = renderer.parts();
@@ -170,10 +170,10 @@ DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film,
       break;
     case DebugView::normals:
     case DebugView::effects:
-      paintColours(pixels, false, film.display);
+      paintColors(pixels, false, film.display);
       break;
     case DebugView::albedo:
-      paintColours(pixels, true, film.display);
+      paintColors(pixels, true, film.display);
       break;
     case DebugView::none:
       break;

@@ -1,4 +1,4 @@
-// What else there is to see of a frame than its colours: for finding out, not for speed.
+// What else there is to see of a frame than its colors: for finding out, not for speed.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo"
 
 struct DebugFrame {
   FrameStats stats;  // of one worker, who was looked at all the time
-  // What the colours stand for, for people: "rays a pixel, from 1 to 23".
+  // What the colors stand for, for people: "rays a pixel, from 1 to 23".
   std::string legend;
 };
 
@@ -25,16 +25,16 @@ struct DebugFrame {
 //   albedo     diffuse reflectance, textures included
 //   rays       all that were traced for the pixel
 //   cost       the pixel's share of the time of the stages that it took part in
-//   effects    those of the surface that the primary ray hits, by effectColours(), added up
+//   effects    those of the surface that the primary ray hits, by effectColors(), added up
 //   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
 // Several samples are averaged. film.image is what render() makes of it. `view` is not none.
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
 
-// The colours of DebugView::effects.
-struct EffectColour {
+// The colors of DebugView::effects.
+struct EffectColor {
   Effect effect;
-  std::array<float, 3> colour;  // as displayed, 0 to 1
+  std::array<float, 3> color;  // as displayed, 0 to 1
 };
-std::span<const EffectColour> effectColours();
+std::span<const EffectColor> effectColors();
 
 }  // namespace whit

@@ -38,7 +38,7 @@ reference::Impulse StageComparer::childTwin(const ChunkView& c, std::size_t chil
   const std::uint32_t stack = c.rays.media ? c.rays.media[i] : 0;
   const bool reflected = child < c.reflections;
   if (reflected && c.children.path &&
-      c.children.path[child] != childPath(c.rays.path[i], kMirroredBranch)) {
+      c.children.path[child] != childStream(c.rays.path[i], kMirroredBranch)) {
     return sampledTwin(c, child, surfel, stack);
   }
   const reference::Crossing crossing =
@@ -56,7 +56,7 @@ reference::Impulse StageComparer::sampledTwin(const ChunkView& c, std::size_t ch
   const LobeSampling sampling = lobeSampling(c.depth, plan_.glossySamples, c.sampleNumber);
   const int rays = reference::lobeRays(surfel, sampling);
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
-    if (c.children.path[child] != childPath(path, kFirstGlossyBranch + k)) continue;
+    if (c.children.path[child] != childStream(path, kFirstGlossyBranch + k)) continue;
     const UnitPoint at = lobePoint(path, sampling, k);
     reference::Impulse twin = reference::glossyImpulse(surfel, stack, at, shading_);
     twin.weight = twin.weight / rays;

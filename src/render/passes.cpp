@@ -32,10 +32,10 @@ FrameStats Renderer::Parts::renderInPasses(FrameJob& job, std::vector<RayLog>* l
     firstSamples.image = Image(film.image.width, film.image.height, laidOut);
     sizeDisplay(firstSamples);
     surfaces.resize(kept.pixels.size());
-    pilots.reset();
+    probes.reset();
   }
   contrasting.assign(surfaces.size(), 0);
-  FrameStats stats = renderCentres(job, logs);
+  FrameStats stats = renderCenters(job, logs);
   stats.add(refine(job, logs));
   stats.nonFinitePixels = 0;  // of pictures that are kept only
   keepFirstSamples(film, stats);
@@ -43,7 +43,7 @@ FrameStats Renderer::Parts::renderInPasses(FrameJob& job, std::vector<RayLog>* l
   return stats;
 }
 
-FrameStats Renderer::Parts::renderCentres(FrameJob& job, std::vector<RayLog>* logs) {
+FrameStats Renderer::Parts::renderCenters(FrameJob& job, std::vector<RayLog>* logs) {
   FrameJob first = job;
   first.samples = samplePattern(1);
   first.film = &firstSamples;
@@ -58,26 +58,26 @@ FrameStats Renderer::Parts::refine(FrameJob& job, std::vector<RayLog>* logs) {
     findEdges(firstSamples.display, surfaces, options.contrast, begin, end, edges);
   });
   const std::vector<Vec2f> pattern = job.samples;
-  if (!pilots) pilots.emplace(laidOut, edges, samplePattern(std::max(options.spp, kPilotSamples)));
+  if (!probes) probes.emplace(laidOut, edges, samplePattern(std::max(options.spp, kProbeSamples)));
   FrameJob first = job;
-  first.samples.resize(std::min<std::size_t>(pattern.size(), kPilotSamples));
+  first.samples.resize(std::min<std::size_t>(pattern.size(), kProbeSamples));
   first.film = &firstSamples;
-  first.pilots = &*pilots;
+  first.probes = &*probes;
   const Crop& window = job.film->image.window;
   const Crop around = grown(window, 1, job.film->image.width, job.film->image.height);
   stats.add(renderMarked(first, around, edges, logs));
-  if (pattern.size() <= kPilotSamples) return stats;
+  if (pattern.size() <= kProbeSamples) return stats;
   shareRows(stats, [&](int begin, int end) {
     for (int y = std::max(laidOut.y0 + begin, window.y0); y < std::min(laidOut.y0 + end, window.y1);
          ++y) {
       for (int x = window.x0; x < window.x1; ++x) {
         const std::size_t i = firstSamples.image.index(x, y);
-        contrasting[i] = edges[i] != 0 && pilots->differ(x, y, options.contrast);
+        contrasting[i] = edges[i] != 0 && probes->differ(x, y, options.contrast);
       }
     }
   });
-  job.pilots = &*pilots;
-  job.firstSample = kPilotSamples;
+  job.probes = &*probes;
+  job.firstSample = kProbeSamples;
   return stats;
 }
 
@@ -126,7 +126,7 @@ void Renderer::Parts::shareRows(FrameStats& stats, const std::function<void(int,
   for (const FrameStats& part : parts) stats.add(part);
 }
 
-// In the order of the tiles, so that neighbours stay together.
+// In the order of the tiles, so that neighbors stay together.
 PixelLists Renderer::Parts::markedPixels(const Crop& window,
                                          const std::vector<std::uint8_t>& marks) const {
   PixelLists lists;

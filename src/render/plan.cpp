@@ -52,7 +52,7 @@ Plan makePlan(const Scene& scene, const RenderOptions& options) {
   plan.groups.glossy = plan.effects.has(Effect::glossy);
   plan.groups.emission =
       plan.effects.has(Effect::emissionMaps) ||
-      (plan.effects.has(Effect::emission) && plan.effects.has(Effect::vertexColours));
+      (plan.effects.has(Effect::emission) && plan.effects.has(Effect::vertexColors));
   plan.groups.transmission = plan.traceRefractions;
   // Where no vertex normal differs from its triangle's there is nothing to lift.
   plan.groups.lift =

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "reference/eye_media.h"
+#include "reference/initial_medium_stack.h"
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
@@ -73,7 +73,7 @@ std::uint64_t Renderer::memoryBytes() const {
   std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
   for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
   sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity() +
-         p.contrasting.capacity() + (p.pilots ? p.pilots->bytes() : 0);
+         p.contrasting.capacity() + (p.probes ? p.probes->bytes() : 0);
   sum +=
       p.firstSamples.image.pixels.capacity() * sizeof(Rgb) + p.firstSamples.display.rgba.capacity();
   return sum;
@@ -103,7 +103,7 @@ FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& 
   job.accel = &*accel;
   job.camera = makeCameraFrame(camera, film.image.width, film.image.height);
   job.camera.media =
-      reference::mediaAround(scene, plan.effects, EmbreeIntersector(*accel), job.camera.eye);
+      reference::initialMediumStack(scene, plan.effects, EmbreeIntersector(*accel), job.camera.eye);
   job.coneSpread = static_cast<float>(pixelCone(job.camera).spread);
   job.samples = samplePattern(options.spp);
   job.cutoff = options.cutoff;

@@ -39,10 +39,10 @@ struct Renderer::Parts {
                          std::vector<RayLog>* logs);
   void replan(const Plan& next);
   FrameStats renderFrame(FrameJob& job, std::vector<RayLog>* logs);
-  // The centre of every pixel first; with --adaptive then more where that picture has edges.
+  // The center of every pixel first; with --adaptive then more where that picture has edges.
   FrameStats renderInPasses(FrameJob& job, std::vector<RayLog>* logs);
-  FrameStats renderCentres(FrameJob& job, std::vector<RayLog>* logs);
-  // The pilot samples of the pixels at edges, then all samples where those differ.
+  FrameStats renderCenters(FrameJob& job, std::vector<RayLog>* logs);
+  // The probe samples of the pixels at edges, then all samples where those differ.
   FrameStats refine(FrameJob& job, std::vector<RayLog>* logs);
   FrameStats renderMarked(FrameJob& job, const Crop& window, const std::vector<std::uint8_t>& marks,
                           std::vector<RayLog>* logs);
@@ -76,12 +76,12 @@ struct Renderer::Parts {
   std::vector<TileTracer> tracers;  // one a worker; none after another plan
   std::size_t tracerCapacity = 0;   // rays, of each
 
-  // Frames of several passes: the picture of the first, then of the pilot samples as well; and a
+  // Frames of several passes: the picture of the first, then of the probe samples as well; and a
   // mark a pixel, where those are traced and where all are.
   Film firstSamples;
   std::vector<PixelSurface> surfaces;
   std::vector<std::uint8_t> edges, contrasting;
-  std::optional<Pilots> pilots;
+  std::optional<ProbeSamples> probes;
 };
 
 }  // namespace whit

@@ -79,7 +79,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   }
   p.tables.shading = options.shading;
   p.replan(plan);
-  if (options.spp != p.options.spp) p.pilots.reset();
+  if (options.spp != p.options.spp) p.probes.reset();
   takeOver(options, p.options);
 }
 

@@ -8,16 +8,16 @@
 namespace whit {
 
 // Limits, in ulps of the largest component, with the reasons for their sizes.
-inline constexpr double kDirectionLimit = 4;  // a normalised sum of three products
+inline constexpr double kDirectionLimit = 4;  // a normalized sum of three products
 inline constexpr double kPositionLimit = 4;   // three products, against the largest corner
 inline constexpr double kLiftLimit = 8;       // three products of two positions' difference
-inline constexpr double kNormalLimit = 4;  // cross product by differences of products, normalised
+inline constexpr double kNormalLimit = 4;  // cross product by differences of products, normalized
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
-// the contrast between two of them it is a visible number of ulps of the colour (hard case H68).
+// the contrast between two of them it is a visible number of ulps of the color (hard case H68).
 inline constexpr double kTexturedLimit = 4096;
 inline constexpr double kSkyLimit = 512;  // likewise, for azimuth and elevation
 // A footprint that is wrong by so many ulps moves the lookup between mip levels, whose contrast may
-// be that of the colour; of a compact triangle that is seen head on.
+// be that of the color; of a compact triangle that is seen head on.
 inline constexpr double kFootprintLimit = 16;
 inline constexpr double kConeLimit = 2;       // one product and one sum
 inline constexpr double kRadianceLimit = 32;  // a dozen factors, some of them squared

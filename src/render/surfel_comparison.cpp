@@ -51,8 +51,8 @@ void StageComparer::compareSurfel(const ChunkView& c, std::size_t i) {
           mapped ? kTexturedLimit : kNormalLimit, c, i);
   // The footprint is as uncertain as area and cosine, which it is divided by.
   const double footprint = maps_ ? kFootprintLimit / kTexturedLimit * sliver / cosine : 0;
-  const double colour = std::max(1.0, footprint);
-  compare(stage, "diffuse", got.diffuse, twin.diffuse, colour, kTexturedLimit, c, i);
+  const double color = std::max(1.0, footprint);
+  compare(stage, "diffuse", got.diffuse, twin.diffuse, color, kTexturedLimit, c, i);
   if (maps_) {
     const RayCone cone{static_cast<double>(c.rays.cone[i]), job_.coneSpread};
     compare(stage, "cone", Vec3d(got.cone.width), Vec3d(cone.widthAt(hit.t)), 0, kConeLimit, c, i);
@@ -61,10 +61,10 @@ void StageComparer::compareSurfel(const ChunkView& c, std::size_t i) {
     compare(stage, "lift", got.lift, twin.lift, magnitude, kLiftLimit, c, i);
   }
   if (plan_.groups.emission) {
-    compare(stage, "emission", got.emission, twin.emission, colour, kTexturedLimit, c, i);
+    compare(stage, "emission", got.emission, twin.emission, color, kTexturedLimit, c, i);
   }
   if (plan_.groups.glossy) {
-    compare(stage, "specular", got.specular, twin.specular, colour, kTexturedLimit, c, i);
+    compare(stage, "specular", got.specular, twin.specular, color, kTexturedLimit, c, i);
   }
 }
 

@@ -14,7 +14,7 @@ void TileTracer::trace(const FrameJob& job, std::span<const std::uint32_t> pixel
   for (std::size_t begin = 0; begin < pixels.size(); begin += capacity_) {
     const auto batch = pixels.subspan(begin, std::min(capacity_, pixels.size() - begin));
     Pass pass{job, batch, job.samples[0], stats, clock, log};
-    if (job.samples.size() == 1 && !job.pilots) {
+    if (job.samples.size() == 1 && !job.probes) {
       traceSample(pass);
     } else {
       traceSamples(pass);
@@ -28,12 +28,12 @@ void TileTracer::traceSamples(Pass& pass) {
   const FrameJob& job = pass.job;
   const RadianceColumns& radiance = *levels_[0].radiance;
   const std::size_t n = pass.pixels.size(), count = job.samples.size();
-  const auto pilotsOf = [&](std::size_t i) -> PilotSamples& {
-    return job.pilots->at(pixelX(pass.pixels[i]), pixelY(pass.pixels[i]));
+  const auto probesOf = [&](std::size_t i) -> PixelProbes& {
+    return job.probes->at(pixelX(pass.pixels[i]), pixelY(pass.pixels[i]));
   };
   sums_.assign(n, RgbD());
   const bool goesOn = job.firstSample > 0;
-  for (std::size_t i = 0; goesOn && i < n; ++i) sums_[i] = pilotsOf(i).total;
+  for (std::size_t i = 0; goesOn && i < n; ++i) sums_[i] = probesOf(i).total;
   for (std::size_t s = job.firstSample; s < count; ++s) {
     pass.sample = job.samples[s];
     pass.sampleNumber = static_cast<std::uint32_t>(s);
@@ -41,10 +41,10 @@ void TileTracer::traceSamples(Pass& pass) {
     for (std::size_t i = 0; i < n; ++i) {
       sums_[i] += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
     }
-    if (job.pilots && !goesOn) keepCodes(pass);
+    if (job.probes && !goesOn) keepCodes(pass);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (job.pilots && !goesOn) pilotsOf(i).total = sums_[i];
+    if (job.probes && !goesOn) probesOf(i).total = sums_[i];
     const Rgb mean(sums_[i] / static_cast<double>(count));
     radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
   }
@@ -57,7 +57,7 @@ void TileTracer::keepCodes(const Pass& pass) {
                       *levels_[0].radiance, n, codes_.data());
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t pixel = pass.pixels[i];
-    pass.job.pilots->at(pixelX(pixel), pixelY(pixel)).codes[pass.sampleNumber] = codes_[i];
+    pass.job.probes->at(pixelX(pixel), pixelY(pixel)).codes[pass.sampleNumber] = codes_[i];
   }
 }
 

@@ -16,8 +16,8 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/renderer.h"
-#include "scene/pilots.h"
 #include "scene/pixel_edges.h"
+#include "scene/probe_samples.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 
@@ -64,7 +64,7 @@ struct FrameJob {
   Film* film = nullptr;
   // Of adaptive sampling: where the samples go, or when the first ones were traced before, whence
   // these come.
-  Pilots* pilots = nullptr;
+  ProbeSamples* probes = nullptr;
   std::size_t firstSample = 0;
   // When wanted: what the rays of depth 0 meet, as film->image.pixels.
   std::vector<PixelSurface>* surfaces = nullptr;

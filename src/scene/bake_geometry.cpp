@@ -59,7 +59,7 @@ class Baker {
   std::vector<MaterialUse> uses_;             // one a material
   std::vector<std::vector<Source>> sources_;  // one list a geometry
   std::vector<Box> boxes_;                    // one a geometry, in its own space
-  bool withNormals_ = false, withColours_ = false, withSecondUvs_ = false;
+  bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
 };
 
 // Which mesh goes where: those of objects used once into geometry 0, others into one of their own.
@@ -86,7 +86,7 @@ void Baker::plan() {
       if (inWorld) source.toGeometry = instance.toWorld;
       sources_[g].push_back(std::move(source));
       withNormals_ = withNormals_ || !mesh.normals.empty();
-      withColours_ = withColours_ || !mesh.colours.empty();
+      withColors_ = withColors_ || !mesh.colors.empty();
       withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
     }
   }
@@ -182,7 +182,7 @@ void Baker::reserveTables() {
   if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
   scene_.triangles.reserve(total);
   if (withNormals_) scene_.normals.reserve(total);
-  if (withColours_) scene_.colours.reserve(total);
+  if (withColors_) scene_.colors.reserve(total);
   if (withSecondUvs_) scene_.secondUvs.reserve(total);
   boxes_.resize(scene_.geometries.size());
 }
@@ -211,7 +211,7 @@ void Baker::emit(std::size_t g) {
 
 void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
   const Mesh& mesh = *source.mesh;
-  Tally badUv, badNormal, badColour;
+  Tally badUv, badNormal, badColor;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!source.classified.has(i, wanted)) continue;
     auto corners = mesh.triangles[i];
@@ -220,20 +220,20 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
       box.add(geometry.position[corner]);
     }
     geometry.index.push_back(corners);
-    std::uint64_t uvs = 0, normals = 0, colours = 0;
+    std::uint64_t uvs = 0, normals = 0, colors = 0;
     const MaterialUse& use = uses_[mesh.material(i)];
     scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
     if (withSecondUvs_) scene_.secondUvs.push_back(makeSecondUvRecord(mesh, i, use, uvs));
     if (withNormals_) {
       scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
     }
-    if (withColours_) scene_.colours.push_back(makeColourRecord(mesh, i, colours));
+    if (withColors_) scene_.colors.push_back(makeColorRecord(mesh, i, colors));
     badUv.add(i, uvs);
     badNormal.add(i, normals);
-    badColour.add(i, colours);
+    badColor.add(i, colors);
   }
   badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
-  badColour.report(warnings_, "vertex colour out of range clamped", mesh);
+  badColor.report(warnings_, "vertex color out of range clamped", mesh);
   badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
 }
 

@@ -14,7 +14,7 @@ Vec3f hermite(const Vec3d& p0, const Vec3d& m0, const Vec3d& p1, const Vec3d& m1
                m1 * (s3 - s2));
 }
 
-// Velocity at keyframe i: the slope between its neighbours, or towards the only one there is.
+// Velocity at keyframe i: the slope between its neighbors, or towards the only one there is.
 Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*point) {
   const Keyframe& before = path[i == 0 ? 0 : i - 1];
   const Keyframe& after = path[std::min(i + 1, path.size() - 1)];

@@ -31,14 +31,14 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
 // What the ray generator needs, worked out once a frame in double: the direction through image
 // position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
-// normalised. Directions never come from a difference of world positions, so a camera far from the
+// normalized. Directions never come from a difference of world positions, so a camera far from the
 // origin loses nothing (hard case H75). Orthographic rays have the direction forward and start as
 // far aside of the eye.
 struct CameraFrame {
   Vec3d eye, forward, right, up;
   int width = 0, height = 0;
   // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
-  // renders looks for them (reference/eye_media.h).
+  // renders looks for them (reference/initial_medium_stack.h).
   std::uint32_t media = 0;
   bool orthographic = false;
 };

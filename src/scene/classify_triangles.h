@@ -32,7 +32,7 @@ struct TriangleClassification {
   }
 };
 
-// Something mended in one mesh: how often, and where first.
+// Something repaired in one mesh: how often, and where first.
 struct Tally {
   std::uint64_t count = 0;
   std::size_t first = 0;

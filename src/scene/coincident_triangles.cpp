@@ -11,7 +11,7 @@ namespace {
 // So many bits a triangle that few of those that are alone in their place share one.
 constexpr std::uint64_t kBitsPerTriangle = 32;
 
-// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;

@@ -35,7 +35,7 @@ void keepBaked(const Material& from, Material& to) {
   to.castsShadow = from.castsShadow;
 }
 
-// As Scene::finalize() does: throws, or mends what has an obvious nearest value.
+// As Scene::finalize() does: throws, or repairs what has an obvious nearest value.
 void checkAndMend(const Scene& scene, std::vector<Material>& materials,
                   std::vector<Light>& lights) {
   SceneDescription d;

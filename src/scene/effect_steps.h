@@ -13,7 +13,7 @@ inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with
 // Each needs only those before it.
 inline constexpr std::array kAddedEffects{
     Effect::spotLights,   Effect::directionalLights, Effect::ambient,       Effect::emission,
-    Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColours,
+    Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
     Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
     Effect::glossy,       Effect::glossyReflection,  Effect::instances,     Effect::mirror,
     Effect::transmission, Effect::absorption,

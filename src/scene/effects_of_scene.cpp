@@ -25,7 +25,7 @@ bool isSkyBlack(const Sky& sky) {
   switch (sky.kind) {
     case Sky::Kind::none:
       return true;
-    case Sky::Kind::colour:
+    case Sky::Kind::color:
       return isBlack(sky.zenith);
     case Sky::Kind::gradient:
       return isBlack(sky.zenith) && isBlack(sky.horizon) && isBlack(sky.ground);
@@ -80,7 +80,7 @@ class Gatherer {
 };
 
 void Gatherer::materials() {
-  byMaterial(Effect::textures, "with a colour texture", [](const Material& m) {
+  byMaterial(Effect::textures, "with a color texture", [](const Material& m) {
     return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
            (m.specularMap != kNoTexture && m.hasGlossy()) ||
            (m.emissionMap != kNoTexture && !isBlack(m.emission));
@@ -114,8 +114,8 @@ void Gatherer::geometry() {
   set(Effect::smoothNormals, hasSmoothNormals(scene_),
       "some vertex normals differ from their triangle's",
       "no vertex normal differs from its triangle's");
-  set(Effect::vertexColours, !scene_.colours.empty(), "some vertices are not white",
-      "no vertex has a colour");
+  set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
+      "no vertex has a color");
   set(Effect::instances, !scene_.instances.empty(),
       counted(scene_.instances.size(), "instance") + " of " +
           counted(scene_.geometries.size() - 1, "object"),
@@ -174,9 +174,9 @@ bool hasSmoothNormals(const Scene& scene) {
   return false;
 }
 
-bool hasVertexColours(const Scene& scene) {
-  return std::any_of(scene.colours.begin(), scene.colours.end(), [](const ColourRecord& record) {
-    return std::any_of(std::begin(record.colour), std::end(record.colour),
+bool hasVertexColors(const Scene& scene) {
+  return std::any_of(scene.colors.begin(), scene.colors.end(), [](const ColorRecord& record) {
+    return std::any_of(std::begin(record.color), std::end(record.color),
                        [](float x) { return x != 1; });
   });
 }

@@ -18,14 +18,14 @@ bool sameMedium(const Medium& a, const Medium& b) {
 Camera framingCamera(const Scene& scene) {
   Camera camera;
   const Vec3d lower(scene.lower), upper(scene.upper);
-  const Vec3d centre = (lower + upper) * 0.5;
+  const Vec3d center = (lower + upper) * 0.5;
   const double radius = length(upper - lower) * 0.5;
   if (!(radius > 0)) return camera;
   const double half = camera.fov * (3.14159265358979323846 / 360);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const double narrow = std::atan(std::tan(half) * std::min(1.0, aspect));
-  camera.at = Vec3f(centre);
-  camera.eye = Vec3f(centre + normalized(Vec3d{0.5, 0.4, 1.0}) * (radius / std::sin(narrow)));
+  camera.at = Vec3f(center);
+  camera.eye = Vec3f(center + normalized(Vec3d{0.5, 0.4, 1.0}) * (radius / std::sin(narrow)));
   return camera;
 }
 
@@ -69,7 +69,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.textures = std::move(d.textures);
   bakeGeometry(d, scene, warnings, progress);
   if (!hasSmoothNormals(scene)) scene.normals = {};
-  if (!hasVertexColours(scene)) scene.colours = {};
+  if (!hasVertexColors(scene)) scene.colors = {};
   numberMedia(scene);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
@@ -80,7 +80,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
 }
 
 std::uint64_t Scene::memoryBytes() const {
-  std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colours) +
+  std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colors) +
                         bytesOf(secondUvs) + bytesOf(instances) + bytesOf(sky.image.r) +
                         bytesOf(sky.image.g) + bytesOf(sky.image.b);
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);

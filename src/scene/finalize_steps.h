@@ -9,7 +9,7 @@
 namespace whit {
 
 // Throws Error(badScene), naming the thing at fault, for anything but triangles that cannot be
-// rendered; mends and counts what has an obvious nearest sensible value.
+// rendered; repairs and counts what has an obvious nearest sensible value.
 void validate(SceneDescription& description, Warnings& warnings);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
@@ -27,7 +27,7 @@ std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
 // Whether some corner's normal differs from its triangle's by more than rounding.
 bool hasSmoothNormals(const Scene& scene);
 
-// Whether some corner's colour is not white.
-bool hasVertexColours(const Scene& scene);
+// Whether some corner's color is not white.
+bool hasVertexColors(const Scene& scene);
 
 }  // namespace whit

@@ -84,7 +84,7 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
   for (Object& object : d.objects) {
     for (Mesh& mesh : object.meshes) {
       if (effects.has(Effect::smoothNormals)) mesh.normals.clear();
-      if (effects.has(Effect::vertexColours)) mesh.colours.clear();
+      if (effects.has(Effect::vertexColors)) mesh.colors.clear();
     }
   }
 }

@@ -71,7 +71,7 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
   switch (sky.kind) {
     case Sky::Kind::none:
       return {};
-    case Sky::Kind::colour:
+    case Sky::Kind::color:
       return RgbD(sky.zenith) * sky.scale;
     case Sky::Kind::gradient:
       return mix(sky.horizon, d.y < 0 ? sky.ground : sky.zenith, std::abs(d.y)) * sky.scale;
@@ -91,7 +91,7 @@ Ambient ambientFromSky(const Sky& sky, double strength) {
   switch (sky.kind) {
     case Sky::Kind::none:
       return {};
-    case Sky::Kind::colour:
+    case Sky::Kind::color:
       return {Rgb(RgbD(sky.zenith) * factor), Rgb(RgbD(sky.zenith) * factor)};
     case Sky::Kind::gradient:
       return {Rgb(mix(sky.horizon, sky.zenith, kMeanSine) * factor),

@@ -40,10 +40,10 @@ struct SpotCone {
 SpotCone coneOf(const Light& light);
 
 struct Sky {
-  enum class Kind { none, colour, gradient, image };
+  enum class Kind { none, color, gradient, image };
   Kind kind = Kind::none;
   // gradient: linear in the sine of the elevation, horizon to zenith above, horizon to ground
-  // below. colour: `zenith` everywhere.
+  // below. color: `zenith` everywhere.
   Rgb zenith{0, 0, 0}, horizon{0, 0, 0}, ground{0, 0, 0};
   EnvironmentImage image;
   float scale = 1;  // multiplies all of the above

@@ -3,7 +3,7 @@
 // coat, glass that both reflects and refracts).
 //
 // Diffuse, specular and emission are multiplied by their maps and, as `vertexTint` says, by the
-// colours of the mesh's vertices. Radiance leaving towards the viewer, with n the shading normal
+// colors of the mesh's vertices. Radiance leaving towards the viewer, with n the shading normal
 // (Whitted 1980, with physical units):
 //   emission
 //   + diffuse * ambient(n)
@@ -25,22 +25,22 @@ inline constexpr std::int32_t kNoTexture = -1;
 
 inline constexpr float kLargestIor = 10;  // that a file can ask for
 
-// What the colours of vertices multiply: the base colour, wherever that went.
+// What the colors of vertices multiply: the base color, wherever that went.
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 
 struct Material {
   std::string name;
 
   Rgb diffuse{0.8f, 0.8f, 0.8f};          // albedo, times diffuseMap
-  std::int32_t diffuseMap = kNoTexture;   // colour
+  std::int32_t diffuseMap = kNoTexture;   // color
   Rgb specular{0, 0, 0};                  // glossy lobe's reflectance at normal incidence (F0)
-  std::int32_t specularMap = kNoTexture;  // colour, multiplies `specular`
+  std::int32_t specularMap = kNoTexture;  // color, multiplies `specular`
   float roughness = 0.5f;                 // GGX; alpha = roughness^2, at least kMinRoughness
   // Whether the lobe reflects the scene, not only lights: for surfaces whose reflection is not
   // already a mirrored impulse. Frames take --glossy samples of it.
   bool glossyReflection = true;
   Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
-  std::int32_t emissionMap = kNoTexture;  // colour
+  std::int32_t emissionMap = kNoTexture;  // color
   std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
   // Whether these two are looked up with Mesh::secondUvs.
   bool emissionBySecondUvs = false, normalBySecondUvs = false;

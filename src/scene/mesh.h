@@ -17,7 +17,7 @@ struct Mesh {
   std::vector<Vec3f> normals;    // empty (flat shading), or one a position
   std::vector<Vec2f> uvs;        // empty (0, 0), or one a position; v points up
   std::vector<Vec2f> secondUvs;  // likewise, for the maps of a Material that say so
-  std::vector<Rgb> colours;      // empty (white), or one a position; linear, 0 to 1
+  std::vector<Rgb> colors;       // empty (white), or one a position; linear, 0 to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;

@@ -34,7 +34,7 @@ std::vector<Cover> coversOf(int size, int half) {
   return covers;
 }
 
-// Light of a 10-bit colour channel, or the value of an 8-bit one, in units of the largest code
+// Light of a 10-bit color channel, or the value of an 8-bit one, in units of the largest code
 // (squared).
 double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
   if (format == TexelFormat::data) return texel >> (8 * channel) & 255u;

@@ -14,7 +14,7 @@ inline constexpr int kMipLevels = 17;
 inline constexpr float kLargestArea = 0x1p32f;  // in texels
 
 // Half as many texels along each axis, rounded down but at least one. Each is the mean of the area
-// that it covers, also where that cuts through texels; of colours the mean of their light. Rounded
+// that it covers, also where that cuts through texels; of colors the mean of their light. Rounded
 // to the format's codes.
 Texture halved(const Texture& texture);
 
@@ -24,7 +24,7 @@ class MipMaps {
   // Of those `wanted`; one flag a texture. The textures must outlive this. Shared among `threads`.
   // Throws Error(limit) where the system has no room for so many.
   MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads = 1);
-  // Of those that materials use as colours, reflectances and normal maps.
+  // Of those that materials use as colors, reflectances and normal maps.
   explicit MipMaps(const Scene& scene, int threads = 1);
 
   // 0 is the texture itself, and so is its only level if it is not wanted; what follows the single

@@ -1,4 +1,4 @@
-// Which pixels need more than one sample: those that differ from a neighbour in surface or in
+// Which pixels need more than one sample: those that differ from a neighbor in surface or in
 // contrast, as in the adaptive sampling of Whitted 1980 ("An improved illumination model for shaded
 // display", section on aliasing). The same rule for reference and kernels.
 #pragma once
@@ -17,19 +17,19 @@ struct PixelSurface {
   Vec3f position, normal;  // in the world; the geometric normal, towards the viewer
 };
 
-// Whether neighbouring pixels show the same smooth surface: material and instance agree, the
+// Whether neighboring pixels show the same smooth surface: material and instance agree, the
 // normals by 5 degrees, and so does the direction from one point to the other with their planes.
 // What lies behind or beside an edge does not, at any scale, even of the same material.
 bool onSameSurface(const PixelSurface& a, const PixelSurface& b);
 
 // The pixels of `window` and `more` on each side, as far as the image reaches.
 Crop grown(const Crop& window, int more, int width, int height);
-// How far a pixel of several passes looks: to its neighbours' pilots, and these to theirs for
+// How far a pixel of several passes looks: to its neighbors' probes, and these to theirs for
 // edges.
 inline constexpr int kPassReach = 2;
 
 // Sets edges[i] to 1 for each pixel i of the window's rows [row0, row1), counted from its top, that
-// has a neighbour among its eight on another surface, or with a display code that differs by more
+// has a neighbor among its eight on another surface, or with a display code that differs by more
 // than `contrast` in some channel; 0 for the others. `surfaces` and `edges` are one a pixel of
 // `display`. Rows may be shared out among threads.
 void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,

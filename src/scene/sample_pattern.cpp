@@ -34,14 +34,14 @@ double squaredDistance(const Vec2f& a, const Vec2f& b) {
 }
 
 // Samples that stand for the whole pixel: near the places of the pattern of as many, and above all
-// with their mean in the centre, since a pixel that is left with them would else show what lies
+// with their mean in the center, since a pixel that is left with them would else show what lies
 // beside it. Their indices; `samples` are at least as many.
-std::array<std::size_t, kPilotSamples> choosePilots(const std::vector<Vec2f>& samples) {
+std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& samples) {
   constexpr std::size_t kNearest = 6;
   constexpr double kWeightOfMean = 64;
-  const std::vector<Vec2f> wanted = rooks(kPilotSamples);
+  const std::vector<Vec2f> wanted = rooks(kProbeSamples);
   const std::size_t candidates = std::min(kNearest, samples.size());
-  std::array<std::vector<std::pair<double, std::size_t>>, kPilotSamples> near;
+  std::array<std::vector<std::pair<double, std::size_t>>, kProbeSamples> near;
   for (std::size_t k = 0; k < near.size(); ++k) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       near[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
@@ -49,13 +49,13 @@ std::array<std::size_t, kPilotSamples> choosePilots(const std::vector<Vec2f>& sa
     std::partial_sort(near[k].begin(), near[k].begin() + static_cast<std::ptrdiff_t>(candidates),
                       near[k].end());
   }
-  std::array<std::size_t, kPilotSamples> chosen{}, best{};
+  std::array<std::size_t, kProbeSamples> chosen{}, best{};
   double least = std::numeric_limits<double>::infinity();
   const auto choose = [&](auto&& self, std::size_t k, double away, Vec2f sum) -> void {
     if (k == chosen.size()) {
-      const Vec2f centre{kPilotSamples / 2.0f, kPilotSamples / 2.0f};
-      constexpr double kScale = kWeightOfMean / (kPilotSamples * kPilotSamples);
-      const double cost = away + kScale * squaredDistance(sum, centre);
+      const Vec2f center{kProbeSamples / 2.0f, kProbeSamples / 2.0f};
+      constexpr double kScale = kWeightOfMean / (kProbeSamples * kProbeSamples);
+      const double cost = away + kScale * squaredDistance(sum, center);
       if (cost < least) least = cost, best = chosen;
       return;
     }
@@ -76,13 +76,13 @@ std::array<std::size_t, kPilotSamples> choosePilots(const std::vector<Vec2f>& sa
 
 std::vector<Vec2f> samplePattern(int spp) {
   std::vector<Vec2f> samples = rooks(spp);
-  if (spp <= kPilotSamples) return samples;
-  const auto pilots = choosePilots(samples);
+  if (spp <= kProbeSamples) return samples;
+  const auto probes = chooseProbes(samples);
   std::vector<Vec2f> ordered;
   ordered.reserve(samples.size());
-  for (const std::size_t pilot : pilots) ordered.push_back(samples[pilot]);
+  for (const std::size_t probe : probes) ordered.push_back(samples[probe]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (std::find(pilots.begin(), pilots.end(), i) == pilots.end()) ordered.push_back(samples[i]);
+    if (std::find(probes.begin(), probes.end(), i) == probes.end()) ordered.push_back(samples[i]);
   }
   return ordered;
 }

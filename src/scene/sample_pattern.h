@@ -8,15 +8,15 @@
 
 namespace whit {
 
-// Offsets in [0, 1)^2 from the pixel's top left corner; one sample is the centre. Rooks that do not
+// Offsets in [0, 1)^2 from the pixel's top left corner; one sample is the center. Rooks that do not
 // attack each other on a board of spp x spp cells, in the order of a Fibonacci lattice: an edge
 // that is nearly level or upright passes the samples one at a time, unlike with a regular grid, and
 // the pattern is as even in the plane (Niederreiter 1992, "Random Number Generation and Quasi-Monte
 // Carlo Methods", chapter 5).
 //
-// The first kPilotSamples lie near those of the pattern of as many, their mean in the centre or
+// The first kProbeSamples lie near those of the pattern of as many, their mean in the center or
 // next to it, so that they stand for the pixel by themselves.
 std::vector<Vec2f> samplePattern(int spp);
-inline constexpr int kPilotSamples = 4;
+inline constexpr int kProbeSamples = 4;
 
 }  // namespace whit

@@ -58,8 +58,8 @@ struct UvRecord {
   float uv[6];  // as in TriangleRecord
 };
 
-struct ColourRecord {
-  float colour[9];  // linear RGB, one a corner
+struct ColorRecord {
+  float color[9];  // linear RGB, one a corner
 };
 
 // One object's triangles as Embree wants them. `index` refers to `position`; triangles are sorted
@@ -116,7 +116,7 @@ class Scene {
   HugeVector<TriangleRecord> triangles;  // all geometries, one after the other
   // Same length, or empty when no mesh has normals other than its triangles'.
   HugeVector<NormalRecord> normals;
-  HugeVector<ColourRecord> colours;  // same length, or empty when every vertex is white
+  HugeVector<ColorRecord> colors;  // same length, or empty when every vertex is white
   // Same length, or empty when no map is looked up with second texture coordinates.
   HugeVector<UvRecord> secondUvs;
 

@@ -7,14 +7,14 @@ namespace whit {
 
 namespace {
 
-constexpr std::uint32_t kColourMax = 1023, kDataMax = 255;
+constexpr std::uint32_t kColorMax = 1023, kDataMax = 255;
 
 // NaN becomes 0, because it compares false.
 float unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
 
-std::uint32_t colourCode(float linear) {
+std::uint32_t colorCode(float linear) {
   return static_cast<std::uint32_t>(
-      std::lround(std::sqrt(static_cast<double>(unit(linear))) * kColourMax));
+      std::lround(std::sqrt(static_cast<double>(unit(linear))) * kColorMax));
 }
 
 std::uint32_t dataCode(float value) {
@@ -22,23 +22,23 @@ std::uint32_t dataCode(float value) {
 }
 
 // The square of a code is exact in float, so that one rounding is left.
-float colourValue(std::uint32_t code) {
-  return static_cast<float>(code * code) * (1.0f / static_cast<float>(kColourMax * kColourMax));
+float colorValue(std::uint32_t code) {
+  return static_cast<float>(code * code) * (1.0f / static_cast<float>(kColorMax * kColorMax));
 }
 
 }  // namespace
 
-std::uint32_t encodeColourTexel(const Rgb& linear) {
-  return colourCode(linear.x) | colourCode(linear.y) << 10 | colourCode(linear.z) << 20;
+std::uint32_t encodeColorTexel(const Rgb& linear) {
+  return colorCode(linear.x) | colorCode(linear.y) << 10 | colorCode(linear.z) << 20;
 }
 
 std::uint32_t encodeDataTexel(float r, float g, float b, float a) {
   return dataCode(r) | dataCode(g) << 8 | dataCode(b) << 16 | dataCode(a) << 24;
 }
 
-Rgb decodeColourTexel(std::uint32_t texel) {
-  return {colourValue(texel & kColourMax), colourValue(texel >> 10 & kColourMax),
-          colourValue(texel >> 20 & kColourMax)};
+Rgb decodeColorTexel(std::uint32_t texel) {
+  return {colorValue(texel & kColorMax), colorValue(texel >> 10 & kColorMax),
+          colorValue(texel >> 20 & kColorMax)};
 }
 
 }  // namespace whit

@@ -11,10 +11,10 @@ namespace whit {
 
 // How the 32 bits of a texel hold its channels, x in the low bits.
 enum class TexelFormat : std::uint8_t {
-  // Colour: 10 bits a channel, value = (code / 1023)^2, linear light. Square-root coding puts the
-  // steps where sRGB has them: an 8-bit sRGB colour comes back within 1/6 of an 8-bit step, and
+  // Color: 10 bits a channel, value = (code / 1023)^2, linear light. Square-root coding puts the
+  // steps where sRGB has them: an 8-bit sRGB color comes back within 1/6 of an 8-bit step, and
   // decoding is one multiplication. Channels are in [0, 1].
-  colour,
+  color,
   // Data (normals, factors): 8 bits a channel, value = code / 255.
   data,
 };
@@ -22,19 +22,19 @@ enum class TexelFormat : std::uint8_t {
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
-// points up. Sampling is bilinear with texel centres at half-integers.
+// points up. Sampling is bilinear with texel centers at half-integers.
 struct Texture {
   std::string name;
-  TexelFormat format = TexelFormat::colour;
+  TexelFormat format = TexelFormat::color;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
 };
 
 // One texel of each format from channels in [0, 1]; out-of-range and NaN channels are clamped.
-std::uint32_t encodeColourTexel(const Rgb& linear);
+std::uint32_t encodeColorTexel(const Rgb& linear);
 std::uint32_t encodeDataTexel(float r, float g, float b, float a);
-Rgb decodeColourTexel(std::uint32_t texel);
+Rgb decodeColorTexel(std::uint32_t texel);
 
 // Equirectangular radiance map: row 0 is the zenith (+y), column 0 begins at direction -z and
 // columns run towards +x. Planes, so that kernels gather one channel at a time.

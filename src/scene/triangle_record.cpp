@@ -11,30 +11,30 @@ namespace {
 // (hard case H68).
 constexpr float kFarUv = 16;
 
-void recentre(float* coordinate) {
+void recenter(float* coordinate) {
   const auto [low, high] = std::minmax({coordinate[0], coordinate[2], coordinate[4]});
   if (!(low > kFarUv || high < -kFarUv)) return;
   const double whole = std::floor(static_cast<double>(low));
   for (int i = 0; i < 6; i += 2) coordinate[i] = static_cast<float>(coordinate[i] - whole);
 }
 
-float finiteOrZero(float x, std::uint64_t& mended) {
+float finiteOrZero(float x, std::uint64_t& repaired) {
   if (std::isfinite(x)) return x;
-  ++mended;
+  ++repaired;
   return 0;
 }
 
 // Of the mesh's triangle, to the six numbers `to`.
 void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& corners,
-             const MaterialUse& use, float* to, std::uint64_t& mended) {
+             const MaterialUse& use, float* to, std::uint64_t& repaired) {
   if (uvs.empty()) return;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec2f& uv = uvs[corners[i]];
-    to[2 * i] = finiteOrZero(uv.x, mended);
-    to[2 * i + 1] = finiteOrZero(uv.y, mended);
+    to[2 * i] = finiteOrZero(uv.x, repaired);
+    to[2 * i + 1] = finiteOrZero(uv.y, repaired);
   }
-  if (use.repeatU) recentre(to);
-  if (use.repeatV) recentre(to + 1);
+  if (use.repeatU) recenter(to);
+  if (use.repeatV) recenter(to + 1);
 }
 
 }  // namespace
@@ -66,33 +66,33 @@ Vec3d faceNormal(const TriangleRecord& record) {
 TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
                                   const std::vector<Vec3f>& position,
                                   const std::array<std::uint32_t, 3>& corners,
-                                  const MaterialUse& use, std::uint64_t& mended) {
+                                  const MaterialUse& use, std::uint64_t& repaired) {
   TriangleRecord record{};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3f& p = position[corners[i]];
     std::copy_n(&p.x, 3, record.position + 3 * i);
   }
-  copyUvs(mesh.uvs, mesh.triangles[triangle], use, record.uv, mended);
+  copyUvs(mesh.uvs, mesh.triangles[triangle], use, record.uv, repaired);
   record.material = mesh.material(triangle);
   return record;
 }
 
 UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
-                            std::uint64_t& mended) {
+                            std::uint64_t& repaired) {
   UvRecord record{};
-  copyUvs(mesh.secondUvs, mesh.triangles[triangle], use, record.uv, mended);
+  copyUvs(mesh.secondUvs, mesh.triangles[triangle], use, record.uv, repaired);
   return record;
 }
 
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
-                              std::uint64_t& mended) {
+                              std::uint64_t& repaired) {
   NormalRecord result;
   Vec3f face;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3f n;
     if (!mesh.normals.empty()) {
       n = mesh.normals[mesh.triangles[triangle][i]];
-      mended += n == Vec3f{};
+      repaired += n == Vec3f{};
     }
     if (n == Vec3f{}) {
       if (face == Vec3f{}) face = Vec3f(faceNormal(record));
@@ -103,14 +103,14 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
   return result;
 }
 
-ColourRecord makeColourRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& mended) {
-  ColourRecord record;
+ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& repaired) {
+  ColorRecord record;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Rgb given = mesh.colours.empty() ? Rgb(1.0f) : mesh.colours[mesh.triangles[triangle][i]];
+    const Rgb given = mesh.colors.empty() ? Rgb(1.0f) : mesh.colors[mesh.triangles[triangle][i]];
     for (int channel = 0; channel < 3; ++channel) {
       const float x = given[channel], inRange = x > 0 ? std::min(x, 1.0f) : 0.0f;
-      mended += !(x == inRange);
-      record.colour[3 * i + static_cast<std::size_t>(channel)] = inRange;
+      repaired += !(x == inRange);
+      record.color[3 * i + static_cast<std::size_t>(channel)] = inRange;
     }
   }
   return record;

@@ -27,24 +27,24 @@ inline Vec3d areaVector(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 Vec3d faceNormal(const TriangleRecord& record);
 
 // `corners` index `position`, the mesh's triangle indexes its uvs. Coordinates that are not finite
-// become 0 and are added to `mended`. Where all corners lie far from uv 0 along an axis that
+// become 0 and are added to `repaired`. Where all corners lie far from uv 0 along an axis that
 // repeats, the same whole number is taken from each, which saves bits without changing the picture.
 TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
                                   const std::vector<Vec3f>& position,
                                   const std::array<std::uint32_t, 3>& corners,
-                                  const MaterialUse& use, std::uint64_t& mended);
+                                  const MaterialUse& use, std::uint64_t& repaired);
 
 // The second coordinates, treated alike; zeros where the mesh has none.
 UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
-                            std::uint64_t& mended);
+                            std::uint64_t& repaired);
 
 // The mesh's normals have unit length, or are zero where they are of no use: those become the
-// face's and are added to `mended`.
+// face's and are added to `repaired`.
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
-                              std::uint64_t& mended);
+                              std::uint64_t& repaired);
 
-// White where the mesh has no colours. What is not in [0, 1] is clamped, or 0 if it is no number,
-// and added to `mended`.
-ColourRecord makeColourRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& mended);
+// White where the mesh has no colors. What is not in [0, 1] is clamped, or 0 if it is no number,
+// and added to `repaired`.
+ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& repaired);
 
 }  // namespace whit

@@ -90,15 +90,15 @@ void checkEnvironment(EnvironmentImage& image, const std::string& where, Warning
     throwBadScene(where, "expected width * height texels in each of three planes");
   }
   if (texels > kTexelLimit) throwLimit(where + ": more than 2^31 - 1 texels");
-  std::uint64_t mended = 0;
+  std::uint64_t repaired = 0;
   for (auto* plane : {&image.r, &image.g, &image.b}) {
     for (float& x : *plane) {
       if (x >= 0 && std::isfinite(x)) continue;
       x = 0;
-      ++mended;
+      ++repaired;
     }
   }
-  warnings.add("negative or non-finite sky texel set to 0", where, mended);
+  warnings.add("negative or non-finite sky texel set to 0", where, repaired);
 }
 
 void checkSky(SceneDescription& d, Warnings& warnings) {
@@ -137,23 +137,23 @@ void checkMap(const SceneDescription& d, const std::string& where, const char* s
   }
   if (d.textures[static_cast<std::size_t>(index)].format != format) {
     throwBadScene(where, std::string(slot) + " expected a texture of " +
-                             (format == TexelFormat::colour ? "colour" : "data"));
+                             (format == TexelFormat::color ? "color" : "data"));
   }
 }
 
 // Model files abound in materials that are slightly off; the nearest value that makes sense will
-// do. False: nothing was to be mended.
-bool mendChannels(Rgb& c) {
-  bool mended = false;
+// do. False: nothing was to be repaired.
+bool repairChannels(Rgb& c) {
+  bool repaired = false;
   for (int i = 0; i < 3; ++i) {
     if (c[i] >= 0 && std::isfinite(c[i])) continue;
     c[i] = 0;
-    mended = true;
+    repaired = true;
   }
-  return mended;
+  return repaired;
 }
 
-bool mendFactor(float& x, float fallback) {
+bool repairFactor(float& x, float fallback) {
   if (x >= 0 && x <= 1) return false;
   x = std::isnan(x) ? fallback : x < 0 ? 0.0f : 1.0f;
   return true;
@@ -164,22 +164,22 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
   for (std::size_t i = 0; i < d.materials.size(); ++i) {
     Material& m = d.materials[i];
     const std::string where = place(d.name, "material", i, m.name);
-    checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::colour);
-    checkMap(d, where, "specularMap", m.specularMap, TexelFormat::colour);
-    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::colour);
+    checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::color);
+    checkMap(d, where, "specularMap", m.specularMap, TexelFormat::color);
+    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color);
     checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
     checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
     if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {
       throwBadScene(where, "expected an ior above 0");
     }
-    std::uint64_t mended = 0;
+    std::uint64_t repaired = 0;
     for (Rgb* c : {&m.diffuse, &m.specular, &m.emission, &m.mirror, &m.mirrorGrazing,
                    &m.transmission, &m.absorption}) {
-      mended += mendChannels(*c);
+      repaired += repairChannels(*c);
     }
-    mended += mendFactor(m.roughness, fallback.roughness);
-    if (m.alphaMap != kNoTexture) mended += mendFactor(m.alphaCutoff, fallback.alphaCutoff);
-    warnings.add("material value out of range mended", where, mended);
+    repaired += repairFactor(m.roughness, fallback.roughness);
+    if (m.alphaMap != kNoTexture) repaired += repairFactor(m.alphaCutoff, fallback.alphaCutoff);
+    warnings.add("material value out of range repaired", where, repaired);
   }
 }
 
@@ -198,7 +198,7 @@ void checkObjects(const SceneDescription& d) {
       if (!mesh.secondUvs.empty()) {
         expect("second uvs", mesh.secondUvs.size(), mesh.positions.size());
       }
-      if (!mesh.colours.empty()) expect("colours", mesh.colours.size(), mesh.positions.size());
+      if (!mesh.colors.empty()) expect("colors", mesh.colors.size(), mesh.positions.size());
       if (mesh.materials.size() != 1 && !mesh.triangles.empty()) {
         expect("materials", mesh.materials.size(), mesh.triangles.size());
       }

@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
-// kTexelCells bilinear footprints that begin in it whole, so that neighbours repeat a row and a
+// kTexelCells bilinear footprints that begin in it whole, so that neighbors repeat a row and a
 // column of texels: a lookup reads one line. Footprint (0, 0) has its upper texels at (0, 0), the
 // last its lower ones at (width - 1, height - 1); what lies outside is as the wrap modes say.
 inline constexpr int kTexelTile = 4, kTexelCells = kTexelTile - 1;
@@ -88,8 +88,8 @@ struct ShadingTables {
   const NormalRecord* normals = nullptr;
   int normalStride = 0;  // floats
   // Likewise, of ones: white.
-  const ColourRecord* colours = nullptr;
-  int colourStride = 0;                   // floats
+  const ColorRecord* colors = nullptr;
+  int colorStride = 0;                    // floats
   const UvRecord* secondUvs = nullptr;    // none: no material's flags name them
   std::vector<MaterialRecord> materials;  // at least one
   std::vector<TextureRecord> textures;    // at least one

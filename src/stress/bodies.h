@@ -8,12 +8,12 @@
 namespace whit::stress {
 
 // Subdivided icosahedron, corners rounded to float; with the sphere's normals if smooth.
-inline Mesh sphereMesh(int level, const Vec3d& centre, double radius, std::uint32_t material,
+inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
                        bool smooth = false) {
   const auto [points, triangles] = procedural::icosphereMesh(level);
   Mesh mesh;
   for (const Vec3d& p : points) {
-    mesh.positions.emplace_back(centre + p * radius);
+    mesh.positions.emplace_back(center + p * radius);
     if (smooth) mesh.normals.emplace_back(p);
   }
   mesh.triangles = triangles;
@@ -65,13 +65,13 @@ inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
 }
 
 // From all around at three radii, through the inside.
-inline std::vector<ProbeRay> raysOnto(const Vec3d& centre, double radius, std::size_t n,
+inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::size_t n,
                                       std::uint64_t seed) {
   Numbers numbers(seed);
   std::vector<ProbeRay> rays;
   while (rays.size() < n) {
-    const Vec3f from(centre + numbers.direction() * (3 * radius));
-    rays.push_back(rayThrough(from, Vec3f(centre + numbers.direction() * (0.95 * radius))));
+    const Vec3f from(center + numbers.direction() * (3 * radius));
+    rays.push_back(rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius))));
   }
   return rays;
 }

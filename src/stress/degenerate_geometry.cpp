@@ -8,8 +8,8 @@ namespace whit::stress {
 
 namespace {
 
-// Whatever was built, mended as loading does it.
-Scene mended(SceneDescription&& description, Warnings* warnings = nullptr) {
+// Whatever was built, repaired as loading does it.
+Scene repaired(SceneDescription&& description, Warnings* warnings = nullptr) {
   Warnings own;
   return Scene::finalize(std::move(description), warnings ? *warnings : own);
 }
@@ -98,7 +98,7 @@ Finding degenerateTriangles(const Setup& setup) {
   camera.up = {0, 0, -1};
   camera.fov = 2;  // the slivers fill the middle row
   d.cameras = {camera};
-  return finitePixels(mended(std::move(d)), setup, "degenerate triangles and slivers");
+  return finitePixels(repaired(std::move(d)), setup, "degenerate triangles and slivers");
 }
 
 // Edges from 1e-14 to 1e14: the normal is that of the plane.
@@ -134,9 +134,9 @@ Finding hugeNextToTiny(const Setup& setup) {
   Finding finding(0);
   for (const float half : {1e4f, 1e9f, 1e15f}) {
     SceneBuilder builder;
-    const auto grey = builder.add(diffuseMaterial(1));
-    builder.add(floorAt(0, half, grey));
-    builder.add(sphereMesh(2, {0, 2, 0}, 1, grey));
+    const auto gray = builder.add(diffuseMaterial(1));
+    builder.add(floorAt(0, half, gray));
+    builder.add(sphereMesh(2, {0, 2, 0}, 1, gray));
     const Scene scene = builder.build();
     Numbers numbers(26);
     std::vector<ProbeRay> down, up;
@@ -165,7 +165,7 @@ Finding badVertices(const Setup& setup) {
     mesh.positions[2000].y = bad;
     SceneDescription d = descriptionOf({mesh}, diffuseMaterial(1));
     Warnings warnings;
-    const Scene scene = mended(std::move(d), &warnings);
+    const Scene scene = repaired(std::move(d), &warnings);
     const auto entries = warnings.entries();
     const auto dropped = entries.find("triangle with a non-finite or enormous corner dropped");
     finding.count(dropped == entries.end() || dropped->second.count != 6,
@@ -236,9 +236,10 @@ Finding garbage(const Setup& setup) {
     SceneDescription d = descriptionOf({mesh}, material);
     Camera camera;
     d.cameras = {camera};
-    d.sky.kind = Sky::Kind::colour;
+    d.sky.kind = Sky::Kind::color;
     d.sky.zenith = Rgb(1.0f);
-    finding.merge(finitePixels(mended(std::move(d)), setup, "seed " + std::to_string(seed)), true);
+    finding.merge(finitePixels(repaired(std::move(d)), setup, "seed " + std::to_string(seed)),
+                  true);
   }
   return finding;
 }
@@ -255,7 +256,7 @@ constexpr Case kDegenerateGeometryCases[] = {
      Runs::packets, hugeNextToTiny},
     {"H27", "corners that are not finite or enormous are dropped and counted",
      "one such corner in a grid of 4225", Runs::packets, badVertices},
-    {"H28", "a ray that is no ray misses, and leaves its neighbours alone",
+    {"H28", "a ray that is no ray misses, and leaves its neighbors alone",
      "NaN and infinity in one lane", Runs::packets, badRays},
     {"H29", "random bits as geometry", "12 scenes; pixels that are not finite", Runs::packets,
      garbage},

@@ -14,7 +14,7 @@ SceneDescription room() {
   SceneBuilder builder;
   Material checked = diffuseMaterial(1);
   checked.diffuseMap = builder.add(
-      makeTexture(TexelFormat::colour, 2, 2, {0x3fffffffu, 0x000003ffu, 0x0ff00000u, 0x3fffffffu}));
+      makeTexture(TexelFormat::color, 2, 2, {0x3fffffffu, 0x000003ffu, 0x0ff00000u, 0x3fffffffu}));
   checked.mirror = Rgb(0.125f);
   Material shiny = diffuseMaterial(0.5f);
   shiny.specular = Rgb(0.25f);

@@ -9,22 +9,22 @@ namespace whit::stress {
 namespace {
 
 constexpr std::size_t kLeavingRays = 1500;
-// Rays that leave a facet more flatly than this may meet its neighbour, as far as floats can tell.
+// Rays that leave a facet more flatly than this may meet its neighbor, as far as floats can tell.
 constexpr double kLeast = 1e-3;
 
 // Reflected and shadow rays that meet the convex body which they leave.
-Finding selfHits(const Scene& scene, const Vec3d& centre, double radius, const Setup& setup,
+Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const Setup& setup,
                  std::uint64_t seed) {
   Finding finding(0);
   Probe probe(scene, setup);
-  probe.cast(raysOnto(centre, radius, kLeavingRays, seed));
+  probe.cast(raysOnto(center, radius, kLeavingRays, seed));
   std::vector<ProbeRay> spawned;
   for (const ProbeChild& child : probe.reflections()) {
     if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
       spawned.push_back(child.ray);
     }
   }
-  const Light light = lightAt(Vec3f(centre + Vec3d{3, 2.5, -2} * radius), 1);
+  const Light light = lightAt(Vec3f(center + Vec3d{3, 2.5, -2} * radius), 1);
   probe.light(light);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (maxComponent(probe.unshadowed(i)) <= 0 || !probe.isHit(i)) continue;
@@ -46,9 +46,9 @@ Material shiny() {
   return m;
 }
 
-Finding sphereSelfHits(const Vec3d& centre, double radius, const Setup& setup) {
-  const Scene scene = sceneOf(sphereMesh(3, centre, radius, 0), shiny());
-  return selfHits(scene, centre, radius, setup, 1);
+Finding sphereSelfHits(const Vec3d& center, double radius, const Setup& setup) {
+  const Scene scene = sceneOf(sphereMesh(3, center, radius, 0), shiny());
+  return selfHits(scene, center, radius, setup, 1);
 }
 
 Finding scaleSweep(const Setup& setup) {

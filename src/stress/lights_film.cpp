@@ -39,9 +39,9 @@ Finding lightsAtNoDistance(const Setup& setup) {
 Finding lightInABox(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
-  const auto grey = builder.add(diffuseMaterial(1));
-  builder.add(box({-1, 0, -1}, {1, 2, 1}, grey));
-  builder.add(floorAt(-0.5f, 8, grey));
+  const auto gray = builder.add(diffuseMaterial(1));
+  builder.add(box({-1, 0, -1}, {1, 2, 1}, gray));
+  builder.add(floorAt(-0.5f, 8, gray));
   builder.description.lights = {lightAt({0.3f, 1.2f, -0.2f}, 100),
                                 lightAt({0.999f, 0.001f, 0}, 100)};
   const Scene scene = builder.build();
@@ -60,14 +60,14 @@ Finding lightInABox(const Setup& setup) {
 // Coordinates without a fraction of a texel, and those that are no numbers, count as 0.
 float tame(float s) { return std::fabs(s) <= 0x1p20f ? s : 0.0f; }
 
-// The colours of the coordinates in the first half of `uvs` are those of the second half.
+// The colors of the coordinates in the first half of `uvs` are those of the second half.
 Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
   std::vector<std::uint32_t> texels;
   texels.reserve(static_cast<std::size_t>(width));
   for (int i = 0; i < width; ++i) texels.push_back(i % 2 ? 0x3fffffffu : 0u);
-  Texture texture = makeTexture(TexelFormat::colour, width, 1, texels);
+  Texture texture = makeTexture(TexelFormat::color, width, 1, texels);
   texture.wrapU = texture.wrapV = wrap;
   Material m = diffuseMaterial(1);
   m.diffuseMap = builder.add(texture);
@@ -179,7 +179,7 @@ Finding cameraDirections(const Setup&) {
 Finding equalSamples(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
-  builder.description.sky.kind = Sky::Kind::colour;
+  builder.description.sky.kind = Sky::Kind::color;
   builder.description.sky.zenith = {0.1f, 1.0f / 3, 7e-5f};
   builder.add(floorAt(-100, 1, builder.add(diffuseMaterial(1))));
   const Scene scene = builder.build();
@@ -203,7 +203,7 @@ constexpr Case kLightAndFilmCases[] = {
     {"H66", "a light in a closed box lights nothing outside", "box above a floor; lit pixels",
      Runs::packets, lightInABox},
     {"H68", "texture coordinates far away, tiny, and no numbers",
-     "19 values, every wrap mode, textures 1 to 64 wide; colours outside [0, 1] or untamed",
+     "19 values, every wrap mode, textures 1 to 64 wide; colors outside [0, 1] or untamed",
      Runs::targets, oddTextureCoordinates},
     {"H72", "sRGB codes", "65536 values; codes beyond half a code from the formula in double",
      Runs::targets, srgbCodes},

@@ -101,15 +101,15 @@ Finding overlapIsOneInterface(const Setup& setup) {
   return finding;
 }
 
-// Four spheres around different centres: the stack holds as many media as spheres hold the point.
+// Four spheres around different centers: the stack holds as many media as spheres hold the point.
 Finding stackCountsSpheres(const Setup& setup) {
   Finding finding(0);
-  const std::array<Vec3d, 4> centre{Vec3d{}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0.05, 0.1, 0.1}};
+  const std::array<Vec3d, 4> center{Vec3d{}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0.05, 0.1, 0.1}};
   SceneBuilder builder;
   for (int i = 0; i < 4; ++i) {
     // Straight through: the paths are lines, so that the oracle is a point in spheres.
     const auto m = builder.add(glassMaterial(1, i));
-    builder.add(sphereMesh(4, centre[static_cast<std::size_t>(i)], 1 - 0.2 * i, m));
+    builder.add(sphereMesh(4, center[static_cast<std::size_t>(i)], 1 - 0.2 * i, m));
   }
   const Scene scene = builder.build();
   Probe probe(scene, setup);
@@ -125,7 +125,7 @@ Finding stackCountsSpheres(const Setup& setup) {
       std::uint32_t inside = 0;
       double clear = 1;
       for (std::size_t k = 0; k < 4; ++k) {
-        const double r = 1 - 0.2 * static_cast<double>(k), d = length(middle - centre[k]);
+        const double r = 1 - 0.2 * static_cast<double>(k), d = length(middle - center[k]);
         inside += d < r;
         clear = std::min(clear, std::fabs(d - r));
       }
@@ -252,7 +252,7 @@ constexpr Case kNestedDielectricCases[] = {
     {"H45b", "faces of glass and water in one place (reported only: solids are to overlap)",
      "rays that leave in a medium, of 200", Runs::packets, coincidentFaces},
     {"H46", "the stack of media counts the spheres around a point",
-     "four spheres that do not share a centre; 2000 paths", Runs::packets, stackCountsSpheres},
+     "four spheres that do not share a center; 2000 paths", Runs::packets, stackCountsSpheres},
     {"H47", "an eye inside glass",
      "white room from inside a ball, depths 1 and 4; against 1 - 0.04^depth", Runs::packets,
      eyeInGlass},

@@ -13,7 +13,7 @@ Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
   std::vector<std::uint32_t> expected;
   for (const Vec3f& direction : directions) {
     std::vector<ProbeRay> rays;
-    // Corners, edges and centres inside the border.
+    // Corners, edges and centers inside the border.
     for (int y = -62; y <= 62; y += 3) {
       for (int x = -62; x <= 62; ++x) {
         rays.push_back({Vec3f(Vec3d(x * 0.5, 16, y * 0.5)), direction});
@@ -132,7 +132,7 @@ Finding coplanarOverlap(const Setup& setup) {
 
 constexpr Case kOddDirectionCases[] = {
     {"H19", "axis-aligned rays, with +0 and with -0",
-     "grid of 64 x 64 from above onto its corners, edges and centres", Runs::packets, axisAligned},
+     "grid of 64 x 64 from above onto its corners, edges and centers", Runs::packets, axisAligned},
     {"H20", "denormal components count as zero", "the same with 1e-40", Runs::packets,
      denormalComponents},
     {"H21", "a ray in the plane of a triangle does not hit it", "one triangle, 504 rays",

@@ -23,7 +23,7 @@ class RandomScene {
     for (int i = 1 + below(4); i > 0; --i) addObject();
     for (int i = below(4); i > 0; --i) d.lights.push_back(light());
     d.sky = sky();
-    if (one(3)) d.ambient = {colour(amount()), colour(amount())};
+    if (one(3)) d.ambient = {color(amount()), color(amount())};
     d.cameras = {camera()};
     return builder_.describe();
   }
@@ -50,11 +50,11 @@ class RandomScene {
   float unit() {
     return one(3) ? static_cast<float>(below(2)) : static_cast<float>(numbers_.in(0, 1));
   }
-  Rgb colour(float largest = 1) { return Rgb{unit(), unit(), unit()} * largest; }
+  Rgb color(float largest = 1) { return Rgb{unit(), unit(), unit()} * largest; }
   std::uint32_t bits() { return static_cast<std::uint32_t>(numbers_.in(0, 4294967296.0)); }
 
   void addTextures() {
-    for (const TexelFormat format : {TexelFormat::colour, TexelFormat::data}) {
+    for (const TexelFormat format : {TexelFormat::color, TexelFormat::data}) {
       const int width = 1 + below(9), height = 1 + below(9);
       std::vector<std::uint32_t> texels(static_cast<std::size_t>(width * height));
       for (std::uint32_t& texel : texels) texel = bits();
@@ -64,7 +64,7 @@ class RandomScene {
       builder_.add(std::move(texture));
     }
   }
-  // Textures come in pairs, the colours first.
+  // Textures come in pairs, the colors first.
   std::int32_t map(TexelFormat format) {
     const int pairs = static_cast<int>(builder_.description.textures.size()) / 2;
     if (pairs == 0 || one(2)) return kNoTexture;
@@ -73,17 +73,17 @@ class RandomScene {
 
   Material material() {
     Material m;
-    m.diffuse = colour();
-    m.diffuseMap = map(TexelFormat::colour);
+    m.diffuse = color();
+    m.diffuseMap = map(TexelFormat::color);
     m.normalMap = map(TexelFormat::data);
     if (one(2)) {
-      m.specular = colour();
-      m.specularMap = map(TexelFormat::colour);
+      m.specular = color();
+      m.specularMap = map(TexelFormat::color);
     }
     m.roughness = unit();
     if (one(4)) {
-      m.emission = colour(amount());
-      m.emissionMap = map(TexelFormat::colour);
+      m.emission = color(amount());
+      m.emissionMap = map(TexelFormat::color);
     }
     m.vertexTint = static_cast<VertexTint>(below(3));
     if (one(4)) {
@@ -91,13 +91,13 @@ class RandomScene {
       m.alphaCutoff = unit();
     }
     if (one(3)) {
-      m.mirror = colour();
-      m.mirrorGrazing = colour();
+      m.mirror = color();
+      m.mirrorGrazing = color();
     }
     if (one(2)) {
-      m.transmission = colour();
+      m.transmission = color();
       m.ior = one(4) ? 1.0f : static_cast<float>(std::pow(10.0, numbers_.in(-1, 1)));
-      if (one(2)) m.absorption = colour(amount());
+      if (one(2)) m.absorption = color(amount());
       m.priority = below(5) - 2;
     }
     m.castsShadow = !one(4);
@@ -132,7 +132,7 @@ class RandomScene {
       mesh.normals.push_back(one(3) ? Vec3f{number(), number(), number()}
                                     : Vec3f(numbers_.direction()));
       mesh.uvs.push_back(one(3) ? Vec2f{number(), number()} : Vec2f{unit(), unit()});
-      mesh.colours.push_back(one(3) ? Rgb{number(), number(), number()} : colour());
+      mesh.colors.push_back(one(3) ? Rgb{number(), number(), number()} : color());
     }
     for (int i = 0; i < 40; ++i) {
       const auto index = [&] { return static_cast<std::uint32_t>(below(31)); };
@@ -158,7 +158,7 @@ class RandomScene {
   Light light() {
     Light light;
     light.position = Vec3f(place());
-    light.intensity = colour(amount());
+    light.intensity = color(amount());
     light.radius = static_cast<float>(std::max(1e-6, 0.01 * size()));
     light.kind = static_cast<Light::Kind>(below(3));
     light.direction = Vec3f(numbers_.direction());
@@ -169,7 +169,7 @@ class RandomScene {
   Sky sky() {
     Sky sky;
     sky.kind = static_cast<Sky::Kind>(below(3));
-    for (Rgb* part : {&sky.zenith, &sky.horizon, &sky.ground}) *part = colour(amount());
+    for (Rgb* part : {&sky.zenith, &sky.horizon, &sky.ground}) *part = color(amount());
     sky.scale = unit();
     return sky;
   }

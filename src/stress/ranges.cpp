@@ -107,7 +107,7 @@ Finding extremeIntensities(const Setup& setup) {
   return finding;
 }
 
-// A sky texel that is no number: mended when the scene is made, at most its neighbours affected.
+// A sky texel that is no number: repaired when the scene is made, at most its neighbors affected.
 Finding badSkyTexels(const Setup& setup) {
   Finding finding(0);
   for (const float bad : {kNan, kInf, -kInf, -1.0f}) {

@@ -66,7 +66,7 @@ class SceneBuilder {
   // Part of the world, where it is.
   void add(Mesh mesh) { world_.meshes.push_back(std::move(mesh)); }
   void sky(float radiance) {
-    description.sky.kind = Sky::Kind::colour;
+    description.sky.kind = Sky::Kind::color;
     description.sky.zenith = Rgb(radiance);
   }
   // Kept as instances when there are two or more placements.

@@ -60,9 +60,9 @@ Finding contactLeak(const Setup& setup) {
   Finding finding(0);
   for (const bool ball : {true, false}) {
     SceneBuilder builder;
-    const auto grey = builder.add(diffuseMaterial(1));
-    builder.add(floorAt(0, 50, grey));
-    builder.add(ball ? sphereMesh(4, {0, 1, 0}, 1, grey) : box({-1, 0, -1}, {1, 1.5f, 1}, grey));
+    const auto gray = builder.add(diffuseMaterial(1));
+    builder.add(floorAt(0, 50, gray));
+    builder.add(ball ? sphereMesh(4, {0, 1, 0}, 1, gray) : box({-1, 0, -1}, {1, 1.5f, 1}, gray));
     builder.description.lights = {lightAt({0.2f, -1, 0.3f}, 100), lightAt({0, -1e-3f, 0}, 100)};
     finding.merge(litPixels(builder.build(), above(), setup), true);
   }
@@ -104,9 +104,9 @@ Finding lightOnASurface(const Setup& setup) {
   float height = 2;
   for (int ulps = 0; ulps < 4; ++ulps, height = std::nextafter(height, 0.0f)) {
     SceneBuilder builder;
-    const auto grey = builder.add(diffuseMaterial(1));
-    builder.add(floorAt(0, 3, grey));
-    builder.add(ceilingAt(2, 3, grey));
+    const auto gray = builder.add(diffuseMaterial(1));
+    builder.add(floorAt(0, 3, gray));
+    builder.add(ceilingAt(2, 3, gray));
     const Scene scene = builder.build();
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays;

@@ -25,23 +25,23 @@ const Vec3d kFar{148376, 1234, -223423};
 
 Finding randomRays(const Setup& setup) {
   Finding finding(0);
-  for (const Vec3d& centre : {Vec3d{}, kFar}) {
+  for (const Vec3d& center : {Vec3d{}, kFar}) {
     Numbers numbers(12);
     std::vector<ProbeRay> rays;
     for (std::size_t i = 0; i < kEdgeRays; ++i) {
-      rays.push_back({inside(numbers, centre, 2), Vec3f(numbers.direction())});
+      rays.push_back({inside(numbers, center, 2), Vec3f(numbers.direction())});
     }
-    finding.merge(misses(sphereMesh(5, centre, 2, 0), rays, 0, setup), true);
+    finding.merge(misses(sphereMesh(5, center, 2, 0), rays, 0, setup), true);
   }
   return finding;
 }
 
 Finding edges(const Setup& setup) {
   Finding finding(0);
-  for (const Vec3d& centre : {Vec3d{}, kFar}) {
-    const Mesh ball = sphereMesh(3, centre, 2, 0);
-    std::vector<ProbeRay> rays = throughEdges(ball, centre, 2);
-    if (centre == Vec3d{}) {
+  for (const Vec3d& center : {Vec3d{}, kFar}) {
+    const Mesh ball = sphereMesh(3, center, 2, 0);
+    std::vector<ProbeRay> rays = throughEdges(ball, center, 2);
+    if (center == Vec3d{}) {
       for (const auto& triangle : ball.triangles) {
         const Vec3f a = ball.positions[triangle[0]], b = ball.positions[triangle[1]];
         rays.push_back(exactlyThrough((a + b) * 0.5f));
@@ -104,10 +104,10 @@ Finding tJunctions(const Setup& setup) {
   Finding finding(kNoBound);
   for (const float displaced : {0.0f, 1.0f}) {
     SceneBuilder builder;
-    const auto grey = builder.add(diffuseMaterial(1));
+    const auto gray = builder.add(diffuseMaterial(1));
     const float middle = displaced > 0 ? std::nextafter(0.0f, 1.0f) + 0x1p-24f : 0;
     Mesh mesh;
-    mesh.materials = {grey};
+    mesh.materials = {gray};
     mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, middle}, {0, 0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}};
     builder.add(mesh);
@@ -132,17 +132,17 @@ Finding nestedShells(const Setup& setup) {
   Finding finding(0);
   for (const bool farMesh : {false, true}) {
     SceneBuilder builder;
-    const auto grey = builder.add(diffuseMaterial(1));
+    const auto gray = builder.add(diffuseMaterial(1));
     Mesh sixth;
     std::uint32_t before = 0, count = 0;
     for (int shell = 0; shell < 10; ++shell) {
-      const Mesh ball = sphereMesh(3, {}, std::pow(1.05, shell), grey);
+      const Mesh ball = sphereMesh(3, {}, std::pow(1.05, shell), gray);
       count = static_cast<std::uint32_t>(ball.triangles.size());
       if (shell < 6) before += count;
       if (shell == 6) sixth = ball;
       builder.add(ball);
     }
-    if (farMesh) builder.add(sphereMesh(2, {50, 3, 7}, 1, grey));
+    if (farMesh) builder.add(sphereMesh(2, {50, 3, 7}, 1, gray));
     const Scene scene = builder.build();
     std::vector<ProbeRay> rays;
     const double start = (std::pow(1.05, 5) + std::pow(1.05, 6)) / 2;
@@ -197,7 +197,7 @@ Finding lostPixels(const Setup& setup) {
   glowing.emission = {0, 1, 0};
   builder.add(glowing);
   builder.add(roomOfPixels(makeCameraFrame(camera, 97, 61)));
-  builder.description.sky.kind = Sky::Kind::colour;
+  builder.description.sky.kind = Sky::Kind::color;
   builder.description.sky.zenith = {1, 0, 1};
   builder.description.cameras = {camera};
   const Image image = pictureOf(builder.build(), camera, options);
@@ -222,7 +222,7 @@ constexpr Case kWatertightnessCases[] = {
     {"H15", "every way in has its way out", "media stacks of rays through edges and corners",
      Runs::packets, crossingsBalance},
     {"H16", "cracks at T-junctions (reported only: such a mesh is not closed)",
-     "rays onto an edge that a corner of its neighbours divides", Runs::packets, tJunctions},
+     "rays onto an edge that a corner of its neighbors divides", Runs::packets, tJunctions},
     {"H17", "of nested shells the next one is hit",
      "10 spheres 5 % apart, with and without a far mesh", Runs::packets, nestedShells},
     {"H18", "on an open border the answer is always the same", "rays exactly onto a border, twice",

@@ -147,11 +147,11 @@ TEST(ParetoSvg, IsWellFormedAndShowsEveryPoint) {
   const std::string svg = paretoSvg(sweepOfThree(), Against::reference);
   expectBalanced(svg);
   const std::regex circle("<circle class=\"(p|q)\"");
-  int front = 0, grey = 0;
+  int front = 0, gray = 0;
   for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it)
-    ++((*it)[1] == "p" ? front : grey);
+    ++((*it)[1] == "p" ? front : gray);
   EXPECT_EQ(front, 2);
-  EXPECT_EQ(grey, 1);
+  EXPECT_EQ(gray, 1);
   EXPECT_NE(svg.find("<title>depth=16: 12.00 ms"), std::string::npos);
   for (const char* label : {">standard</text>", ">depth=2</text>", ">depth=16</text>"})
     EXPECT_NE(svg.find(label), std::string::npos) << label;

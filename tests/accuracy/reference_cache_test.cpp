@@ -21,9 +21,9 @@ SceneDescription room() {
   d.cameras[0].eye = {0.5f, 0.5f, 2};
   d.cameras[0].at = {0.5f, 0.5f, 0};
   d.lights.push_back({"lamp", {0.5f, 0.5f, 1}, {1, 1, 1}, 0.01f});
-  d.textures.push_back(test::whiteTexture(TexelFormat::colour));
+  d.textures.push_back(test::whiteTexture(TexelFormat::color));
   d.materials[0].diffuseMap = 0;
-  d.sky.kind = Sky::Kind::colour;
+  d.sky.kind = Sky::Kind::color;
   d.sky.zenith = {0.1f, 0.2f, 0.3f};
   return d;
 }

@@ -20,7 +20,7 @@ RunFacts facts() {
   return f;
 }
 
-// Two points of 10x10 pixels with errors that are easy to recognise.
+// Two points of 10x10 pixels with errors that are easy to recognize.
 SceneSweep sweepOfTwo() {
   SceneSweep sweep;
   sweep.scene = "room";
@@ -42,7 +42,7 @@ SceneSweep sweepOfTwo() {
   depth.total.rmse = 0.5;
   depth.total.pixelsGe1CodePct = 30;
   depth.arithmetic = ArithmeticError();
-  depth.arithmetic->flips = 3;
+  depth.arithmetic->divergences = 3;
   return sweep;
 }
 

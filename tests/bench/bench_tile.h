@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/path_numbers.h"
+#include "core/random_streams.h"
 #include "io/load_scene.h"
 #include "reference/generate_ray.h"
 #include "render/renderer.h"

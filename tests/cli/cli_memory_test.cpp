@@ -43,7 +43,7 @@ class MemoryLimit : public ImageTest {
   std::vector<std::string> hugeClaims() {
     Bytes pixel = bmp(1, 1, {1, 2, 3});
     setSize(pixel, 18, {0x30, 0x75, 0, 0, 0x30, 0x75, 0, 0});
-    Bytes frame = jpegGrey200();
+    Bytes frame = jpegGray200();
     setSize(frame, 2 + 69 + 5, {0x75, 0x30, 0x75, 0x30});
     writeExr(path("a.exr"), Image(2, 2), {});
     Bytes window = ImageTest::load(path("a.exr"));

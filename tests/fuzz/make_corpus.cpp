@@ -57,10 +57,10 @@ Bytes filteredRows(std::size_t rows, std::size_t bytes) {
 
 void putPngs() {
   put("png/rgb.png", png(3, 5, 8, 2, filteredRows(5, 9)));
-  put("png/grey.png", png(4, 5, 8, 0, filteredRows(5, 4)));
-  put("png/grey1.png", png(9, 5, 1, 0, filteredRows(5, 2)));
-  put("png/grey16.png", png(3, 5, 16, 0, filteredRows(5, 6)));
-  put("png/greyAlpha.png", png(3, 5, 8, 4, filteredRows(5, 6)));
+  put("png/gray.png", png(4, 5, 8, 0, filteredRows(5, 4)));
+  put("png/gray1.png", png(9, 5, 1, 0, filteredRows(5, 2)));
+  put("png/gray16.png", png(3, 5, 16, 0, filteredRows(5, 6)));
+  put("png/grayAlpha.png", png(3, 5, 8, 4, filteredRows(5, 6)));
   put("png/rgba.png", png(3, 5, 8, 6, filteredRows(5, 12)));
   put("png/rgba16.png", png(2, 5, 16, 6, filteredRows(5, 16)));
   // Adam7: one pixel is all of the first pass, the others are empty.
@@ -72,12 +72,12 @@ void putPngs() {
   append(file, Bytes(interlaced.begin() + 33, interlaced.end()));
   put("png/interlaced.png", file);
   Bytes palette = png(4, 5, 4, 3, filteredRows(5, 2));
-  Bytes withColours(palette.begin(), palette.begin() + 33);
-  appendPngChunk(withColours, "PLTE", codes(48));
-  appendPngChunk(withColours, "tRNS", codes(7));
-  appendPngChunk(withColours, "tEXt", {'k', 'e', 'y', 0, 't', 'e', 'x', 't'});
-  append(withColours, Bytes(palette.begin() + 33, palette.end()));
-  put("png/palette.png", withColours);
+  Bytes withColors(palette.begin(), palette.begin() + 33);
+  appendPngChunk(withColors, "PLTE", codes(48));
+  appendPngChunk(withColors, "tRNS", codes(7));
+  appendPngChunk(withColors, "tEXt", {'k', 'e', 'y', 0, 't', 'e', 'x', 't'});
+  append(withColors, Bytes(palette.begin() + 33, palette.end()));
+  put("png/palette.png", withColors);
 }
 
 void putJpeg(const std::string& name, int side, int channels, bool progressive, int restart) {
@@ -105,11 +105,11 @@ void putJpeg(const std::string& name, int side, int channels, bool progressive, 
 }
 
 void putJpegs() {
-  put("jpeg/grey.jpg", jpegGrey200());
+  put("jpeg/gray.jpg", jpegGray200());
   putJpeg("baseline.jpg", 17, 3, false, 0);
   putJpeg("restart.jpg", 17, 3, false, 1);
   putJpeg("progressive.jpg", 17, 3, true, 0);
-  putJpeg("progressiveGrey.jpg", 9, 1, true, 0);
+  putJpeg("progressiveGray.jpg", 9, 1, true, 0);
   putJpeg("inks.jpg", 8, 4, false, 0);
 }
 
@@ -121,7 +121,7 @@ void putTgas() {
   append(runs, {0x84, 1, 2, 3, 0x04});
   append(runs, codes(15));
   put("tga/runs.tga", runs);
-  put("tga/grey.tga", tga(3, 2, Codes{{1}, {2}, {3}, {4}, {5}, {6}}));
+  put("tga/gray.tga", tga(3, 2, Codes{{1}, {2}, {3}, {4}, {5}, {6}}));
   put("tga/rgba.tga", tga(1, 2, Codes{{1, 2, 3, 4}, {5, 6, 7, 8}}));
   Bytes palette = {0, 1, 1, 0, 0, 3, 0, 24, 0, 0, 0, 0, 4, 0, 2, 0, 8, 0};
   append(palette, codes(9));

@@ -152,7 +152,7 @@ void readImageFile(const fs::path& file) {
   for (const float value : raw.values) {
     require(value >= 0 && std::isfinite(value), "a texel that is no radiance");
   }
-  checkTexture(makeTexture("t", raw, TexelFormat::colour));
+  checkTexture(makeTexture("t", raw, TexelFormat::color));
   checkTexture(makeTexture("t", raw, TexelFormat::data));
   checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
   if (hasTranslucentAlpha(raw)) checkTexture(makeTexture("t", alphaOf(raw), TexelFormat::data));

@@ -2,7 +2,7 @@
 # Fuzzes the readers, each for SECONDS (20), as many at a time as there are processors.
 #   tests/fuzz/run.sh [SECONDS] [READER...]
 # New inputs are gathered in build-sanitize/corpus, so that a run goes on where the last one stopped.
-# What breaks a reader is left in build-sanitize/findings: mend the reader, then keep the input in
+# What breaks a reader is left in build-sanitize/findings: repair the reader, then keep the input in
 # tests/fuzz/corpus. Exits 1 when something was found, 77 when there is no Clang.
 set -uo pipefail
 

@@ -34,7 +34,7 @@ std::string table() {
     for (const stress::Family& family : stress::families()) {
       for (const stress::Case& c : family.cases) {
         if (c.number() == number) {
-          text += row(number, c.title, "`Hard/CaseTest.holds/" + std::string(c.name) + "`");
+          text += row(number, c.title, "`Hard/CaseTest.Holds/" + std::string(c.name) + "`");
         }
       }
     }

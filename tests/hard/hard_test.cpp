@@ -1,4 +1,4 @@
-// The catalogue of hard cases (src/stress), a test a case: Hard/Case.holds/H13.
+// The catalogue of hard cases (src/stress), a test a case: Hard/CaseTest.Holds/H13.
 #include <gtest/gtest.h>
 
 #include "stress/case.h"
@@ -20,7 +20,7 @@ std::vector<Case> allCases() {
 
 class CaseTest : public testing::TestWithParam<Case> {};
 
-TEST_P(CaseTest, holds) {
+TEST_P(CaseTest, Holds) {
   const Case& c = GetParam();
   for (const stress::Setup& setup : setupsOf(c.runs)) {
     const Finding finding = runCase(c, setup);

@@ -52,7 +52,7 @@ class BrokenImage : public ImageTest {
     return {{"a.tga", tga(2, 2, codes)},
             {"a.bmp", bmp(2, 2, codes)},
             {"a.png", png(2, 2, 8, 2, rows)},
-            {"a.jpg", jpegGrey200()},
+            {"a.jpg", jpegGray200()},
             {"a.hdr", hdr(2, 2, Bytes(16, 130))},
             {"b.hdr", hdrRuns(20, 3, {1, 2, 3, 130})},
             {"a.exr", exr()},
@@ -149,7 +149,7 @@ TEST_F(BrokenImage, JpegWithTooManyCodesIsRefused) {
   Bytes file = {0xff, 0xd8, 0xff, 0xc4, 0x10, 0x03, 0x13};  // 2 + 1 + 16 + 16 * 255 bytes long
   append(file, Bytes(16, 255));
   append(file, Bytes(16 * 255, 7));
-  const Bytes rest = jpegGrey200();
+  const Bytes rest = jpegGray200();
   append(file, Bytes(rest.begin() + 2, rest.end()));
   EXPECT_EQ(statusOf([&] { readRawImage(save("a.jpg", file), limits_, warnings_); }),
             ExitStatus::badScene);

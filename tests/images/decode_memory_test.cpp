@@ -77,7 +77,7 @@ class DecodeMemory : public ImageTest {
     return {{"a.png", png(10, 10, 8, 2, Bytes(310, 0)), 300},
             {"a.bmp", bmp(10, 10, rgb), 300},
             {"a.tga", tga(10, 10, rgb), 300},
-            {"a.jpg", jpegGrey200(), 64},
+            {"a.jpg", jpegGray200(), 64},
             {"a.hdr", hdr(10, 10, Bytes(400, 128)), 1200},
             {"a.exr", load(path("a.exr")), 1200}};
   }
@@ -117,7 +117,7 @@ TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
 
 // 2^24 pixels of which the file holds none, coefficient by coefficient: 2 bytes each.
 TEST_F(DecodeMemory, AProgressiveJpegHoldsItsCoefficients) {
-  Bytes file = jpegGrey200();
+  Bytes file = jpegGray200();
   const std::string marker = "\xff\xc0";
   const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end(),
                                  [](std::uint8_t a, char b) { return a == std::uint8_t(b); });

@@ -103,7 +103,7 @@ TEST(ToDisplay, ExposureCurveAndWindow) {
 }
 
 // 4096 steps: the dark end, where a code is 1 / (12.92 * 255) wide, is the worst.
-TEST(SrgbTable, isOffByAtMostOneCode) {
+TEST(SrgbTable, IsOffByAtMostOneCode) {
   int off = 0;
   constexpr int kValues = 200000;
   for (int i = 0; i <= kValues; ++i) {

@@ -154,7 +154,7 @@ TEST_F(ExrTest, HalvesAndAlphaAreRead) {
   EXPECT_EQ(image.values[3], 0.25f);
 }
 
-TEST_F(ExrTest, LuminanceAloneIsGrey) {
+TEST_F(ExrTest, LuminanceAloneIsGray) {
   ForeignFile file;
   file.channels = {{"Y", 0.75f}, {"Z", 9}};
   EXPECT_EQ(raw(file).channels, 1);
@@ -167,7 +167,7 @@ TEST_F(ExrTest, MissingChannelsAreBlack) {
   EXPECT_EQ(readImage(write(file), limits_, warnings_).at(3, 2), Rgb(0, 0.5f, 0));
 }
 
-TEST_F(ExrTest, NoColourAtAllIsAnError) {
+TEST_F(ExrTest, NoColorAtAllIsAnError) {
   ForeignFile file;
   file.channels = {{"Z", 1}, {"layer.R", 1}};
   try {
@@ -233,7 +233,7 @@ TEST_F(ExrTest, OfSeveralPartsTheFirstIsRead) {
   EXPECT_EQ(readImage(path("parts.exr"), limits_, warnings_).at(0, 0), Rgb(1));
 }
 
-// Grey has no chroma, so that nothing but half precision stands between writing and reading.
+// Gray has no chroma, so that nothing but half precision stands between writing and reading.
 TEST_F(ExrTest, LuminanceAndChromaAreConverted) {
   {
     Imf::RgbaOutputFile file(path("yc.exr").c_str(), 8, 6, Imf::WRITE_YC);
@@ -255,8 +255,8 @@ TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
   expectSameBits(readImage(path("a.exr"), limits_, warnings_), image);
   EXPECT_TRUE(warnings_.entries().empty());
 
-  const RawImage mended = readRawImage(path("a.exr"), limits_, warnings_);
-  EXPECT_EQ(mended.values, (std::vector<float>{0, 0, 65504, 0, 1e38f, 2}));
+  const RawImage repaired = readRawImage(path("a.exr"), limits_, warnings_);
+  EXPECT_EQ(repaired.values, (std::vector<float>{0, 0, 65504, 0, 1e38f, 2}));
   const auto entries = warnings_.entries();
   EXPECT_EQ(entries.at("image value that is not a number, taken as 0").count, 1u);
   EXPECT_EQ(entries.at("negative image value, taken as 0").count, 2u);

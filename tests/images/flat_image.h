@@ -4,10 +4,10 @@
 
 namespace whit {
 
-// Every pixel of one colour.
-inline Image flat(int width, int height, const Rgb& colour) {
+// Every pixel of one color.
+inline Image flat(int width, int height, const Rgb& color) {
   Image image(width, height);
-  for (Rgb& pixel : image.pixels) pixel = colour;
+  for (Rgb& pixel : image.pixels) pixel = color;
   return image;
 }
 

@@ -19,7 +19,7 @@ Rgb ofCodes(int r, int g, int b) {
   return {linear(r), linear(g), linear(b)};
 }
 
-// Hunt-adjusted L*a*b* of a linear colour, from the sRGB primaries as IEC 61966-2-1 rounds them.
+// Hunt-adjusted L*a*b* of a linear color, from the sRGB primaries as IEC 61966-2-1 rounds them.
 // The paper's fractions differ from these in the fifth digit.
 Triple huntLab(const Triple& c) {
   const Triple rows[3] = {
@@ -41,8 +41,8 @@ double distance(const Triple& p, const Triple& q) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-// FLIP of two flat images: there are no features, and filtering leaves flat colours as they are.
-double flipOfColours(const Triple& p, const Triple& q) {
+// FLIP of two flat images: there are no features, and filtering leaves flat colors as they are.
+double flipOfColors(const Triple& p, const Triple& q) {
   const double largest = std::pow(distance({0, 1, 0}, {0, 0, 1}), 0.7);
   const double e = std::pow(distance(p, q), 0.7);
   return e < 0.4 * largest ? e / (0.4 * largest) * 0.95
@@ -58,7 +58,7 @@ Triple asTriple(const Rgb& c) {
 constexpr double kTolerance = 5e-4;
 
 void expectFlat(const Rgb& a, const Rgb& b) {
-  const double expected = flipOfColours(asTriple(a), asTriple(b));
+  const double expected = flipOfColors(asTriple(a), asTriple(b));
   for (const float value : flipMap(flat(23, 17, a), flat(23, 17, b)))
     EXPECT_NEAR(static_cast<double>(value), expected, kTolerance);
 }
@@ -76,14 +76,14 @@ TEST(Flip, EqualImagesGiveZero) {
 // 100^0.7 = 25.119, 203.30^0.7 = 41.270; the knee is at 16.508: 0.95 + 0.05 * 8.611 / 24.762.
 TEST(Flip, BlackAgainstWhiteByHand) {
   const double expected = 0.95 + 0.05 * 8.611 / 24.762;
-  EXPECT_NEAR(flipOfColours({0, 0, 0}, {1, 1, 1}), expected, 1e-4);
+  EXPECT_NEAR(flipOfColors({0, 0, 0}, {1, 1, 1}), expected, 1e-4);
   const Image black = flat(16, 16, Rgb(0)), white = flat(16, 16, Rgb(1));
   for (const float value : flipMap(black, white))
     EXPECT_NEAR(static_cast<double>(value), expected, kTolerance);
   EXPECT_NEAR(compareImages(white, black).flipMean, expected, kTolerance);
 }
 
-TEST(Flip, FlatColours) {
+TEST(Flip, FlatColors) {
   expectFlat(ofCodes(0, 255, 0), ofCodes(0, 0, 255));  // 1
   expectFlat(ofCodes(200, 30, 40), ofCodes(190, 60, 50));
   expectFlat(ofCodes(128, 128, 128), ofCodes(129, 128, 128));
@@ -105,7 +105,7 @@ class BruteForce {
  public:
   explicit BruteForce(const Image& image) : image_(image) {}
 
-  // The filtered colour at a pixel, as linear RGB in [0, 1].
+  // The filtered color at a pixel, as linear RGB in [0, 1].
   Triple filtered(int x, int y) const {
     const double b[4] = {0.0047, 0.0053, 0.04, 0.025}, a[4] = {1, 1, 34.1, 13.5};
     double sum[3] = {0, 0, 0}, mass[3] = {0, 0, 0};
@@ -190,11 +190,11 @@ TEST(Flip, FeaturesAndFiltersAgainstBruteForce) {
   double largest = 0;
   for (int y = 0; y < 30; y += 1)
     for (int x = 0; x < 40; x += 3) {
-      const double colour = flipOfColours(forA.filtered(x, y), forB.filtered(x, y));
+      const double color = flipOfColors(forA.filtered(x, y), forB.filtered(x, y));
       const auto featuresA = forA.features(x, y), featuresB = forB.features(x, y);
       const double feature =
           std::max(std::abs(featuresA[0] - featuresB[0]), std::abs(featuresA[1] - featuresB[1]));
-      const double expected = std::pow(colour, 1 - std::sqrt(feature / std::sqrt(2.0)));
+      const double expected = std::pow(color, 1 - std::sqrt(feature / std::sqrt(2.0)));
       EXPECT_NEAR(static_cast<double>(map[static_cast<std::size_t>(40 * y + x)]), expected, 2e-3)
           << x << ", " << y;
       largest = std::max(largest, expected);
@@ -210,7 +210,7 @@ TEST(Flip, IsSymmetric) {
 
 TEST(Flip, SinglePixelsWork) {
   const float value = flipMap(flat(1, 1, Rgb(0)), flat(1, 1, Rgb(1)))[0];
-  EXPECT_NEAR(static_cast<double>(value), flipOfColours({0, 0, 0}, {1, 1, 1}), kTolerance);
+  EXPECT_NEAR(static_cast<double>(value), flipOfColors({0, 0, 0}, {1, 1, 1}), kTolerance);
 }
 
 }  // namespace

@@ -37,11 +37,11 @@ TEST(HdrFlip, ExposuresSpanBrightestToMedian) {
   for (std::size_t i = 1; i < e.size(); ++i) EXPECT_NEAR(e[i] - e[i - 1], 6.0 / 5, 1e-9);
 }
 
-// Grey 1 against grey 0.5: one exposure, at which they are shown as 0.85 and aces(x / 2), where
-// aces(x) = 0.85. Of two greys the redistributed distance is that of their lightness alone:
+// Gray 1 against gray 0.5: one exposure, at which they are shown as 0.85 and aces(x / 2), where
+// aces(x) = 0.85. Of two grays the redistributed distance is that of their lightness alone:
 // (0.95 / 0.4) (dL / Lmax)^0.7 with Lmax the Hunt distance of green and blue, 203.4 (its 0.7th
 // power is 41.27); without an edge nothing else counts.
-TEST(HdrFlip, TwoGreysByHand) {
+TEST(HdrFlip, TwoGraysByHand) {
   double low = 0, high = 100;
   for (int i = 0; i < 200; ++i) (aces((low + high) / 2) < 0.85 ? low : high) = (low + high) / 2;
   const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };

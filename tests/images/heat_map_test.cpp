@@ -9,9 +9,9 @@
 namespace whit {
 namespace {
 
-using Colour = std::array<int, 3>;
+using Color = std::array<int, 3>;
 
-Colour at(const DisplayImage& image, int x, int y) {
+Color at(const DisplayImage& image, int x, int y) {
   const std::uint8_t* p =
       image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                static_cast<std::size_t>(x));
@@ -19,7 +19,7 @@ Colour at(const DisplayImage& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-double luminance(const Colour& c) {
+double luminance(const Color& c) {
   return 0.2126 * srgbToLinear(c[0] / 255.0) + 0.7152 * srgbToLinear(c[1] / 255.0) +
          0.0722 * srgbToLinear(c[2] / 255.0);
 }
@@ -36,14 +36,14 @@ TEST(HeatMap, GrowsLighterUpToSixteenCodes) {
   const auto [a, b] = ramp(100);
   const DisplayImage map = heatMap(a, b);
   EXPECT_EQ(map.width, 100);
-  EXPECT_EQ(at(map, 0, 0), (Colour{0, 0, 0}));
+  EXPECT_EQ(at(map, 0, 0), (Color{0, 0, 0}));
   for (int codes = 1; codes <= 16; ++codes)
     EXPECT_GT(luminance(at(map, codes, 0)), luminance(at(map, codes - 1, 0))) << codes;
   for (int codes = 17; codes < 100; ++codes) EXPECT_EQ(at(map, codes, 0), at(map, 16, 0));
-  for (int x = 0; x < 100; ++x) EXPECT_EQ(at(map, x, 1), (Colour{0, 0, 0}));
+  for (int x = 0; x < 100; ++x) EXPECT_EQ(at(map, x, 1), (Color{0, 0, 0}));
 }
 
-// Beneath the image: the bar runs through the same colours, with six ticks under it, and white
+// Beneath the image: the bar runs through the same colors, with six ticks under it, and white
 // digits under those.
 TEST(HeatMap, HasItsScaleBeneath) {
   const auto [a, b] = ramp(100);
@@ -53,7 +53,7 @@ TEST(HeatMap, HasItsScaleBeneath) {
   EXPECT_EQ(at(map, 94, 2 + 4), at(map, 16, 0));
   const auto whites = [&](int y) {
     int count = 0;
-    for (int x = 0; x < map.width; ++x) count += at(map, x, y) == Colour{255, 255, 255};
+    for (int x = 0; x < map.width; ++x) count += at(map, x, y) == Color{255, 255, 255};
     return count;
   };
   EXPECT_EQ(whites(2 + 8), 6);
@@ -61,9 +61,9 @@ TEST(HeatMap, HasItsScaleBeneath) {
   // The top rows of 0, 1, 2, 4, 8 and 16: 3 + 1 + 3 + 2 + 3 + (1 + 3) pixels.
   EXPECT_EQ(whites(2 + 11), 16);
   // The tick of 1 is at log 2 / log 17 of the 89 pixels between the ends: 21.8.
-  EXPECT_EQ(at(map, 5 + 22, 2 + 8), (Colour{255, 255, 255}));
-  // The bar has the colour of one code there.
-  const Colour bar = at(map, 5 + 22, 2 + 4), one = at(map, 1, 0);
+  EXPECT_EQ(at(map, 5 + 22, 2 + 8), (Color{255, 255, 255}));
+  // The bar has the color of one code there.
+  const Color bar = at(map, 5 + 22, 2 + 4), one = at(map, 1, 0);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(bar[c], one[c], 3);
 }
 

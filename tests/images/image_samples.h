@@ -128,10 +128,10 @@ inline Bytes hdrRuns(int width, int height, const std::array<std::uint8_t, 4>& r
   return file;
 }
 
-// A grey baseline JPEG of one 8x8 block whose only coefficient is DC: 8 * (200 - 128) = 576, which
+// A gray baseline JPEG of one 8x8 block whose only coefficient is DC: 8 * (200 - 128) = 576, which
 // is 10 bits long, so the entropy-coded data is the only DC code (0), 1001000000, the only AC code,
 // end of block (0), and ones up to the byte.
-inline Bytes jpegGrey200() {
+inline Bytes jpegGray200() {
   Bytes file = {0xff, 0xd8, 0xff, 0xdb, 0, 67, 0};
   append(file, Bytes(64, 1));
   append(file, {0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0});
@@ -156,15 +156,15 @@ inline void appendPngChunk(Bytes& file, const char* type, const Bytes& data) {
       big(static_cast<std::uint32_t>(crc32(0, body.data(), static_cast<unsigned>(body.size())))));
 }
 
-// `rows` is what PNG deflates: a filter byte (0) before each row. Colour types: 0 grey, 2 RGB,
-// 4 grey and alpha, 6 RGBA.
-inline Bytes png(int width, int height, int bits, int colourType, const Bytes& rows) {
+// `rows` is what PNG deflates: a filter byte (0) before each row. Color types: 0 gray, 2 RGB,
+// 4 gray and alpha, 6 RGBA.
+inline Bytes png(int width, int height, int bits, int colorType, const Bytes& rows) {
   Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   const auto byte = [](int v, int shift) { return static_cast<std::uint8_t>(v >> shift & 255); };
   appendPngChunk(file, "IHDR",
                  {byte(width, 24), byte(width, 16), byte(width, 8), byte(width, 0),
                   byte(height, 24), byte(height, 16), byte(height, 8), byte(height, 0),
-                  static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(colourType), 0, 0, 0});
+                  static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(colorType), 0, 0, 0});
   uLongf size = compressBound(static_cast<uLong>(rows.size()));
   Bytes packed(size);
   compress(packed.data(), &size, rows.data(), static_cast<uLong>(rows.size()));

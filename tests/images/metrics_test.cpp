@@ -79,10 +79,10 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
 }
 
 TEST(Metrics, BlackReferences) {
-  const Image black = flat(2, 1, Rgb(0)), grey = flat(2, 1, Rgb(0.1f));
+  const Image black = flat(2, 1, Rgb(0)), gray = flat(2, 1, Rgb(0.1f));
   EXPECT_EQ(compareImages(black, black).energyRatio, 1);
-  EXPECT_EQ(compareImages(grey, black).energyRatio, std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(compareImages(grey, black).relmse, 1, 1e-6);  // 0.01 / 0.01, 0.1 being a float
+  EXPECT_EQ(compareImages(gray, black).energyRatio, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(compareImages(gray, black).relmse, 1, 1e-6);  // 0.01 / 0.01, 0.1 being a float
 }
 
 TEST(Metrics, SizesAndWindowsMustMatch) {

@@ -39,10 +39,10 @@ TEST_F(ReadImage, ContentCountsMoreThanTheName) {
 }
 
 TEST_F(ReadImage, PngOfEveryChannelCount) {
-  const Bytes grey = {0, 7};
-  EXPECT_EQ(raw("1.png", png(1, 1, 8, 0, grey)).codes, (Bytes{7}));
-  const Bytes greyAlpha = {0, 7, 8};
-  EXPECT_EQ(raw("2.png", png(1, 1, 8, 4, greyAlpha)).codes, (Bytes{7, 8}));
+  const Bytes gray = {0, 7};
+  EXPECT_EQ(raw("1.png", png(1, 1, 8, 0, gray)).codes, (Bytes{7}));
+  const Bytes grayAlpha = {0, 7, 8};
+  EXPECT_EQ(raw("2.png", png(1, 1, 8, 4, grayAlpha)).codes, (Bytes{7, 8}));
   const Bytes rgba = {0, 1, 2, 3, 4};
   EXPECT_EQ(raw("4.png", png(1, 1, 8, 6, rgba)).codes, (Bytes{1, 2, 3, 4}));
 }
@@ -54,7 +54,7 @@ TEST_F(ReadImage, SixteenBitPngComesAsItsHighBytes) {
 }
 
 TEST_F(ReadImage, JpegOfOneCoefficient) {
-  const RawImage image = raw("a.jpg", jpegGrey200());
+  const RawImage image = raw("a.jpg", jpegGray200());
   EXPECT_EQ(image.channels, 1);
   EXPECT_EQ(image.codes, Bytes(64, 200));
 }
@@ -91,7 +91,7 @@ TEST_F(ReadImage, ReadImageDecodesSrgb) {
                   static_cast<float>(std::pow((90 / 255.0 + 0.055) / 1.055, 2.4)));
 }
 
-TEST_F(ReadImage, GreyIsSpreadAndAlphaDropped) {
+TEST_F(ReadImage, GrayIsSpreadAndAlphaDropped) {
   const Image image = readImage(save("a.png", png(1, 1, 8, 4, {0, 255, 9})), limits_, warnings_);
   EXPECT_EQ(image.at(0, 0), Rgb(1, 1, 1));
 }

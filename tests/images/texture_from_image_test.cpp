@@ -23,15 +23,15 @@ RawImage floats(int channels, const std::vector<float>& values) {
   return raw;
 }
 
-// The table gives just what encoding each colour by itself would.
-TEST(TextureFromImage, ColourCodesAreEncodedAsTheirLinearLight) {
+// The table gives just what encoding each color by itself would.
+TEST(TextureFromImage, ColorCodesAreEncodedAsTheirLinearLight) {
   for (int code = 0; code < 256; ++code) {
     const auto c = static_cast<std::uint8_t>(code);
     const auto other = static_cast<std::uint8_t>(255 - code);
-    const Texture texture = makeTexture("t", codes(3, {c, other, 7}), TexelFormat::colour);
+    const Texture texture = makeTexture("t", codes(3, {c, other, 7}), TexelFormat::color);
     const auto linear = [](int v) { return static_cast<float>(srgbToLinear(v / 255.0)); };
     ASSERT_EQ(texture.texels.size(), 1u);
-    EXPECT_EQ(texture.texels[0], encodeColourTexel({linear(code), linear(other), linear(7)}));
+    EXPECT_EQ(texture.texels[0], encodeColorTexel({linear(code), linear(other), linear(7)}));
   }
 }
 
@@ -46,8 +46,8 @@ TEST(TextureFromImage, DataCodesAreKept) {
 }
 
 TEST(TextureFromImage, LinearValuesAreEncoded) {
-  EXPECT_EQ(makeTexture("t", floats(3, {0.25f, 1, 7}), TexelFormat::colour).texels[0],
-            encodeColourTexel({0.25f, 1, 1}));
+  EXPECT_EQ(makeTexture("t", floats(3, {0.25f, 1, 7}), TexelFormat::color).texels[0],
+            encodeColorTexel({0.25f, 1, 1}));
   EXPECT_EQ(makeTexture("t", floats(1, {1}), TexelFormat::data).texels[0], 0xffffffffu);
 }
 
@@ -70,8 +70,8 @@ TEST(EnvironmentFromImage, HasLinearPlanes) {
   EXPECT_EQ(linear.r, (std::vector<float>{1, 4}));
   EXPECT_EQ(linear.g, (std::vector<float>{20, 5}));
   EXPECT_EQ(linear.b, (std::vector<float>{300, 6}));
-  const EnvironmentImage grey = makeEnvironment(floats(1, {0.5f}));
-  EXPECT_EQ(grey.b, (std::vector<float>{0.5f}));
+  const EnvironmentImage gray = makeEnvironment(floats(1, {0.5f}));
+  EXPECT_EQ(gray.b, (std::vector<float>{0.5f}));
   const EnvironmentImage encoded = makeEnvironment(codes(4, {255, 10, 0, 77}));
   EXPECT_EQ(encoded.r[0], 1);
   EXPECT_FLOAT_EQ(encoded.g[0], static_cast<float>(10 / 255.0 / 12.92));

@@ -17,25 +17,25 @@ class GltfCoordinates : public GltfMaterials {
  protected:
   void SetUp() override {
     GltfMaterials::SetUp();
-    save("colour.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
+    save("color.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
     save("light.tga", tga(2, 1, {{0, 0, 255}, {0, 0, 0}}));
-    useImages({"colour.tga", "light.tga"});
+    useImages({"color.tga", "light.tga"});
     secondUvs_ = {1, 1, 0, 1, 0, 0, 1, 0};
   }
 
-  // What a texture of base colour and one of emission are, beside their indices.
+  // What a texture of base color and one of emission are, beside their indices.
   static std::string material(const std::string& base, const std::string& emissive) {
     return matte("\"baseColorTexture\":{\"index\":0" + base + "}",
                  "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1" + emissive + "}");
   }
-  // Of the base colour, in light that makes white 1.
+  // Of the base color, in light that makes white 1.
   void expectColumns(const std::string& material, const Rgb& leftBase, const Rgb& leftLight,
                      const Rgb& rightBase, const Rgb& rightLight) {
     const auto p = picture({{0, material, 1}}, 2);
     const auto at = static_cast<float>(lit(0.5, 0.5));
     for (const std::size_t row : {0, 2}) {
-      expectColour(p[row], leftBase * at + leftLight);
-      expectColour(p[row + 1], rightBase * at + rightLight);
+      expectColor(p[row], leftBase * at + leftLight);
+      expectColor(p[row + 1], rightBase * at + rightLight);
     }
   }
 
@@ -76,8 +76,8 @@ TEST_F(GltfCoordinates, TheNormalMapLeansAlongItsOwn) {
   };
   const double x = 204 / 127.5 - 1, y = 128 / 127.5 - 1, z = 230 / 127.5 - 1;
   const double scale = 0.5 * std::sqrt(0.5) / std::sqrt(x * x + y * y + z * z);
-  expectColour(lean(""), Rgb(static_cast<float>((y + z) * scale)));
-  expectColour(lean(kSecondSet), Rgb(static_cast<float>((x + z) * scale)));
+  expectColor(lean(""), Rgb(static_cast<float>((y + z) * scale)));
+  expectColor(lean(kSecondSet), Rgb(static_cast<float>((x + z) * scale)));
 }
 
 TEST_F(GltfCoordinates, ASetThatIsNotThereIsZero) {
@@ -116,7 +116,7 @@ TEST_F(GltfCoordinates, AThirdKindAndThoseOfMetalnessAreCounted) {
                        "\"metallicRoughnessTexture\":{\"index\":1,\"texCoord\":1}}}",
                        1}}));
   EXPECT_EQ(
-      warned("metalness by a texture with other coordinates than the base colour's: these taken"),
+      warned("metalness by a texture with other coordinates than the base color's: these taken"),
       1u);
 }
 

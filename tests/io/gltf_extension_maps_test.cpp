@@ -12,38 +12,38 @@ std::string lobeOnly(const std::string& specular, const std::string& pbr = "") {
 }
 float lobeAt(double x, double y) { return static_cast<float>(9 / (4 * (x * x + y * y + 9))); }
 
-// Strength 1 beside 102 / 255 = 0.4; of colours red and a grey of 0.5029.
+// Strength 1 beside 102 / 255 = 0.4; of colors red and a gray of 0.5029.
 TEST_F(GltfMaterials, SpecularTexelByTexel) {
   save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
-  save("colour.tga", tga(2, 1, {{255, 0, 0}, {188, 188, 188}}));
-  useImages({"strength.tga", "colour.tga"});
-  const auto grey = static_cast<float>(srgbToLinear(188 / 255.0));
+  save("color.tga", tga(2, 1, {{255, 0, 0}, {188, 188, 188}}));
+  useImages({"strength.tga", "color.tga"});
+  const auto gray = static_cast<float>(srgbToLinear(188 / 255.0));
   const float lobe = lobeAt(0.5, 0.5);
   const auto show = [&](const std::string& specular) {
     return picture({{0, lobeOnly(specular), 1}}, 2);
   };
   const std::string strength = "\"specularFactor\":0.5,\"specularTexture\":{\"index\":0}";
-  const std::string colour =
+  const std::string color =
       "\"specularColorFactor\":[10,5,10],\"specularColorTexture\":{\"index\":1}";
   auto p = show(strength);
-  expectColour(p[0], Rgb(0.04f * 0.5f * lobe));
-  expectColour(p[1], Rgb(0.04f * 0.2f * lobe));
-  p = show(colour);
-  expectColour(p[0], Rgb{0.4f, 0, 0} * lobe);
-  expectColour(p[1], Rgb{0.4f, 0.2f, 0.4f} * (grey * lobe));
-  p = show(strength + "," + colour);
-  expectColour(p[0], Rgb{0.4f, 0, 0} * (0.5f * lobe));
-  expectColour(p[1], Rgb{0.4f, 0.2f, 0.4f} * (grey * 0.2f * lobe));
-  // Colour is bounded by 1 before the strength counts.
+  expectColor(p[0], Rgb(0.04f * 0.5f * lobe));
+  expectColor(p[1], Rgb(0.04f * 0.2f * lobe));
+  p = show(color);
+  expectColor(p[0], Rgb{0.4f, 0, 0} * lobe);
+  expectColor(p[1], Rgb{0.4f, 0.2f, 0.4f} * (gray * lobe));
+  p = show(strength + "," + color);
+  expectColor(p[0], Rgb{0.4f, 0, 0} * (0.5f * lobe));
+  expectColor(p[1], Rgb{0.4f, 0.2f, 0.4f} * (gray * 0.2f * lobe));
+  // Color is bounded by 1 before the strength counts.
   p = show(strength +
            ",\"specularColorFactor\":[100,100,100],\"specularColorTexture\":"
            "{\"index\":1}");
-  expectColour(p[0], Rgb{0.5f, 0, 0} * lobe);
-  expectColour(p[1], Rgb(0.2f * lobe));
+  expectColor(p[0], Rgb{0.5f, 0, 0} * lobe);
+  expectColor(p[1], Rgb(0.2f * lobe));
   EXPECT_TRUE(warnings_.entries().empty());
 }
 
-// A metal has its base colour, whatever the specular texture; half a metal half of it.
+// A metal has its base color, whatever the specular texture; half a metal half of it.
 TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
   save("metal.tga", tga(2, 1, {{0, 255, 255}, {0, 255, 0}}));
   save("strength.tga", tga(1, 1, {{0, 0, 0, 102}}));
@@ -55,23 +55,23 @@ TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
                            1}},
                          2);
   const float lobe = lobeAt(0.5, 0.5), white = static_cast<float>(lit(0.5, 0.5));
-  expectColour(p[0], Rgb{0.8f, 0.4f, 0.2f} * lobe);
-  expectColour(p[1], Rgb{0.8f, 0.4f, 0.2f} * white + Rgb(0.04f * 0.4f * lobe));
+  expectColor(p[0], Rgb{0.8f, 0.4f, 0.2f} * lobe);
+  expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * white + Rgb(0.04f * 0.4f * lobe));
 }
 
-// An impulse has no map: strength 0.7 and colour 0.5 on average.
+// An impulse has no map: strength 0.7 and color 0.5 on average.
 TEST_F(GltfMaterials, MirrorsTakeTheMeanOfSpecularTextures) {
   save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
-  save("colour.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 255}}));
-  useImages({"strength.tga", "colour.tga"});
+  save("color.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 255}}));
+  useImages({"strength.tga", "color.tga"});
   const SceneDescription scene =
       loadText(sceneText({{0,
                            lobeOnly("\"specularTexture\":{\"index\":0},\"specularColorTexture\":"
                                     "{\"index\":1}",
                                     ",\"roughnessFactor\":0"),
                            1}}));
-  expectColour(scene.materials[0].mirror, Rgb{0.02f, 0.02f, 0.04f} * 0.7f, 1e-6);
-  expectColour(scene.materials[0].mirrorGrazing, Rgb(0.7f), 1e-6);
+  expectColor(scene.materials[0].mirror, Rgb{0.02f, 0.02f, 0.04f} * 0.7f, 1e-6);
+  expectColor(scene.materials[0].mirrorGrazing, Rgb(0.7f), 1e-6);
 }
 
 TEST_F(GltfMaterials, ClearcoatAndTransmissionTakeTheMeanOfTheirTextures) {
@@ -93,8 +93,8 @@ TEST_F(GltfMaterials, ClearcoatAndTransmissionTakeTheMeanOfTheirTextures) {
         index + "}" + roughness + "}");
   };
   const Material even = coat("0", "");
-  expectColour(even.mirror, Rgb(0.04f * 0.2f), 1e-6);
-  expectColour(even.mirrorGrazing, Rgb(0.2f), 1e-6);
+  expectColor(even.mirror, Rgb(0.04f * 0.2f), 1e-6);
+  expectColor(even.mirrorGrazing, Rgb(0.2f), 1e-6);
   // 0.2 is smooth; 1 without the texture is not.
   const std::string rough = ",\"clearcoatRoughnessFactor\":1";
   EXPECT_FALSE(coat("0", rough).hasMirror());
@@ -105,11 +105,11 @@ TEST_F(GltfMaterials, ClearcoatAndTransmissionTakeTheMeanOfTheirTextures) {
         "\"transmissionTexture\":{\"index\":" +
         index + "}}");
   };
-  expectColour(clear("0").transmission, Rgb(0.2f), 1e-6);
+  expectColor(clear("0").transmission, Rgb(0.2f), 1e-6);
   EXPECT_TRUE(warnings_.entries().empty());
 
-  expectColour(coat("1", "").mirrorGrazing, Rgb(0.3f), 1e-6);
-  expectColour(clear("1").transmission, Rgb(0.3f), 1e-6);
+  expectColor(coat("1", "").mirrorGrazing, Rgb(0.3f), 1e-6);
+  expectColor(clear("1").transmission, Rgb(0.3f), 1e-6);
   coat("0", rough + ",\"clearcoatRoughnessTexture\":{\"index\":1}");
   EXPECT_EQ(warned("clearcoat by a texture taken by its mean"), 1u);
   EXPECT_EQ(warned("roughness of a clearcoat by a texture taken by its mean"), 1u);
@@ -125,7 +125,7 @@ TEST_F(GltfMaterials, SpecularTexturesWithOtherCoordinatesAreCounted) {
                                 ",\"baseColorTexture\":{\"index\":0}"),
                        1}}));
   EXPECT_EQ(
-      warned("specular by a texture with other coordinates than the base colour's: these taken"),
+      warned("specular by a texture with other coordinates than the base color's: these taken"),
       1u);
 }
 

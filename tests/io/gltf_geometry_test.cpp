@@ -112,7 +112,7 @@ TEST_F(GltfGeometry, IndicesOfEveryType) {
   }
 }
 
-// Whole numbers as they are, and normalised by the largest of their type.
+// Whole numbers as they are, and normalized by the largest of their type.
 TEST_F(GltfGeometry, PositionsOfEveryType) {
   GltfBuilder b;
   struct Case {
@@ -138,7 +138,7 @@ TEST_F(GltfGeometry, PositionsOfEveryType) {
   }
 }
 
-TEST_F(GltfGeometry, MostNegativeNormalisedIntegerIsMinusOne) {
+TEST_F(GltfGeometry, MostNegativeNormalizedIntegerIsMinusOne) {
   GltfBuilder b;
   const auto view = b.view(bytesOf<std::int8_t>({-128, -127, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}), 4);
   const auto position = b.accessor(view, 5120, "VEC3", 3, ",\"normalized\":true");
@@ -259,12 +259,12 @@ TEST_F(GltfGeometry, SpotAndDirectionalLights) {
   expectNear(Vec3d(sun.intensity), {2, 2, 2});  // 1366 lx
   EXPECT_FLOAT_EQ(scene.lights[2].innerConeAngle, 0);
   EXPECT_FLOAT_EQ(scene.lights[2].outerConeAngle, 45);
-  // A sharp edge and, mended, one of angles that are no cones'.
+  // A sharp edge and, repaired, one of angles that are no cones'.
   for (const std::size_t i : {3u, 4u}) {
     EXPECT_LT(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle);
     EXPECT_NEAR(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle, 1e-4);
   }
-  EXPECT_EQ(warned("spot light's cone mended"), 1u);
+  EXPECT_EQ(warned("spot light's cone repaired"), 1u);
 }
 
 TEST_F(GltfGeometry, FilesWithoutALightAreGivenOne) {

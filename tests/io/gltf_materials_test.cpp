@@ -1,40 +1,40 @@
-// Materials of glTF files: pictures of a square, their colours worked out by hand.
+// Materials of glTF files: pictures of a square, their colors worked out by hand.
 #include "core/srgb.h"
 #include "gltf_pictures.h"
 
 namespace whit {
 namespace {
 
-TEST_F(GltfMaterials, LambertianBaseColour) {
-  expectColour(pixel(matte("\"baseColorFactor\":[0.5,0.25,1,1]")), {0.5f, 0.25f, 1});
+TEST_F(GltfMaterials, LambertianBaseColor) {
+  expectColor(pixel(matte("\"baseColorFactor\":[0.5,0.25,1,1]")), {0.5f, 0.25f, 1});
 }
 
 // Straight on and with alpha 1, GGX's lobe is f0 / 4 pi: an eighth and a quarter of the base
-// colour.
-TEST_F(GltfMaterials, RoughMetalReflectsItsBaseColour) {
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.4,0.2,1]}}"),
-               {0.2f, 0.1f, 0.05f});
+// color.
+TEST_F(GltfMaterials, RoughMetalReflectsItsBaseColor) {
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.4,0.2,1]}}"),
+              {0.2f, 0.1f, 0.05f});
 }
 
 // 1 for the albedo, 0.04 / 4 for the lobe.
 TEST_F(GltfMaterials, RoughDielectricHasBoth) {
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}"), Rgb(1.01f));
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}"), Rgb(1.01f));
 }
 
 TEST_F(GltfMaterials, HalfMetalIsTheMean) {
   // 0.5 * 0.8 + (0.5 * 0.04 + 0.5 * 0.8) / 4
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
-                     "\"baseColorFactor\":[0.8,0.8,0.8,1]}}"),
-               Rgb(0.505f));
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
+                    "\"baseColorFactor\":[0.8,0.8,0.8,1]}}"),
+              Rgb(0.505f));
 }
 
 TEST_F(GltfMaterials, SpecularExtensionSetsTheReflectance) {
   // Roughness 0.5 has alpha 0.25: straight on the lobe is f0 / (4 alpha^2) = 4 f0 here.
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5,"
-                     "\"baseColorFactor\":[0,0,0,1]},\"extensions\":{\"KHR_materials_specular\":"
-                     "{\"specularFactor\":0.5,\"specularColorFactor\":[1,0.5,0]},"
-                     "\"KHR_materials_ior\":{\"ior\":1.5}}}"),
-               {0.08f, 0.04f, 0});
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5,"
+                    "\"baseColorFactor\":[0,0,0,1]},\"extensions\":{\"KHR_materials_specular\":"
+                    "{\"specularFactor\":0.5,\"specularColorFactor\":[1,0.5,0]},"
+                    "\"KHR_materials_ior\":{\"ior\":1.5}}}"),
+              {0.08f, 0.04f, 0});
 }
 
 TEST_F(GltfMaterials, TexturesAreUprightAndDecodedFromSrgb) {
@@ -43,18 +43,18 @@ TEST_F(GltfMaterials, TexturesAreUprightAndDecodedFromSrgb) {
   const auto p = picture(
       {{0, matte("\"baseColorFactor\":[1,0.5,1,1],\"baseColorTexture\":{\"index\":0}"), 1}}, 2);
   const auto at = static_cast<float>(lit(0.5, 0.5));
-  const auto grey = static_cast<float>(srgbToLinear(188 / 255.0));
-  expectColour(p[0], Rgb{1, 0, 0} * at);
-  expectColour(p[1], Rgb{0, 0.5f, 0} * at);
-  expectColour(p[2], Rgb{0, 0, 1} * at);
-  expectColour(p[3], Rgb{grey, grey / 2, grey} * at);
+  const auto gray = static_cast<float>(srgbToLinear(188 / 255.0));
+  expectColor(p[0], Rgb{1, 0, 0} * at);
+  expectColor(p[1], Rgb{0, 0.5f, 0} * at);
+  expectColor(p[2], Rgb{0, 0, 1} * at);
+  expectColor(p[3], Rgb{gray, gray / 2, gray} * at);
 }
 
 TEST_F(GltfMaterials, ImagesInDataUris) {
   DisplayImage image{1, 1, {0, 255, 0, 255}};
   images_ = ",\"images\":[{\"uri\":\"data:image/png;base64," + base64(encodePng(image)) +
             "\"}],\"textures\":[{\"source\":0}]";
-  expectColour(pixel(matte("\"baseColorTexture\":{\"index\":0}")), {0, 1, 0});
+  expectColor(pixel(matte("\"baseColorTexture\":{\"index\":0}")), {0, 1, 0});
 }
 
 TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
@@ -70,7 +70,7 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
   const auto at = static_cast<float>(lit(0.5, 0.5));
   const Rgb red = Rgb{1, 0, 0} * at, green = Rgb{0, 1, 0} * at, blue = Rgb{0, 0, 1} * at, white(at);
   const auto expectPicture = [&](const std::vector<Rgb>& got, const std::vector<Rgb>& wanted) {
-    for (std::size_t i = 0; i < 4; ++i) expectColour(got[i], wanted[i]);
+    for (std::size_t i = 0; i < 4; ++i) expectColor(got[i], wanted[i]);
   };
   useImages({"t.tga"});
   expectPicture(show("\"offset\":[0.5,0]"), {green, red, white, blue});
@@ -97,8 +97,8 @@ TEST_F(GltfMaterials, MetalnessTexelByTexel) {
   // Off the middle the lobe of alpha 1 is f0 / (4 pi cos), which the cosine cancels.
   const double d2 = 0.25 + 0.25 + 9, lobe = 9 / (4 * d2);
   const auto metal = static_cast<float>(lobe), rest = static_cast<float>(lit(0.5, 0.5));
-  expectColour(p[0], Rgb{0.8f, 0.4f, 0.2f} * metal);
-  expectColour(p[1], Rgb{0.8f, 0.4f, 0.2f} * rest + Rgb(0.04f * metal));
+  expectColor(p[0], Rgb{0.8f, 0.4f, 0.2f} * metal);
+  expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * rest + Rgb(0.04f * metal));
 }
 
 TEST_F(GltfMaterials, RoughnessIsTheMeanOfItsMap) {
@@ -130,10 +130,10 @@ TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
         2);
   };
   const Rgb seen(static_cast<float>(lit(0.5, 0.5)));
-  expectColour(show("1", "")[0], Rgb(0.0f));  // 100 / 255 is below 0.5
-  expectColour(show("1", "")[1], seen);
-  expectColour(show("1", ",\"alphaCutoff\":0.3")[0], seen);
-  expectColour(show("0.75", ",\"alphaCutoff\":0.3")[0], Rgb(0.0f));  // 0.294 is below 0.3
+  expectColor(show("1", "")[0], Rgb(0.0f));  // 100 / 255 is below 0.5
+  expectColor(show("1", "")[1], seen);
+  expectColor(show("1", ",\"alphaCutoff\":0.3")[0], seen);
+  expectColor(show("0.75", ",\"alphaCutoff\":0.3")[0], Rgb(0.0f));  // 0.294 is below 0.3
 }
 
 TEST_F(GltfMaterials, MasksThatCutEverything) {
@@ -141,7 +141,7 @@ TEST_F(GltfMaterials, MasksThatCutEverything) {
       picture({{0, matte("\"baseColorFactor\":[1,1,1,0.25]", "\"alphaMode\":\"MASK\""), 1},
                {-1, glowing("[0.5,1,0]"), 4}},
               1);
-  expectColour(p[0], {0.5f, 1, 0});
+  expectColor(p[0], {0.5f, 1, 0});
 }
 
 TEST_F(GltfMaterials, BlendingLetsTheRestThrough) {
@@ -150,7 +150,7 @@ TEST_F(GltfMaterials, BlendingLetsTheRestThrough) {
       picture({{0, matte("\"baseColorFactor\":[1,1,1,0.25]", "\"alphaMode\":\"BLEND\""), 1},
                {-1, behind, 4}},
               1);
-  expectColour(p[0], Rgb(0.25f) + Rgb{0.5f, 1, 0} * 0.75f);
+  expectColor(p[0], Rgb(0.25f) + Rgb{0.5f, 1, 0} * 0.75f);
 }
 
 TEST_F(GltfMaterials, EvenlyTranslucentTexturesBlendByTheirMean) {
@@ -160,7 +160,7 @@ TEST_F(GltfMaterials, EvenlyTranslucentTexturesBlendByTheirMean) {
       picture({{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"BLEND\""), 1},
                {-1, glowing("[1,0,0]"), 4}},
               1);
-  expectColour(p[0], Rgb{0.4f + 0.6f, 0.4f, 0.4f});
+  expectColor(p[0], Rgb{0.4f + 0.6f, 0.4f, 0.4f});
 }
 
 TEST_F(GltfMaterials, TransmissionIsADielectric) {
@@ -172,13 +172,13 @@ TEST_F(GltfMaterials, TransmissionIsADielectric) {
   const auto through = [&](const std::string& rest) {
     return picture({{0, glass + rest + "}}", 1}, {-2, glowing("[1,1,1]"), 9}}, 1)[0];
   };
-  expectColour(through(""), Rgb{0.96f, 0.48f, 0.24f});
+  expectColor(through(""), Rgb{0.96f, 0.48f, 0.24f});
   // ior 2: a ninth is reflected.
-  expectColour(through(",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
+  expectColor(through(",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
   // Over a distance of 2, the square of what a distance of 1 leaves.
-  expectColour(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
-                       "\"attenuationColor\":[0.5,1,1]}"),
-               Rgb{0.24f, 0.48f, 0.24f});
+  expectColor(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
+                      "\"attenuationColor\":[0.5,1,1]}"),
+              Rgb{0.24f, 0.48f, 0.24f});
 }
 
 TEST_F(GltfMaterials, SmoothSurfacesMirror) {
@@ -187,17 +187,16 @@ TEST_F(GltfMaterials, SmoothSurfacesMirror) {
   const auto mirrored = [&](const std::string& material) {
     return picture({{0, material, 1}, {6, behindTheEye, 9}}, 1)[0];
   };
-  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"baseColorFactor\":"
-                        "[0.9,0.6,0.3,1]}}"),
-               {0.9f, 0.6f, 0.3f});
-  expectColour(
-      mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"metallicFactor\":0}}"),
-      Rgb(0.04f));
-  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
-  expectColour(mirrored(matte("\"roughnessFactor\":1").insert(1, "\"name\":\"x\",")), Rgb(0.0f));
-  expectColour(mirrored("{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
-                        "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1}}}"),
-               Rgb(0.04f));
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"baseColorFactor\":"
+                       "[0.9,0.6,0.3,1]}}"),
+              {0.9f, 0.6f, 0.3f});
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"metallicFactor\":0}}"),
+              Rgb(0.04f));
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
+  expectColor(mirrored(matte("\"roughnessFactor\":1").insert(1, "\"name\":\"x\",")), Rgb(0.0f));
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
+                       "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1}}}"),
+              Rgb(0.04f));
 }
 
 // A rough white metal before a wall that glows, of which the tail of the lobe sees the edges.
@@ -215,7 +214,7 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
     return film.image.pixels[0];
   };
   const std::string rough = "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}";
-  expectColour(reflected(rough, 0), Rgb(0.0f));
+  expectColor(reflected(rough, 0), Rgb(0.0f));
   const Rgb seen = reflected(rough, 64);
   // Of alpha 1/4, a white lobe reflects 0.916 of an even light to who looks along the normal: the
   // integral of 2 c / (c + sqrt(c^2 (1 - alpha^2) + alpha^2)) over its samples; 64 of them.
@@ -223,23 +222,23 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   EXPECT_NEAR(seen.y, seen.x / 2, 1e-5);
   EXPECT_NEAR(seen.z, seen.x / 4, 1e-5);
   // Smooth: one impulse, whatever the number of samples.
-  expectColour(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
-               {1, 0.5f, 0.25f});
+  expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
+              {1, 0.5f, 0.25f});
   // What transmits keeps to its impulses.
   const std::string glass =
       "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5},\"extensions\":"
       "{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}";
-  expectColour(reflected(glass, 64), Rgb{0.04f, 0.02f, 0.01f});
+  expectColor(reflected(glass, 64), Rgb{0.04f, 0.02f, 0.01f});
 }
 
 TEST_F(GltfMaterials, EmissionAndUnlit) {
   candela_ = 0;
-  expectColour(pixel("{\"emissiveFactor\":[0.5,0.25,0],\"extensions\":"
-                     "{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":8}}}"),
-               {4, 2, 0});
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,1]},"
-                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
-               {0.5f, 0.25f, 1});
+  expectColor(pixel("{\"emissiveFactor\":[0.5,0.25,0],\"extensions\":"
+                    "{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":8}}}"),
+              {4, 2, 0});
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,1]},"
+                    "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+              {0.5f, 0.25f, 1});
 }
 
 // Codes of (0.6, 0, 0.8): tilted to the right, or upwards with red and green exchanged.
@@ -254,14 +253,14 @@ TEST_F(GltfMaterials, NormalMaps) {
   };
   constexpr double kCode = 0.01;  // of a normal in 8 bits
   const Rgb facing(static_cast<float>(arriving * cosine));
-  expectColour(show("3,0,3", "right.tga", ""), facing, kCode);
-  expectColour(show("0,3,3", "up.tga", ""), facing, kCode);
+  expectColor(show("3,0,3", "right.tga", ""), facing, kCode);
+  expectColor(show("0,3,3", "up.tga", ""), facing, kCode);
   const double away = (0.8 - 0.6) / std::sqrt(2.0);
-  expectColour(show("-3,0,3", "right.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
-  expectColour(show("0,-3,3", "up.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
+  expectColor(show("-3,0,3", "right.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
+  expectColor(show("0,-3,3", "up.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
   const double half = (0.3 + 0.8) / std::sqrt(2 * (0.09 + 0.64));
-  expectColour(show("3,0,3", "right.tga", ",\"scale\":0.5"),
-               Rgb(static_cast<float>(arriving * half)), kCode);
+  expectColor(show("3,0,3", "right.tga", ",\"scale\":0.5"),
+              Rgb(static_cast<float>(arriving * half)), kCode);
 }
 
 }  // namespace

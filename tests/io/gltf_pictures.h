@@ -31,9 +31,9 @@ class GltfMaterials : public GltfTest {
     const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));
     const std::string indices = std::to_string(b.indices({0, 1, 2, 0, 2, 3}));
     std::string attributes = ",\"TEXCOORD_0\":" + uv;
-    if (!colours_.empty()) {
+    if (!colors_.empty()) {
       attributes +=
-          ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(colours_)), 5126, "VEC3", 4));
+          ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(colors_)), 5126, "VEC3", 4));
     }
     if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + std::to_string(b.uvs(secondUvs_));
     std::string meshes, nodes, roots, materials;
@@ -95,8 +95,8 @@ class GltfMaterials : public GltfTest {
            "},\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}" +
            (rest.empty() ? "" : "," + rest) + "}";
   }
-  static std::string glowing(const std::string& colour) {
-    return matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":" + colour);
+  static std::string glowing(const std::string& color) {
+    return matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":" + color);
   }
 
   // Lit from the eye, a white Lambertian square is seen as this at (x, y) of its plane: as 1 in the
@@ -105,12 +105,12 @@ class GltfMaterials : public GltfTest {
     const double d = std::sqrt(x * x + y * y + 9);
     return 27 / (d * d * d);
   }
-  static void expectColour(const Rgb& got, const Rgb& wanted, double tolerance = kClose) {
+  static void expectColor(const Rgb& got, const Rgb& wanted, double tolerance = kClose) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
   }
 
   // Of the squares' corners, from the lower left; empty: none.
-  std::vector<float> colours_, secondUvs_;
+  std::vector<float> colors_, secondUvs_;
   double candela_ = 9 * kPi;  // at 683 lm/W
   std::string light_ = "0,0,3", images_;
 };

@@ -22,7 +22,7 @@ class Mtl : public SceneFileTest {
 
 constexpr float kRounding = 1e-6f;  // a few float operations on numbers below 2
 
-TEST_F(Mtl, ColoursAndDefaults) {
+TEST_F(Mtl, ColorsAndDefaults) {
   const Material m = materialOf("Kd 0.1 0.2 0.3\nKs 0.4\nKe 1 2 3\n");
   EXPECT_EQ(m.name, "m");
   EXPECT_EQ(m.diffuse, Rgb(0.1f, 0.2f, 0.3f));
@@ -53,22 +53,22 @@ TEST_F(Mtl, Metalness) {
 }
 
 TEST_F(Mtl, IlluminationModels) {
-  const std::string colours = "Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nTf 0.9 0.8 0.7\nNi 1.33\n";
-  EXPECT_FALSE(materialOf(colours + "illum 0\n").hasGlossy());
-  EXPECT_FALSE(materialOf(colours + "illum 1\n").hasGlossy());
-  EXPECT_TRUE(materialOf(colours + "illum 2\n").hasGlossy());
-  EXPECT_FALSE(materialOf(colours + "illum 2\n").hasTransmission());  // Tf is for glass
+  const std::string colors = "Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nTf 0.9 0.8 0.7\nNi 1.33\n";
+  EXPECT_FALSE(materialOf(colors + "illum 0\n").hasGlossy());
+  EXPECT_FALSE(materialOf(colors + "illum 1\n").hasGlossy());
+  EXPECT_TRUE(materialOf(colors + "illum 2\n").hasGlossy());
+  EXPECT_FALSE(materialOf(colors + "illum 2\n").hasTransmission());  // Tf is for glass
   for (const char* illum : {"3", "8"}) {
-    const Material m = materialOf(colours + "illum " + illum + "\n");
+    const Material m = materialOf(colors + "illum " + illum + "\n");
     EXPECT_EQ(m.mirror, Rgb(0.25f));
     EXPECT_EQ(m.mirrorGrazing, Rgb(0.25f));
     EXPECT_FALSE(m.hasGlossyReflection());
   }
-  EXPECT_TRUE(materialOf(colours + "illum 2\n").hasGlossyReflection());
-  EXPECT_FALSE(materialOf(colours + "illum 4\n").hasGlossyReflection());
-  EXPECT_EQ(materialOf(colours + "illum 5\n").mirrorGrazing, Rgb(1.0f));
+  EXPECT_TRUE(materialOf(colors + "illum 2\n").hasGlossyReflection());
+  EXPECT_FALSE(materialOf(colors + "illum 4\n").hasGlossyReflection());
+  EXPECT_EQ(materialOf(colors + "illum 5\n").mirrorGrazing, Rgb(1.0f));
   for (const char* illum : {"4", "6", "7", "9"}) {
-    const Material m = materialOf(colours + "d 0.25\nillum " + illum + "\n");
+    const Material m = materialOf(colors + "d 0.25\nillum " + illum + "\n");
     EXPECT_EQ(m.transmission, Rgb(0.9f, 0.8f, 0.7f));
     EXPECT_EQ(m.ior, 1.33f);
     EXPECT_FALSE(m.hasMirror());
@@ -89,11 +89,11 @@ TEST_F(Mtl, DissolveWithoutRefraction) {
 
 TEST_F(Mtl, ValuesOutOfRangeAreClampedAndCounted) {
   EXPECT_EQ(materialOf("Kd 2 -1 0.5\n").diffuse, Rgb(1, 0, 0.5f));
-  EXPECT_EQ(warned("material colour clamped to [0, 1]"), 1u);
+  EXPECT_EQ(warned("material color clamped to [0, 1]"), 1u);
   EXPECT_EQ(materialOf("illum 4\nTf 1\nNi 0\n").ior, 1);
   EXPECT_EQ(warned("index of refraction clamped to [1, 10]"), 1u);
   materialOf("Kd spectral file.rfl 1\n");
-  EXPECT_EQ(warned("material colour in a form that is not supported"), 1u);
+  EXPECT_EQ(warned("material color in a form that is not supported"), 1u);
 }
 
 TEST_F(Mtl, ErrorsHaveTheirLine) {
@@ -115,9 +115,9 @@ TEST_F(Mtl, MapsByTheirKeys) {
   const SceneDescription scene =
       loadWith("map_Kd c.tga\nKs 1 1 1\nmap_Ks c.tga\nnorm n.tga\nmap_d -clamp on d.tga\n");
   const Material& m = scene.materials[0];
-  EXPECT_EQ(m.diffuse, Rgb(1.0f));  // without Kd the map is the colour
-  EXPECT_EQ(textureOf(scene, m.diffuseMap).format, TexelFormat::colour);
-  EXPECT_EQ(decodeColourTexel(textureOf(scene, m.diffuseMap).texels[0]), Rgb(1, 0, 0));
+  EXPECT_EQ(m.diffuse, Rgb(1.0f));  // without Kd the map is the color
+  EXPECT_EQ(textureOf(scene, m.diffuseMap).format, TexelFormat::color);
+  EXPECT_EQ(decodeColorTexel(textureOf(scene, m.diffuseMap).texels[0]), Rgb(1, 0, 0));
   EXPECT_EQ(m.specularMap, m.diffuseMap);
   EXPECT_EQ(textureOf(scene, m.normalMap).format, TexelFormat::data);
   EXPECT_EQ(textureOf(scene, m.normalMap).texels[0] & 0xffffffu, 0xff8080u);
@@ -149,7 +149,7 @@ TEST_F(Mtl, MissingTexturesAreLeftOut) {
   EXPECT_EQ(errorOf([&] { materialOf("map_Kd ../../c.tga\n"); }).substr(0, 10), "3 m.mtl:1:");
 }
 
-TEST_F(Mtl, AlphaOfTheColourCuts) {
+TEST_F(Mtl, AlphaOfTheColorCuts) {
   save("cut.tga", tga(2, 1, {{255, 0, 0, 255}, {255, 0, 0, 10}}));
   save("solid.tga", tga(2, 1, {{255, 0, 0, 255}, {255, 0, 0, 255}}));
   save("mask.tga", tga(2, 1, {{7}, {9}}));
@@ -176,7 +176,7 @@ TEST_F(Mtl, BumpMapsOfHeightsBecomeNormals) {
   EXPECT_NEAR(texel >> 16 & 0xffu, 255 * (0.5 + 0.5 / size), kHalfCode);
 }
 
-TEST_F(Mtl, BumpMapsOfNormalsAndGreyPicturesAreToldApart) {
+TEST_F(Mtl, BumpMapsOfNormalsAndGrayPicturesAreToldApart) {
   save("n.tga", tga(1, 1, {{100, 150, 250}}));
   save("g.tga", tga(1, 1, {{100, 104, 98}}));
   const SceneDescription normals = loadWith("bump n.tga\n");

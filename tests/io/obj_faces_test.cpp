@@ -131,12 +131,12 @@ TEST_F(ObjFaces, MaterialsOfFaces) {
   const Mesh& mesh = onlyMesh(scene);
   ASSERT_EQ(mesh.triangles.size(), 4u);
   const auto diffuse = [&](std::size_t i) { return scene.materials[mesh.material(i)].diffuse; };
-  EXPECT_EQ(diffuse(0), Rgb(0.6f));  // none named: grey
+  EXPECT_EQ(diffuse(0), Rgb(0.6f));  // none named: gray
   EXPECT_EQ(diffuse(1), Rgb(0.5f, 0, 0));
   EXPECT_EQ(diffuse(2), Rgb(0, 0, 1));
   EXPECT_EQ(diffuse(3), Rgb(0.6f));
   EXPECT_EQ(warned("material library missing"), 1u);
-  EXPECT_EQ(warned("material missing, grey instead"), 1u);
+  EXPECT_EQ(warned("material missing, gray instead"), 1u);
 }
 
 TEST_F(ObjFaces, AModelAloneGetsALight) {

@@ -1,4 +1,4 @@
-// OBJ files that are wrong: mended and counted, or refused with the line.
+// OBJ files that are wrong: repaired and counted, or refused with the line.
 #include <cmath>
 
 #include "scene/scene.h"

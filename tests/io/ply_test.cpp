@@ -63,12 +63,12 @@ TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
     EXPECT_EQ(scene.objects[0].meshes[0].positions,
               (std::vector<Vec3f>{{0, 0, -300}, {1, 0, -300}, {1, 1, -300}, {0, 1, -300}}));
   }
-  EXPECT_EQ(warned("vertex colours that lack a channel left out"), 3u);
+  EXPECT_EQ(warned("vertex colors that lack a channel left out"), 3u);
   EXPECT_EQ(warned("elements of a kind that is not shown"), 3u);
 }
 
 // Whole numbers are sRGB codes of their type, others are linear.
-TEST_F(Ply, ColoursOfVertices) {
+TEST_F(Ply, ColorsOfVertices) {
   for (const auto& [type, half] :
        {std::pair("uchar", "188"), std::pair("ushort", "48316"), std::pair("float", "0.502886")}) {
     const std::string one = std::string(type) == "uchar"    ? "255"
@@ -81,10 +81,10 @@ TEST_F(Ply, ColoursOfVertices) {
                             " blue\nelement face 1\nproperty list uchar uint vertex_index\n") +
         "0 0 0 " + one + " 0 " + half + "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
     const Mesh& mesh = scene.objects[0].meshes[0];
-    ASSERT_EQ(mesh.colours.size(), 3u) << type;
-    EXPECT_EQ(mesh.colours[0].x, 1);
-    EXPECT_EQ(mesh.colours[0].y, 0);
-    EXPECT_NEAR(mesh.colours[0].z, 0.502886f, 1e-5f) << type;
+    ASSERT_EQ(mesh.colors.size(), 3u) << type;
+    EXPECT_EQ(mesh.colors[0].x, 1);
+    EXPECT_EQ(mesh.colors[0].y, 0);
+    EXPECT_NEAR(mesh.colors[0].z, 0.502886f, 1e-5f) << type;
     EXPECT_EQ(scene.materials[mesh.materials[0]].diffuse, Rgb(1.0f));
   }
 }

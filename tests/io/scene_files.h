@@ -74,7 +74,7 @@ class SceneFileTest : public testing::Test {
   Warnings warnings_;
 };
 
-// An uncompressed TGA file, rows from the top: 1 byte a texel is grey, 3 are RGB, 4 are RGBA.
+// An uncompressed TGA file, rows from the top: 1 byte a texel is gray, 3 are RGB, 4 are RGBA.
 inline std::string tga(int width, int height, const std::vector<std::vector<int>>& texels) {
   const std::size_t channels = texels[0].size();
   std::string file(18, '\0');

@@ -85,10 +85,10 @@ TEST_F(SceneSections, LightsThatAreNone) {
   }
 }
 
-TEST_F(SceneSections, SkyOfOneColourAndAmbientFromIt) {
+TEST_F(SceneSections, SkyOfOneColorAndAmbientFromIt) {
   const SceneDescription scene = loadMembers(
-      "\"sky\": {\"colour\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25}");
-  EXPECT_EQ(scene.sky.kind, Sky::Kind::colour);
+      "\"sky\": {\"color\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25}");
+  EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
   EXPECT_EQ(scene.sky.zenith, Rgb(1, 2, 4));
   // The mean of a constant is the constant: 0.5 * 0.25 of it. Quadrature in float gets this far.
   constexpr float kQuadrature = 1e-3f;
@@ -154,11 +154,11 @@ TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
       "\"n\": {\"diffuseMap\": \"same\"}}");
   ASSERT_EQ(scene.textures.size(), 2u);  // the same image and format only once
   const Material& m = scene.materials[0];
-  const Texture& colour = scene.textures[static_cast<std::size_t>(m.diffuseMap)];
+  const Texture& color = scene.textures[static_cast<std::size_t>(m.diffuseMap)];
   const Texture& data = scene.textures[static_cast<std::size_t>(m.normalMap)];
-  EXPECT_EQ(colour.format, TexelFormat::colour);
-  EXPECT_EQ(colour.wrapU, Wrap::clamp);
-  EXPECT_EQ(colour.wrapV, Wrap::mirror);
+  EXPECT_EQ(color.format, TexelFormat::color);
+  EXPECT_EQ(color.wrapU, Wrap::clamp);
+  EXPECT_EQ(color.wrapV, Wrap::mirror);
   EXPECT_EQ(data.format, TexelFormat::data);
   EXPECT_EQ(data.texels[0] & 0xffffffu, 0xff8080u);
   EXPECT_EQ(scene.materials[1].diffuseMap, m.diffuseMap);
@@ -175,7 +175,7 @@ TEST_F(SceneSections, PatternsAndTheirErrors) {
   EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\"}},"
                            "\"materials\": {\"m\": {\"normalMap\": \"c\"}}"),
             "3 s.json#/materials/m/normalMap: expected a texture that is read as data (this one is "
-            "colour), found \"c\"");
+            "color), found \"c\"");
   EXPECT_EQ(errorOfMembers("\"textures\": {\"cc\": {\"pattern\": \"checker\"}},"
                            "\"materials\": {\"m\": {\"diffuseMap\": \"c\"}}"),
             "3 s.json#/materials/m/diffuseMap: expected the name of a texture (is \"cc\" meant?), "

@@ -47,7 +47,7 @@ TEST_F(SceneSettings, TakeThePlaceOfMembers) {
 
 TEST_F(SceneSettings, MakeWhatIsMissing) {
   const SceneDescription scene =
-      with({"/sky/colour=0.5", "/lights/-={\"position\": [0, 1, 0], \"intensity\": 7}",
+      with({"/sky/color=0.5", "/lights/-={\"position\": [0, 1, 0], \"intensity\": 7}",
             "/cameras/side/eye=[1, 0, 0]", "/cameras/side/at=[0, 0, 0]"});
   EXPECT_EQ(scene.sky.zenith, Rgb(0.5f));
   ASSERT_EQ(scene.lights.size(), 2u);
@@ -91,14 +91,14 @@ TEST_F(SceneSettings, OfAModel) {
   const SceneDescription plain = modelWith({});
   ASSERT_EQ(plain.lights.size(), 1u);
   const SceneDescription scene =
-      modelWith({"/materials/blue/mirror=0.5", "/lights/0/position=[1, 2, 3]", "/sky/colour=0.1"});
+      modelWith({"/materials/blue/mirror=0.5", "/lights/0/position=[1, 2, 3]", "/sky/color=0.1"});
   EXPECT_EQ(scene.materials[0].mirror, Rgb(0.0f));
   EXPECT_EQ(scene.materials[1].mirror, Rgb(0.5f));
   EXPECT_EQ(scene.materials[1].diffuse, Rgb(0, 0, 1));
   EXPECT_EQ(scene.lights[0].position, Vec3f(1, 2, 3));
   EXPECT_EQ(scene.lights[0].intensity, plain.lights[0].intensity) << "every bit is kept";
   EXPECT_EQ(scene.lights[0].radius, plain.lights[0].radius);
-  EXPECT_EQ(scene.sky.kind, Sky::Kind::colour);
+  EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
   EXPECT_EQ(errorOf([&] { modelWith({"/materials/bleu/mirror=0.5"}); }),
             "3 m.obj#/materials/bleu: unknown material of this model; is \"blue\" meant?");
   EXPECT_EQ(errorOf([&] { modelWith({"/camera=1"}); }).find("3 m.obj#/camera"), 0u);

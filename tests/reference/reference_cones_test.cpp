@@ -26,7 +26,7 @@ Texture noise() {
   for (int i = 0; i < kTexels * kTexels; ++i) {
     texels.push_back(static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
   }
-  return makeTexture(TexelFormat::colour, kTexels, kTexels, texels);
+  return makeTexture(TexelFormat::color, kTexels, kTexels, texels);
 }
 
 Material glowing(SceneBuilder& builder, Texture texture) {
@@ -53,9 +53,9 @@ RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
 }
 
 // Of the floor at (x, z).
-RgbD floorColour(const Scene& scene, double x, double z, double level) {
+RgbD floorColor(const Scene& scene, double x, double z, double level) {
   const double half = kTexels / 2.0;
-  return sampleColour(MipMaps(scene), 0, (x + half) / kTexels, (half - z) / kTexels, level);
+  return sampleColor(MipMaps(scene), 0, (x + half) / kTexels, (half - z) / kTexels, level);
 }
 
 void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRounding) {
@@ -80,10 +80,10 @@ TEST(MipLevel, H70_ofSenselessFootprintsIsALevel) {
   const auto below = [&](double width, double spread) {
     return seen(scene, {{3.3, 5, 2.1}, {0, -1, 0}, {width, spread}});
   };
-  expectNear(below(0, 0), floorColour(scene, 3.3, 2.1, 0));
-  expectNear(below(-1e300, 0), floorColour(scene, 3.3, 2.1, kMipLevels - 1));
-  expectNear(below(infinity, 0), floorColour(scene, 3.3, 2.1, kMipLevels - 1));
-  expectNear(below(std::nan(""), 0), floorColour(scene, 3.3, 2.1, 0));
+  expectNear(below(0, 0), floorColor(scene, 3.3, 2.1, 0));
+  expectNear(below(-1e300, 0), floorColor(scene, 3.3, 2.1, kMipLevels - 1));
+  expectNear(below(infinity, 0), floorColor(scene, 3.3, 2.1, kMipLevels - 1));
+  expectNear(below(std::nan(""), 0), floorColor(scene, 3.3, 2.1, 0));
 }
 
 TEST(Trilinear, H70_aWholeLevelIsThatLevelBitForBit) {
@@ -93,7 +93,7 @@ TEST(Trilinear, H70_aWholeLevelIsThatLevelBitForBit) {
   for (int i = 0; i < 200; ++i) {
     const double u = numbers.in(-2, 2), v = numbers.in(-2, 2);
     const int level = i % kMipLevels;
-    EXPECT_EQ(sampleColour(maps, 0, u, v, level), sampleColour(maps.level(0, level), u, v));
+    EXPECT_EQ(sampleColor(maps, 0, u, v, level), sampleColor(maps.level(0, level), u, v));
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Trilinear, MixesDataBetweenLevels) {
   const std::vector<Texture> textures{
       makeTexture(TexelFormat::data, 2, 1, {0x00c86450u, 0x00000000u})};
   const MipMaps maps(textures, {true});
-  // At the first texel's centre: (80, 100, 200), and half of each in the level above.
+  // At the first texel's center: (80, 100, 200), and half of each in the level above.
   const DataSample s = sampleData(maps, 0, 0.25, 0.5, 0.5);
   EXPECT_NEAR(s.r * 255, 60, 1e-10);
   EXPECT_NEAR(s.g * 255, 75, 1e-10);
@@ -127,11 +127,11 @@ TEST(RayCone, LevelsFollowFromTheDistance) {
   const Scene scene = floorOf(noise());
   for (const double distance : {10.0, 64.0, 128.0, 192.0, 256.0, 1024.0, 1e6}) {
     const double wanted = std::clamp(std::log2(distance / 64), 0.0, 6.0);
-    const RgbD colour = floorColour(scene, 3.3, 2.1, wanted);
-    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), colour, 1e-9);
+    const RgbD color = floorColor(scene, 3.3, 2.1, wanted);
+    expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), color, 1e-9);
     // As sharp as it is looked up otherwise, only from near.
-    const RgbD full = floorColour(scene, 3.3, 2.1, 0);
-    EXPECT_EQ(distance <= 64, maxComponent(abs(full - colour)) < 1e-3) << distance;
+    const RgbD full = floorColor(scene, 3.3, 2.1, 0);
+    EXPECT_EQ(distance <= 64, maxComponent(abs(full - color)) < 1e-3) << distance;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(RayCone, OfParallelRaysKeepsItsWidth) {
   const Scene scene = floorOf(noise());
   for (const double distance : {1.0, 1000.0}) {
     expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {4, 0}}),
-               floorColour(scene, 3.3, 2.1, 2));
+               floorColor(scene, 3.3, 2.1, 2));
   }
 }
 
@@ -149,7 +149,7 @@ TEST(RayCone, GrowsOnSurfacesSeenAtAnAngle) {
   const Vec3d direction = steep(60);
   const Vec3d at{3.3, 0, 2.1};
   expectNear(seen(scene, {at - direction * 256, direction, {0, 1.0 / 64}}),
-             floorColour(scene, at.x, at.z, 3), 1e-9);
+             floorColor(scene, at.x, at.z, 3), 1e-9);
 }
 
 TEST(RayCone, GoesOnBehindAMirror) {
@@ -159,7 +159,7 @@ TEST(RayCone, GoesOnBehindAMirror) {
   builder.add(ceilingAt(100, kTexels / 2.0f, builder.add(mirrorMaterial(0.5f))));
   const Scene scene = builder.build();
   expectNear(seen(scene, {{3.3, 72, 2.1}, {0, 1, 0}, {0, 1.0 / 64}}),
-             floorColour(scene, 3.3, 2.1, 1) * 0.5, kOffset);  // 28 + 100 units of way
+             floorColor(scene, 3.3, 2.1, 1) * 0.5, kOffset);  // 28 + 100 units of way
 }
 
 TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
@@ -170,7 +170,7 @@ TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
   const Scene scene = builder.build();
   // Two surfaces of 4 % each; what they reflect to and fro needs more depth.
   expectNear(seen(scene, {{3.3, 128, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}, 2),
-             floorColour(scene, 3.3, 2.1, 1) * (0.96 * 0.96), kOffset);
+             floorColor(scene, 3.3, 2.1, 1) * (0.96 * 0.96), kOffset);
 }
 
 // Twice the size: twice as many units a texel, and one level less.
@@ -185,14 +185,14 @@ TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
   const Scene scene = builder.build();
   ASSERT_EQ(scene.instances.size(), 2u);
   expectNear(seen(scene, {{3.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
-             floorColour(scene, 1.65, 1.05, 1), 1e-9);
+             floorColor(scene, 1.65, 1.05, 1), 1e-9);
   expectNear(seen(scene, {{1003.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
-             floorColour(scene, 3.3, 2.1, 2), 1e-9);
+             floorColor(scene, 3.3, 2.1, 2), 1e-9);
 }
 
-TEST(Trilinear, OneColourStaysWhatItIs) {
+TEST(Trilinear, OneColorStaysWhatItIs) {
   const Scene scene = floorOf(makeTexture(
-      TexelFormat::colour, 5, 3, std::vector<std::uint32_t>(15, 300u | 17u << 10 | 1023u << 20)));
+      TexelFormat::color, 5, 3, std::vector<std::uint32_t>(15, 300u | 17u << 10 | 1023u << 20)));
   const auto light = [](double code) { return code * code / (1023.0 * 1023.0); };
   for (const double distance : {1.0, 50.0, 777.0, 1e5}) {
     expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 0.01}}),
@@ -205,7 +205,7 @@ TEST(Trilinear, ADistantChequerboardIsItsMean) {
   for (int i = 0; i < kTexels * kTexels; ++i) {
     texels.push_back((i / kTexels + i) % 2 == 0 ? 0x3fffffffu : 0u);
   }
-  const Scene scene = floorOf(makeTexture(TexelFormat::colour, kTexels, kTexels, texels));
+  const Scene scene = floorOf(makeTexture(TexelFormat::color, kTexels, kTexels, texels));
   // Half the light, up to half a code of its root.
   for (const double x : {3.3, 4.0, 4.5, 5.2}) {
     expectNear(seen(scene, {{x, 200, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), RgbD(0.5),

@@ -160,7 +160,7 @@ TEST(Schlick, H40_knownValues) {
 }
 
 // How far it is from Fresnel's equations: for glass at most 0.04, on either side.
-TEST(Schlick, staysNearFresnel) {
+TEST(Schlick, StaysNearFresnel) {
   double worst = 0;
   for (int i = 1; i <= 1000; ++i) {
     const double c = i / 1000.0;

@@ -210,7 +210,7 @@ Settings sampled(int glossy) {
   return settings;
 }
 
-// A rough floor under a sky of one colour is as bright as its albedo.
+// A rough floor under a sky of one color is as bright as its albedo.
 TEST(GlossyScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
   for (const float roughness : {0.3f, 0.7f, 1.0f}) {
     test::SceneBuilder builder;
@@ -294,10 +294,10 @@ TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
       for (std::uint32_t sample = 0; sample < 4; ++sample) {
-        const std::uint32_t path = pathOfPixel(packedPixel(x, y), sample);
+        const std::uint32_t path = streamOfPixel(packedPixel(x, y), sample);
         numbers.insert(path);
         for (std::uint32_t branch = 1; branch < 5; ++branch) {
-          numbers.insert(childPath(path, branch));
+          numbers.insert(childStream(path, branch));
         }
       }
     }
@@ -313,8 +313,8 @@ TEST(PathNumbers, SamplesOfAPixelAreOneLattice) {
   for (std::uint32_t sample = 0; sample < 3; ++sample) {
     const LobeSampling part = lobeSampling(0, 4, sample);
     for (std::uint32_t k = 0; k < 4; ++k) {
-      const UnitPoint a = lobePoint(pathOfPixel(pixel, sample), part, k);
-      const UnitPoint b = lobePoint(pathOfPixel(pixel, 0), whole, 4 * sample + k);
+      const UnitPoint a = lobePoint(streamOfPixel(pixel, sample), part, k);
+      const UnitPoint b = lobePoint(streamOfPixel(pixel, 0), whole, 4 * sample + k);
       EXPECT_EQ(a.u, b.u);
       EXPECT_EQ(a.v, b.v);
     }

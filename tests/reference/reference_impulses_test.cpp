@@ -82,7 +82,7 @@ TEST(Lift, KeepsReflectionsAboveTheSurface) {
     const Vec3d r = impulsesOf(scene, s).reflected.ray.direction;
     const double least = std::min(0.9 * std::sin(elevation), 0.01);
     EXPECT_NEAR(length(r), 1, 1e-15);
-    // Normalising after raising takes back at most half the square of what was added, of that sine.
+    // Normalizing after raising takes back at most half the square of what was added, of that sine.
     EXPECT_GE(r.y, least / 1.5);
     const Vec3d mirrored = s.shadingNormal * (2 * dot(s.view, s.shadingNormal)) - s.view;
     if (mirrored.y >= least) {

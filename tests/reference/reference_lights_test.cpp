@@ -21,7 +21,7 @@ Vec3d pointOnFloor(double x, double y, int w, int h, double fovDegrees) {
   return {(x + 0.5 - w / 2.0) / (h / 2.0) * half, 0, (y + 0.5 - h / 2.0) / (h / 2.0) * half};
 }
 
-// L = kd / pi * I cos / d^2 at every pixel centre.
+// L = kd / pi * I cos / d^2 at every pixel center.
 TEST(Lights, FallOffOverAFloor) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 100, builder.add(test::diffuseMaterial(0.5f))));
@@ -48,7 +48,7 @@ TEST(Lights, FallOffOverAFloor) {
   EXPECT_EQ(counts.reflection + counts.refraction, 0u);
 }
 
-TEST(Lights, AddUpAndKeepTheirColours) {
+TEST(Lights, AddUpAndKeepTheirColors) {
   SceneBuilder builder;
   Material m = test::diffuseMaterial(1);
   m.diffuse = {1, 0.5f, 0.25f};
@@ -148,9 +148,9 @@ TEST_F(ShadowTest, GlassCastsOne) {
 TEST(Shadows, LightOnASurface) {
   for (const float height : {2.0f, std::nextafter(2.0f, 1.0f), 2.001f}) {
     SceneBuilder builder;
-    const auto grey = builder.add(test::diffuseMaterial(1));
-    builder.add(test::floorAt(0, 3, grey));
-    builder.add(test::ceilingAt(2, 3, grey));
+    const auto gray = builder.add(test::diffuseMaterial(1));
+    builder.add(test::floorAt(0, 3, gray));
+    builder.add(test::ceilingAt(2, 3, gray));
     builder.description.lights = {lightAt({0.3f, height, 0.1f}, 1)};
     const double seen = radianceAlong(builder.build(), {0.5, 1, 0.5}, {0, -1, 0}).x;
     EXPECT_EQ(seen > 0, height <= 2) << height;
@@ -162,9 +162,9 @@ TEST(Shadows, ClosedBoxesAreTight) {
   test::Numbers numbers(9);
   SceneBuilder inside, outside;
   for (SceneBuilder* builder : {&inside, &outside}) {
-    const auto grey = builder->add(test::diffuseMaterial(1));
-    builder->add(test::box({-1, -1, -1}, {1, 1, 1}, grey));
-    builder->add(test::box({-4, -4, -4}, {4, 4, 4}, grey));
+    const auto gray = builder->add(test::diffuseMaterial(1));
+    builder->add(test::box({-1, -1, -1}, {1, 1, 1}, gray));
+    builder->add(test::box({-4, -4, -4}, {4, 4, 4}, gray));
   }
   inside.description.lights = {lightAt({0.3f, -0.2f, 0.1f}, 1)};
   outside.description.lights = {lightAt({2.3f, -2.2f, 2.1f}, 1)};

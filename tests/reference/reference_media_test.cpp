@@ -46,7 +46,7 @@ TEST(MediaStack, HighestPriorityCounts) {
 // stretch.
 TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
   struct Ball {
-    Vec3d centre;
+    Vec3d center;
     double radius;
   };
   const Scene scene = sceneWithPriorities({3, 1, 2, 4});
@@ -64,7 +64,7 @@ TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
     };
     std::vector<Event> events;
     for (std::uint32_t i = 0; i < 4; ++i) {
-      const Vec3d o = origin - balls[i].centre;
+      const Vec3d o = origin - balls[i].center;
       const double b = dot(o, d), square = b * b - dot(o, o) + balls[i].radius * balls[i].radius;
       if (square <= 0) continue;
       events.push_back({-b - std::sqrt(square), i, true});
@@ -79,7 +79,7 @@ TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
       const Vec3d middle = origin + d * (0.5 * (events[e].t + next));
       int around = 0, highest = 0;
       for (std::uint32_t i = 0; i < 4; ++i) {
-        if (length(middle - balls[i].centre) >= balls[i].radius) continue;
+        if (length(middle - balls[i].center) >= balls[i].radius) continue;
         ++around;
         highest = std::max(highest, scene.media[i + 1].priority);
       }

@@ -117,7 +117,7 @@ class NormalMapTest : public ::testing::Test {
     return builder;
   }
   Mesh mesh_;
-  // 8 bits a channel: half a step of 2/255 each, before normalisation.
+  // 8 bits a channel: half a step of 2/255 each, before normalization.
   static constexpr double kCoding = 0.006;
 };
 
@@ -176,7 +176,7 @@ TEST_F(NormalMapTest, MirroredInstance) {
 TEST(Surfel, InstancesMatchBakedGeometry) {
   const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
                      Affine::scaling({-1000, 0.5, 2});
-  // The same at all corners: baking normalises them before they are interpolated.
+  // The same at all corners: baking normalizes them before they are interpolated.
   const Vec3f n{0, 0.8f, 0.6f};
   const Mesh mesh = withNormals(test::floorAt(0, 1, 0), {n, n, n, n});
   SceneBuilder instanced, baked;
@@ -200,12 +200,12 @@ TEST(Surfel, InstancesMatchBakedGeometry) {
   }
 }
 
-TEST(Surfel, TexturesMultiplyColours) {
+TEST(Surfel, TexturesMultiplyColors) {
   SceneBuilder builder;
   Material m = test::diffuseMaterial(0.5f);
   m.specular = Rgb(0.25f);
-  const Texture dark = makeTexture(TexelFormat::colour, 2, 1,
-                                   {encodeColourTexel(Rgb(0.0f)), encodeColourTexel({1, 1, 0})});
+  const Texture dark = makeTexture(TexelFormat::color, 2, 1,
+                                   {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 1, 0})});
   m.diffuseMap = m.specularMap = builder.add(dark);
   builder.add(test::floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();

@@ -23,7 +23,7 @@ Texture ramp(int width, int height, const std::vector<int>& codes) {
 
 double codeAt(const Texture& t, double u, double v) { return 255 * sampleData(t, u, v).r; }
 
-TEST(TextureSampling, TexelCentresGiveTexels) {
+TEST(TextureSampling, TexelCentersGiveTexels) {
   const Texture t = ramp(2, 2, {10, 20, 30, 40});  // the top row first
   EXPECT_NEAR(codeAt(t, 0.25, 0.75), 10, kRounding);
   EXPECT_NEAR(codeAt(t, 0.75, 0.75), 20, kRounding);
@@ -31,14 +31,14 @@ TEST(TextureSampling, TexelCentresGiveTexels) {
   EXPECT_NEAR(codeAt(t, 0.75, 0.25), 40, kRounding);
 }
 
-TEST(TextureSampling, BetweenCentresIsLinear) {
+TEST(TextureSampling, BetweenCentersIsLinear) {
   const Texture t = ramp(2, 2, {10, 20, 30, 40});
   EXPECT_NEAR(codeAt(t, 0.5, 0.5), 25, kRounding);
   EXPECT_NEAR(codeAt(t, 0.375, 0.75), 12.5, kRounding);
   EXPECT_NEAR(codeAt(t, 0.25, 0.625), 15, kRounding);
 }
 
-// Texels reach to the middle between their centres, and over the borders of a repeat.
+// Texels reach to the middle between their centers, and over the borders of a repeat.
 TEST(TextureSampling, NearestTexel) {
   const Texture t = ramp(4, 1, {0, 40, 80, 120});
   const auto nearest = [&](double u) {
@@ -50,9 +50,9 @@ TEST(TextureSampling, NearestTexel) {
   EXPECT_NEAR(nearest(0.9999), 120, kRounding);
   EXPECT_NEAR(nearest(-0.0001), 120, kRounding);
   EXPECT_NEAR(nearest(1.0001), 0, kRounding);
-  const Texture c = makeTexture(TexelFormat::colour, 2, 1, {0u, 1023u});
-  EXPECT_EQ(sampleColour(c, 0.7, 0.5, TextureFilter::nearest), RgbD(1, 0, 0));
-  EXPECT_EQ(sampleColour(c, 0.3, 0.5, TextureFilter::nearest), RgbD(0, 0, 0));
+  const Texture c = makeTexture(TexelFormat::color, 2, 1, {0u, 1023u});
+  EXPECT_EQ(sampleColor(c, 0.7, 0.5, TextureFilter::nearest), RgbD(1, 0, 0));
+  EXPECT_EQ(sampleColor(c, 0.3, 0.5, TextureFilter::nearest), RgbD(0, 0, 0));
 }
 
 TEST(TextureSampling, RepeatJoinsTheBorders) {
@@ -114,10 +114,10 @@ TEST(TextureSampling, MirrorRunsBackAndForth) {
 }
 
 // The mean of black and white is half the light, not half the code.
-TEST(TextureSampling, ColoursMixInLinearLight) {
-  const Texture t = makeTexture(TexelFormat::colour, 2, 1,
-                                {encodeColourTexel(Rgb(0.0f)), encodeColourTexel({1, 0.25f, 0})});
-  const RgbD half = sampleColour(t, 0.5, 0.5);
+TEST(TextureSampling, ColorsMixInLinearLight) {
+  const Texture t = makeTexture(TexelFormat::color, 2, 1,
+                                {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 0.25f, 0})});
+  const RgbD half = sampleColor(t, 0.5, 0.5);
   EXPECT_NEAR(half.x, 0.5, 1e-12);
   // 0.25 is coded as 512 of 1023: half a code from the exact root, 2 * 0.5 * 0.5 / 1023 of value.
   EXPECT_NEAR(half.y, 0.125, 0.00025);

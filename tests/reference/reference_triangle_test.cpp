@@ -48,7 +48,7 @@ TEST(Triangle, WithoutAreaOrDirectionMisses) {
 }
 
 // A sphere of facets, with room for its numbers to be uneven.
-Mesh facetedSphere(const Vec3d& centre, double radius, int rings, int sectors) {
+Mesh facetedSphere(const Vec3d& center, double radius, int rings, int sectors) {
   Mesh mesh;
   for (int i = 0; i <= rings; ++i) {
     for (int j = 0; j < sectors; ++j) {
@@ -56,8 +56,8 @@ Mesh facetedSphere(const Vec3d& centre, double radius, int rings, int sectors) {
       const Vec3d d{std::sin(polar) * std::cos(turn), std::cos(polar),
                     std::sin(polar) * std::sin(turn)};
       mesh.positions.push_back(Vec3f(i == 0 || i == rings
-                                         ? centre + Vec3d{0, i == 0 ? radius : -radius, 0}
-                                         : centre + d * radius));
+                                         ? center + Vec3d{0, i == 0 ? radius : -radius, 0}
+                                         : center + d * radius));
     }
   }
   for (int i = 0; i < rings; ++i) {
@@ -77,9 +77,9 @@ Mesh facetedSphere(const Vec3d& centre, double radius, int rings, int sectors) {
 // Hard cases H12-H14: from inside a closed mesh every ray hits, also through edges and corners,
 // also far from the origin.
 TEST(Triangle, ClosedMeshHasNoGaps) {
-  for (const Vec3d& centre : {Vec3d{0, 0, 0}, Vec3d{148376, 1234, -223423}}) {
+  for (const Vec3d& center : {Vec3d{0, 0, 0}, Vec3d{148376, 1234, -223423}}) {
     SceneBuilder builder;
-    builder.add(facetedSphere(centre, 2, 12, 16));
+    builder.add(facetedSphere(center, 2, 12, 16));
     const Scene scene = builder.build();
     const BruteForce bruteForce(scene);
     Numbers numbers(1);
@@ -91,13 +91,13 @@ TEST(Triangle, ClosedMeshHasNoGaps) {
     };
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
       const Corners c = worldCorners(scene, i, kNoHit);
-      const Vec3d from = centre + numbers.direction();
+      const Vec3d from = center + numbers.direction();
       for (const Vec3d& target : {c[0], c[1], c[2], (c[0] + c[1]) * 0.5, (c[1] + c[2]) * 0.5,
                                   (c[2] + c[0]) * 0.5, (c[0] + c[1] + c[2]) * (1.0 / 3)}) {
         shoot(from, target);
       }
     }
-    for (int i = 0; i < 2000; ++i) shoot(centre, centre + numbers.direction());
+    for (int i = 0; i < 2000; ++i) shoot(center, center + numbers.direction());
     EXPECT_EQ(misses, 0) << "of " << rays << " rays";
   }
 }

@@ -128,14 +128,14 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
 TEST(DirectionalLight, ShadowsReachToTheEndOfTheScene) {
   for (const float height : {0.01f, 10.0f, 1e6f}) {
     SceneBuilder builder;
-    const auto grey = builder.add(test::diffuseMaterial(1));
-    builder.add(test::floorAt(0, 10, grey));
-    builder.add(test::floorAt(-5, 10, grey));
+    const auto gray = builder.add(test::diffuseMaterial(1));
+    builder.add(test::floorAt(0, 10, gray));
+    builder.add(test::floorAt(-5, 10, gray));
     // The light comes down from +x at 45 degrees: what hangs at `height` darkens what lies as far
     // to the left.
     const float x = height;
     builder.add(test::quad({x - 1, height, 1}, {x + 1, height, 1}, {x + 1, height, -1},
-                           {x - 1, height, -1}, grey));
+                           {x - 1, height, -1}, gray));
     builder.description.lights = {sun({-1, -1, 0}, 1)};
     const Scene scene = builder.build();
     // A ray from just above the floor; the screen is beyond.

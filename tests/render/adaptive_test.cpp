@@ -1,4 +1,4 @@
-// --adaptive: one sample a pixel, and all of them where neighbours differ.
+// --adaptive: one sample a pixel, and all of them where neighbors differ.
 #include <gtest/gtest.h>
 
 #include "core/display.h"
@@ -24,11 +24,11 @@ class Adaptive : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-// With no more samples than pilots, each pixel is that of one sample or that of all, to the bit.
-TEST_P(Adaptive, pixelsAreThoseOfOneSampleOrOfAll) {
+// With no more samples than probes, each pixel is that of one sample or that of all, to the bit.
+TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
   const Picture one = render(scene_, withSamples(1, false));
-  const Picture all = render(scene_, withSamples(kPilotSamples, false));
-  const Picture adaptive = render(scene_, withSamples(kPilotSamples, true));
+  const Picture all = render(scene_, withSamples(kProbeSamples, false));
+  const Picture adaptive = render(scene_, withSamples(kProbeSamples, true));
   const std::size_t pixels = one.image.pixels.size();
   std::size_t changed = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -37,26 +37,26 @@ TEST_P(Adaptive, pixelsAreThoseOfOneSampleOrOfAll) {
     EXPECT_TRUE(keptOne || sameBits(got, all.image.pixels[i])) << i;
     changed += !keptOne;
   }
-  const std::uint64_t refined = (adaptive.stats.of(RayKind::primary).rays - pixels) / kPilotSamples;
+  const std::uint64_t refined = (adaptive.stats.of(RayKind::primary).rays - pixels) / kProbeSamples;
   std::printf("%s: %.1f %% of pixels refined\n", GetParam().c_str(),
               100.0 * static_cast<double>(refined) / static_cast<double>(pixels));
-  EXPECT_EQ(adaptive.stats.of(RayKind::primary).rays, pixels + kPilotSamples * refined);
+  EXPECT_EQ(adaptive.stats.of(RayKind::primary).rays, pixels + kProbeSamples * refined);
   EXPECT_GE(refined, changed);
   EXPECT_GT(changed, 0u);
   EXPECT_LT(refined, pixels);
 }
 
 // With more, the pixels that get them all are those of uniform sampling, to the bit: at least those
-// whose pilot samples differ, and they alone cost more than the pilots.
-TEST_P(Adaptive, contrastingPixelsGetEverySample) {
+// whose probe samples differ, and they alone cost more than the probes.
+TEST_P(Adaptive, ContrastingPixelsGetEverySample) {
   constexpr int kSamples = 11;
   const Picture all = render(scene_, withSamples(kSamples, false));
-  const Picture pilots = render(scene_, withSamples(kPilotSamples, true));
+  const Picture probes = render(scene_, withSamples(kProbeSamples, true));
   const Picture adaptive = render(scene_, withSamples(kSamples, true));
   const std::uint64_t extra =
-      adaptive.stats.of(RayKind::primary).rays - pilots.stats.of(RayKind::primary).rays;
-  const std::uint64_t contrasting = extra / (kSamples - kPilotSamples);
-  EXPECT_EQ(extra, contrasting * (kSamples - kPilotSamples));
+      adaptive.stats.of(RayKind::primary).rays - probes.stats.of(RayKind::primary).rays;
+  const std::uint64_t contrasting = extra / (kSamples - kProbeSamples);
+  EXPECT_EQ(extra, contrasting * (kSamples - kProbeSamples));
   std::uint64_t whole = 0;
   for (std::size_t i = 0; i < all.image.pixels.size(); ++i) {
     whole += sameBits(adaptive.image.pixels[i], all.image.pixels[i]);
@@ -95,14 +95,14 @@ TEST_P(Adaptive, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   }
 }
 
-TEST_P(Adaptive, agreesWithTheReference) {
+TEST_P(Adaptive, AgreesWithTheReference) {
   const RenderOptions o = withSamples(9, true);
   Renderer renderer(scene_, o);
   Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
   const FrameStats a = renderer.render(chooseCamera(scene_, o), packets);
   const FrameStats b = renderer.renderReference(chooseCamera(scene_, o), reference);
   const ImageDifference d = compareImages(packets.image, reference.image);
-  // Twice the gate of pictures without decisions between neighbours: those that lie within rounding
+  // Twice the gate of pictures without decisions between neighbors: those that lie within rounding
   // of the threshold fall either way.
   std::printf("%s: %.4f %% of pixels off by two codes or more (at most 0.2)\n", GetParam().c_str(),
               d.pixelsGe2CodesPct);
@@ -114,7 +114,7 @@ TEST_P(Adaptive, agreesWithTheReference) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Adaptive, testing::Values("whitted", "glass", "matte"));
 
 // The display codes are those of the picture, kept pixels and refined ones.
-TEST(AdaptiveDisplay, encodesEveryPixel) {
+TEST(AdaptiveDisplay, EncodesEveryPixel) {
   const Scene scene = load("whitted");
   const RenderOptions o = withSamples(9, true);
   Renderer renderer(scene, o);
@@ -125,7 +125,7 @@ TEST(AdaptiveDisplay, encodesEveryPixel) {
 
 // Most of what 9 samples everywhere gain, for a third of the rays: the error is far below that of
 // as many rays spread evenly.
-TEST(AdaptiveError, comesNearThatOfAllSamplesForAThirdOfTheRays) {
+TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
   const Scene scene = load("matte");
   const auto picture = [&](int spp, bool adaptive) {
     RenderOptions o = withSamples(spp, adaptive);
@@ -152,7 +152,7 @@ TEST(AdaptiveError, comesNearThatOfAllSamplesForAThirdOfTheRays) {
 
 // Where edges are few, near the error of 16 samples everywhere for a third of their rays: at
 // 256x256 below it (1.3e-4 and 1.7e-4) for 0.29.
-TEST(AdaptiveError, isNearThatOf16SamplesForAThirdOfTheRays) {
+TEST(AdaptiveError, IsNearThatOf16SamplesForAThirdOfTheRays) {
   const Scene scene = load("whitted");
   const auto picture = [&](int spp, bool adaptive) {
     RenderOptions o = withSamples(spp, adaptive);

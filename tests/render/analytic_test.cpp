@@ -30,8 +30,8 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   return film.image;
 }
 
-// I kd / pi cos / d^2 at the point of the floor that each pixel's centre sees.
-TEST(Analytic, lightFallsOffOverAPlane) {
+// I kd / pi cos / d^2 at the point of the floor that each pixel's center sees.
+TEST(Analytic, LightFallsOffOverAPlane) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
   const Light light = lightAt({0.5f, 2, -0.25f}, 10);
@@ -60,7 +60,7 @@ TEST(Analytic, lightFallsOffOverAPlane) {
 
 // Straight down on a floor that emits in the square [0, 1] x [-1, 0] only: the picture is a map. As
 // in the reference, whatever the eye's distance.
-TEST(Analytic, anOrthographicCameraDrawsAMap) {
+TEST(Analytic, AnOrthographicCameraDrawsAMap) {
   SceneBuilder builder;
   Material glowing = blackMaterial();
   glowing.emission = Rgb(1.0f);
@@ -90,7 +90,7 @@ TEST(Analytic, anOrthographicCameraDrawsAMap) {
 }
 
 // Not even a material: the tables of the kernels must not be empty for that.
-TEST(Analytic, nothingShowsTheSky) {
+TEST(Analytic, NothingShowsTheSky) {
   SceneBuilder builder;
   builder.sky(0.25f);
   SceneDescription description = builder.description;
@@ -103,7 +103,7 @@ TEST(Analytic, nothingShowsTheSky) {
 }
 
 // A mirror of reflectance R under a sky of radiance 1, and nothing else.
-TEST(Analytic, mirrorShowsTheSky) {
+TEST(Analytic, MirrorShowsTheSky) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(mirrorMaterial(0.75f))));
   builder.sky(1);

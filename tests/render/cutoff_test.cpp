@@ -7,7 +7,7 @@
 namespace whit::test {
 namespace {
 
-TEST(ImpulseShare, isOneWhereTheWeightsAddUpToNoMore) {
+TEST(ImpulseShare, IsOneWhereTheWeightsAddUpToNoMore) {
   Material m;
   EXPECT_EQ(m.impulseShare(), 1.0f) << "diffuse";
   m.mirror = m.mirrorGrazing = Rgb(0.9f);
@@ -20,7 +20,7 @@ TEST(ImpulseShare, isOneWhereTheWeightsAddUpToNoMore) {
 
 // Twenty faces that pass everything on and reflect 0.9 of it as well. Counted in full, impulses
 // would double at every one of them: up to 2^16 a pixel at this depth, and 2^64 at the default one.
-TEST(ImpulseShare, raysOfCoatedGlassAreBounded) {
+TEST(ImpulseShare, RaysOfCoatedGlassAreBounded) {
   SceneBuilder builder;
   Material coated = diffuseMaterial(0);
   coated.transmission = Rgb(1.0f);

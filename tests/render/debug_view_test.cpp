@@ -12,7 +12,7 @@ namespace {
 
 using Code = std::array<int, 3>;
 
-// A wall at z = 0 that fills the view from z = 5, of the colour (0.5, 0.25, 0.1), and one light.
+// A wall at z = 0 that fills the view from z = 5, of the color (0.5, 0.25, 0.1), and one light.
 Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
   SceneDescription d;
   d.name = "wall";
@@ -106,12 +106,12 @@ TEST(DebugView, EffectsOfTheSurface) {
   const Code matte = {0, 0, 0};
   expectAll(view(wall(), DebugView::effects), matte);
   const auto mirror = [](SceneDescription& d) { d.materials[0].mirror = {0.5f, 0.5f, 0.5f}; };
-  for (const EffectColour& c : effectColours()) {
+  for (const EffectColor& c : effectColors()) {
     if (c.effect != Effect::mirror) continue;
     expectAll(view(wall(mirror), DebugView::effects),
-              {static_cast<int>(std::lround(255 * c.colour[0])),
-               static_cast<int>(std::lround(255 * c.colour[1])),
-               static_cast<int>(std::lround(255 * c.colour[2]))});
+              {static_cast<int>(std::lround(255 * c.color[0])),
+               static_cast<int>(std::lround(255 * c.color[1])),
+               static_cast<int>(std::lround(255 * c.color[2]))});
   }
   RenderOptions without = smallOptions();
   without.disable = without.disable.with(Effect::mirror);

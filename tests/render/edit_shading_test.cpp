@@ -42,7 +42,7 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   }
 }
 
-TEST(EditShading, Colours) {
+TEST(EditShading, Colors) {
   expectAsIfRead("whitted", [](auto& materials, auto&) {
     for (Material& m : materials) m.diffuse = {0.1f, 0.7f, 0.3f};
   });
@@ -119,7 +119,7 @@ TEST(EditShading, WhatCannotBeIsRefused) {
   EXPECT_EQ(scene.lights[0].position, position);
   EXPECT_EQ(statusOf([](auto& materials, auto&) { materials.pop_back(); }), ExitStatus::usage);
   EXPECT_EQ(statusOf([](auto& materials, auto&) { materials[0].roughness = 2; }), ExitStatus::done);
-  EXPECT_EQ(scene.materials[0].roughness, 1);  // mended, as when it is read
+  EXPECT_EQ(scene.materials[0].roughness, 1);  // repaired, as when it is read
 }
 
 }  // namespace

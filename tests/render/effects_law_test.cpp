@@ -22,7 +22,7 @@ const char* sceneWith(Effect effect) {
     case Effect::skyImage:
     case Effect::glossyReflection:
     case Effect::emissionMaps:
-    case Effect::vertexColours:
+    case Effect::vertexColors:
     case Effect::spotLights:
     case Effect::directionalLights:
       return "effects";
@@ -32,7 +32,7 @@ const char* sceneWith(Effect effect) {
 }
 
 // Not misplaced, not seen in part: gone, as in the reference.
-TEST(Instances, leftOutAreNotThereAsInTheReference) {
+TEST(Instances, LeftOutAreNotThereAsInTheReference) {
   const Scene scene = load("landscape?triangles=20000");
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::instances);
@@ -45,7 +45,7 @@ TEST(Instances, leftOutAreNotThereAsInTheReference) {
 
 class EffectLaw : public testing::TestWithParam<int> {};
 
-TEST_P(EffectLaw, disablingAnEffectChangesASceneThatHasIt) {
+TEST_P(EffectLaw, DisablingAnEffectChangesASceneThatHasIt) {
   const auto effect = static_cast<Effect>(GetParam());
   const char* name = sceneWith(effect);
   const Scene scene = load(name);
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(All, EffectLaw, testing::Range(0, kEffectCount), [](con
   return std::string(kEffectNames[static_cast<std::size_t>(info.param)].name);
 });
 
-TEST(EffectLaw, matteTracesNothingButPrimaryAndShadowRays) {
+TEST(EffectLaw, MatteTracesNothingButPrimaryAndShadowRays) {
   const Scene scene = load("matte");
   const Picture p = render(scene, smallOptions());
   EXPECT_GT(p.stats.of(RayKind::primary).rays, 0u);
@@ -71,7 +71,7 @@ TEST(EffectLaw, matteTracesNothingButPrimaryAndShadowRays) {
   EXPECT_EQ(p.stats.kernelCalls[static_cast<std::size_t>(Stage::addImpulses)], 0u);
 }
 
-TEST(EffectLaw, withoutLightsNoLightStageRuns) {
+TEST(EffectLaw, WithoutLightsNoLightStageRuns) {
   const Scene scene = load("matte");
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::lights);
@@ -82,7 +82,7 @@ TEST(EffectLaw, withoutLightsNoLightStageRuns) {
   EXPECT_EQ(p.stats.of(RayKind::shadow).rays, 0u);
 }
 
-TEST(EffectLaw, withoutShadowsEveryLightShines) {
+TEST(EffectLaw, WithoutShadowsEveryLightShines) {
   const Scene scene = load("matte");
   RenderOptions o = smallOptions();
   const Picture shadowed = render(scene, o);

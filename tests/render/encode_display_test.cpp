@@ -41,7 +41,7 @@ void expectScalarCodes(const std::vector<float>& values) {
 }
 
 // The floats on both sides of every rounding: found by bisection over their bits.
-TEST_F(EncodeDisplay, everyCodeBeginsAtTheSameFloat) {
+TEST_F(EncodeDisplay, EveryCodeBeginsAtTheSameFloat) {
   std::vector<float> values;
   for (int code = 1; code < 256; ++code) {
     std::uint32_t below = 0, from = std::bit_cast<std::uint32_t>(1.0f);
@@ -55,7 +55,7 @@ TEST_F(EncodeDisplay, everyCodeBeginsAtTheSameFloat) {
   expectScalarCodes(values);
 }
 
-TEST_F(EncodeDisplay, floatsOfAllSizesInSmallSteps) {
+TEST_F(EncodeDisplay, FloatsOfAllSizesInSmallSteps) {
   std::vector<float> values;
   const auto one = std::bit_cast<std::uint32_t>(1.0f);
   for (std::uint32_t bits = 0; bits <= one; bits += 9973)
@@ -63,7 +63,7 @@ TEST_F(EncodeDisplay, floatsOfAllSizesInSmallSteps) {
   expectScalarCodes(values);
 }
 
-TEST_F(EncodeDisplay, whatIsNoColour) {
+TEST_F(EncodeDisplay, WhatIsNoColor) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   expectScalarCodes({0, -0.0f, -1, -kInf, kInf, std::nanf(""), -std::nanf(""), 1, 1.5f, 1e30f,
                      std::numeric_limits<float>::denorm_min()});

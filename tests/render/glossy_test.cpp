@@ -22,14 +22,14 @@ class Glossy : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(Glossy, everyStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(Glossy, EveryStageAgreesWithItsTwinOnEveryTarget) {
   RenderOptions o = options();
   o.spp = 2;
   o.depth = 3;
   expectStagesAgreeOnEveryTarget(scene_, o);
 }
 
-TEST_P(Glossy, pictureAgreesWithTheReference) {
+TEST_P(Glossy, PictureAgreesWithTheReference) {
   RenderOptions o = options();
   o.spp = 2;
   Renderer renderer(scene_, o);
@@ -45,9 +45,9 @@ TEST_P(Glossy, pictureAgreesWithTheReference) {
   EXPECT_EQ(d.nonFinite, 0u);
 }
 
-TEST_P(Glossy, bitsDependOnTheSceneAlone) { expectBitsWhateverTheQueues(scene_, options()); }
+TEST_P(Glossy, BitsDependOnTheSceneAlone) { expectBitsWhateverTheQueues(scene_, options()); }
 
-TEST_P(Glossy, aCropShowsTheSameNoise) {
+TEST_P(Glossy, ACropShowsTheSameNoise) {
   RenderOptions o = options();
   const Image whole = render(scene_, o).image;
   o.crop = Crop{40, 30, 60, 41};
@@ -57,7 +57,7 @@ TEST_P(Glossy, aCropShowsTheSameNoise) {
   }
 }
 
-TEST_P(Glossy, withoutSamplesThereIsNoCallNoRayAndNoColumn) {
+TEST_P(Glossy, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
   RenderOptions o = smallOptions();
   const Picture plain = render(scene_, o);
   EXPECT_EQ(plain.stats.glossyCalls, 0u);
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Glossy, testing::Values("glossy", "effects"),
                          [](const auto& info) { return info.param; });
 
 // More samples come nearer to what very many would show.
-TEST(GlossyNoise, fallsWithTheNumberOfSamples) {
+TEST(GlossyNoise, FallsWithTheNumberOfSamples) {
   const Scene scene = load("glossy");
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::lights);  // whose highlights are rare and bright

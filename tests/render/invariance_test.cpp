@@ -92,7 +92,7 @@ TEST_P(Invariance, H76_supersamplingIsTheSameForAnyTileAndQueue) {
   EXPECT_EQ(firstDifference(render(scene_, o).image, several.image), "");
 }
 
-TEST_P(Invariance, noPixelIsNonFinite) { EXPECT_EQ(expected_.stats.nonFinitePixels, 0u); }
+TEST_P(Invariance, NoPixelIsNonFinite) { EXPECT_EQ(expected_.stats.nonFinitePixels, 0u); }
 
 // Large enough that some of the rays of its long chains meet edges.
 TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {

@@ -33,9 +33,9 @@ void expectFullPackets(const std::string& name) {
   }
 }
 
-TEST(LanesFilled, inAtrium) { expectFullPackets("atrium"); }
-TEST(LanesFilled, inLandscape) { expectFullPackets("landscape"); }
-TEST(LanesFilled, inSponza) {
+TEST(LanesFilled, InAtrium) { expectFullPackets("atrium"); }
+TEST(LanesFilled, InLandscape) { expectFullPackets("landscape"); }
+TEST(LanesFilled, InSponza) {
   if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
     GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
   }

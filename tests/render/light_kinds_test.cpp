@@ -47,7 +47,7 @@ Scene floorUnder(const std::vector<Light>& lights) {
   return builder.build();
 }
 
-TEST(LightKinds, aSpotLightDrawsItsConeOnTheFloor) {
+TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
   constexpr double kInner = 15 * kPi / 180, kOuter = 25 * kPi / 180;
   const Scene scene = floorUnder({spot(15, 25)});
   const Picture picture = render(scene, smallOptions());
@@ -76,7 +76,7 @@ TEST(LightKinds, aSpotLightDrawsItsConeOnTheFloor) {
               2);
 }
 
-TEST(LightKinds, aDirectionalLightIsEvenAndFacesTheSurface) {
+TEST(LightKinds, ADirectionalLightIsEvenAndFacesTheSurface) {
   const Picture picture = render(floorUnder({sun({3, -4, 0})}), smallOptions());
   for (const Rgb& pixel : picture.image.pixels) {
     ASSERT_NEAR(static_cast<double>(pixel.x), 0.5 / kPi * 3 * 0.8, 20 * 0x1p-24);
@@ -86,7 +86,7 @@ TEST(LightKinds, aDirectionalLightIsEvenAndFacesTheSurface) {
 }
 
 // Every stage against its twin, on every target, and the picture against the reference.
-TEST(LightKinds, agreeWithTheReference) {
+TEST(LightKinds, AgreeWithTheReference) {
   const Scene scene = load("effects");
   expectStagesAgreeOnEveryTarget(scene, smallOptions());
   const RenderOptions o = smallOptions();
@@ -99,7 +99,7 @@ TEST(LightKinds, agreeWithTheReference) {
 }
 
 // Each effect left out by --disable, in both renderers.
-TEST(LightKinds, leftOutAreGoneAsInTheReference) {
+TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
   const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
   for (const Effect effect : {Effect::spotLights, Effect::directionalLights}) {
     RenderOptions o = smallOptions();
@@ -113,7 +113,7 @@ TEST(LightKinds, leftOutAreGoneAsInTheReference) {
 }
 
 // The code of spot and directional lights gives the bits of point lights, where it is compiled in.
-TEST(LightKinds, theirKernelsKeepTheBitsOfPointLights) {
+TEST(LightKinds, TheirKernelsKeepTheBitsOfPointLights) {
   const Scene scene = floorUnder({lightAt({0.5f, 2, -0.25f}, 10), lightAt({-1, 1, 1}, 4)});
   ASSERT_FALSE(scene.effects.has(Effect::spotLights) ||
                scene.effects.has(Effect::directionalLights));
@@ -124,7 +124,7 @@ TEST(LightKinds, theirKernelsKeepTheBitsOfPointLights) {
 }
 
 // Threads, tiles, queues and packets change no bit.
-TEST(LightKinds, howTheFrameIsSplitChangesNoBit) {
+TEST(LightKinds, HowTheFrameIsSplitChangesNoBit) {
   const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
   const Image expected = render(scene, smallOptions()).image;
   for (const int packet : {1, 4, 8, 16}) {

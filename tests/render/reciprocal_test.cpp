@@ -80,7 +80,7 @@ TEST_F(ReciprocalRoot, H53_errorsStayWithinTheBoundOnEveryTarget) {
 }
 
 // With a step of Newton's method pictures agree as those of exact roots do.
-TEST_F(ReciprocalRoot, refinedPicturesAgreeWithTheReference) {
+TEST_F(ReciprocalRoot, RefinedPicturesAgreeWithTheReference) {
   for (const char* name : {"mirrors", "glass", "matte"}) {
     const Scene scene = load(name);
     const RenderOptions o = withReciprocal(Reciprocal::refined, "auto");
@@ -96,7 +96,7 @@ TEST_F(ReciprocalRoot, refinedPicturesAgreeWithTheReference) {
 }
 
 // The reference does not know the option.
-TEST_F(ReciprocalRoot, theReferenceIsExactAlways) {
+TEST_F(ReciprocalRoot, TheReferenceIsExactAlways) {
   const Scene scene = load("mirrors");
   Image pictures[2];
   for (const Reciprocal how : {Reciprocal::exact, Reciprocal::approximate}) {

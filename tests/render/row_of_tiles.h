@@ -21,7 +21,7 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   for (int i = 0; i < 6; ++i) {
     Mesh mesh = make(i);
     for (Vec3f& p : mesh.positions)
-      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centres
+      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centers
     tiles.meshes.push_back(std::move(mesh));
   }
   builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});

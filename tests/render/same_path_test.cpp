@@ -6,13 +6,13 @@
 
 #include "io/paths.h"
 #include "metrics/metrics.h"
-#include "render/path_flips.h"
+#include "render/path_divergence.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {
 namespace {
 
-// Of pictures whose flipped pixels are put right, at the default depth and cutoff.
+// Of pictures whose diverged pixels are put right, at the default depth and cutoff.
 int largestStepOfSamePaths(const std::string& name) {
   const Scene scene = load(name);
   RenderOptions o = smallOptions();
@@ -20,27 +20,28 @@ int largestStepOfSamePaths(const std::string& name) {
   Renderer renderer(scene, o);
   const Film film = makeFilm(scene, o);
   PathComparison paths = comparePaths(renderer, chooseCamera(scene, o), film);
-  for (std::size_t i = 0; i < paths.flipped.size(); ++i) {
-    if (paths.flipped[i]) paths.packets.pixels[i] = paths.reference.pixels[i];
+  for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
+    if (paths.diverged[i]) paths.packets.pixels[i] = paths.reference.pixels[i];
   }
   const ImageDifference d = compareImages(paths.packets, paths.reference);
-  std::printf("%s: %llu of %zu pixels flipped, the others within %d codes, RMSE %.2e\n",
-              name.c_str(), static_cast<unsigned long long>(paths.flips), paths.flipped.size(),
-              d.maxCode, d.rmse);
+  std::printf("%s: %llu of %zu pixels diverged, the others within %d codes, RMSE %.2e\n",
+              name.c_str(), static_cast<unsigned long long>(paths.divergences),
+              paths.diverged.size(), d.maxCode, d.rmse);
   // Else there would be little to assert: 6 % flip where paths are caught in glass.
-  EXPECT_LT(static_cast<double>(paths.flips), 0.1 * static_cast<double>(paths.flipped.size()));
+  EXPECT_LT(static_cast<double>(paths.divergences),
+            0.1 * static_cast<double>(paths.diverged.size()));
   return d.maxCode;
 }
 
 class SamePath : public testing::TestWithParam<std::string> {};
 
-TEST_P(SamePath, pixelsAreWithinOneCode) { EXPECT_LE(largestStepOfSamePaths(GetParam()), 1); }
+TEST_P(SamePath, PixelsAreWithinOneCode) { EXPECT_LE(largestStepOfSamePaths(GetParam()), 1); }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, SamePath,
                          testing::Values("whitted", "mirrors", "matte", "landscape?triangles=20000",
                                          "atrium"));
 
-TEST(SamePathOfLargeScenes, sponzaIsWithinOneCode) {
+TEST(SamePathOfLargeScenes, SponzaIsWithinOneCode) {
   if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
     GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
   }
@@ -49,7 +50,7 @@ TEST(SamePathOfLargeScenes, sponzaIsWithinOneCode) {
 
 // Nested glass: curved surfaces magnify what rounding did with every bounce, as long as the path
 // meets the same triangles.
-TEST(SamePathInGlass, pixelsAreWithinTwoCodes) { EXPECT_LE(largestStepOfSamePaths("glass"), 2); }
+TEST(SamePathInGlass, PixelsAreWithinTwoCodes) { EXPECT_LE(largestStepOfSamePaths("glass"), 2); }
 
 }  // namespace
 }  // namespace whit::test

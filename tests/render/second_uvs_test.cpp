@@ -20,7 +20,7 @@ Mesh twoWayFloor(std::uint32_t material) {
 
 // Red beside black; (code / 1023)^2 is the light.
 std::int32_t addColumns(SceneBuilder& builder) {
-  return builder.add(makeTexture(TexelFormat::colour, 2, 1, {1023u, 0u}));
+  return builder.add(makeTexture(TexelFormat::color, 2, 1, {1023u, 0u}));
 }
 
 TEST(SecondUvs, AreThoseOfTheEmissionMapThatSaysSo) {
@@ -71,19 +71,19 @@ TEST(SecondUvs, AreTheFrameOfTheNormalMapThatSaysSo) {
 // Maps of all kinds, by both coordinates and side by side, with and without instances.
 Scene everyMapTwice() {
   SceneBuilder builder;
-  const std::int32_t colour = builder.add(makeTexture(
-      TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+  const std::int32_t color = builder.add(makeTexture(
+      TexelFormat::color, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
   const std::int32_t normal = builder.add(
       makeTexture(TexelFormat::data, 2, 2,
                   {encodeDataTexel(0.8f, 0.5f, 0.9f, 1), encodeDataTexel(0.5f, 0.2f, 0.9f, 1),
                    encodeDataTexel(0.5f, 0.5f, 1, 1), encodeDataTexel(0.3f, 0.7f, 0.9f, 1)}));
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
-    m.diffuseMap = colour;
+    m.diffuseMap = color;
     m.specular = Rgb(0.4f);
     m.roughness = 0.4f;
     if (i != 4) m.emission = {0.5f, 0.25f, 1};
-    if (i >= 2) m.emissionMap = colour;
+    if (i >= 2) m.emissionMap = color;
     if (i != 3) m.normalMap = normal;
     m.emissionBySecondUvs = i % 2 == 0;
     m.normalBySecondUvs = i % 3 != 0;
@@ -93,7 +93,7 @@ Scene everyMapTwice() {
   });
 }
 
-TEST(SecondUvs, agreeWithTheReferenceOnEveryTarget) {
+TEST(SecondUvs, AgreeWithTheReferenceOnEveryTarget) {
   const Scene scene = everyMapTwice();
   for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
     RenderOptions o = smallOptions();

@@ -51,7 +51,7 @@ class ShadingChoice : public testing::TestWithParam<std::string> {
   void TearDown() override { simd::chooseTarget("auto"); }
 };
 
-TEST_P(ShadingChoice, everyStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(ShadingChoice, EveryStageAgreesWithItsTwinOnEveryTarget) {
   const Scene scene = load(GetParam());
   for (const std::string& target : simd::availableTargets()) {
     for (const Choice& choice : choices()) {
@@ -79,7 +79,7 @@ TEST_P(ShadingChoice, everyStageAgreesWithItsTwinOnEveryTarget) {
 
 // Pictures agree as those of the defaults do, and the rays are the same but for those whose
 // decision lies within rounding.
-TEST_P(ShadingChoice, picturesAgreeWithTheReference) {
+TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
   const Scene scene = load(GetParam());
   for (const Choice& choice : choices()) {
     RenderOptions o = smallOptions();
@@ -152,7 +152,7 @@ TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
 
 // I kd / pi / d^2 straight under the light is 1 / pi: just below it the light counts, just above it
 // does not, and behind a mirror of reflectance 1/4 the same holds for a quarter.
-TEST(LightCutoff, decidesByTheContributionToThePixel) {
+TEST(LightCutoff, DecidesByTheContributionToThePixel) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
   builder.add(ceilingAt(4, 8, builder.add(mirrorMaterial(0.25f))));
@@ -175,7 +175,7 @@ TEST(LightCutoff, decidesByTheContributionToThePixel) {
 }
 
 // Embree's builders give the same hits: the triangles are the same.
-TEST(BvhQuality, changesNoHit) {
+TEST(BvhQuality, ChangesNoHit) {
   for (const char* name : {"whitted", "glass"}) {
     const Scene scene = load(name);
     const Image wanted = render(scene, smallOptions()).image;

@@ -19,7 +19,7 @@ namespace {
 Texture numbered(int width, int height) {
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(width * height));
   std::iota(texels.begin(), texels.end(), 1u);
-  return makeTexture(TexelFormat::colour, width, height, texels);
+  return makeTexture(TexelFormat::color, width, height, texels);
 }
 
 TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
@@ -68,7 +68,7 @@ Scene paintedOver(int width) {
   for (std::size_t i = 0; i < texels.size(); ++i) {
     texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
   }
-  floor.diffuseMap = builder.add(makeTexture(TexelFormat::colour, width, 1, texels));
+  floor.diffuseMap = builder.add(makeTexture(TexelFormat::color, width, 1, texels));
   builder.add(floorAt(0, 1, builder.add(floor)));
   return builder.build();
 }

@@ -39,9 +39,9 @@ SceneDescription textured() {
   SceneBuilder builder;
   Material m = diffuseMaterial(0.6f);
   m.specular = m.emission = Rgb(0.3f);
-  m.diffuseMap = builder.add(noise(TexelFormat::colour, 33, 64));
-  m.specularMap = builder.add(noise(TexelFormat::colour, 16, 16));
-  m.emissionMap = builder.add(noise(TexelFormat::colour, 8, 1));
+  m.diffuseMap = builder.add(noise(TexelFormat::color, 33, 64));
+  m.specularMap = builder.add(noise(TexelFormat::color, 16, 16));
+  m.emissionMap = builder.add(noise(TexelFormat::color, 8, 1));
   Material bumpy = diffuseMaterial(0.8f);
   bumpy.normalMap = builder.add(noise(TexelFormat::data, 16, 50));
   bumpy.mirror = bumpy.mirrorGrazing = Rgb(0.3f);
@@ -69,7 +69,7 @@ Scene frozen(SceneDescription d) {
   return Scene::finalize(std::move(d), warnings);
 }
 
-TEST(Trilinear, agreesWithTheReferenceOnEveryTarget) {
+TEST(Trilinear, AgreesWithTheReferenceOnEveryTarget) {
   const Scene scene = frozen(textured());
   RenderOptions o = trilinear();
   Film reference = makeFilm(scene, o);
@@ -86,7 +86,7 @@ TEST(Trilinear, agreesWithTheReferenceOnEveryTarget) {
   simd::chooseTarget("auto");
 }
 
-TEST(Trilinear, keepsItsBitsWhateverTheQueues) {
+TEST(Trilinear, KeepsItsBitsWhateverTheQueues) {
   expectBitsWhateverTheQueues(frozen(textured()), trilinear());
 }
 
@@ -111,7 +111,7 @@ TEST(Trilinear, H61a_keepsItsBitsAtAnyPowerOfTwo) {
   }
 }
 
-TEST(Trilinear, costsColumnsAndTexelsOnlyWhereItIsAskedFor) {
+TEST(Trilinear, CostsColumnsAndTexelsOnlyWhereItIsAskedFor) {
   const Scene scene = frozen(textured()), plain = load("matte");
   const auto parts = [](const Scene& s, const RenderOptions& o) {
     Renderer renderer(s, o);
@@ -131,7 +131,7 @@ TEST(Trilinear, costsColumnsAndTexelsOnlyWhereItIsAskedFor) {
   EXPECT_EQ(parts(plain, trilinear()), std::tuple(false, std::size_t{1}, std::size_t{0}));
 }
 
-TEST(Trilinear, canBeAskedForBetweenFrames) {
+TEST(Trilinear, CanBeAskedForBetweenFrames) {
   const Scene scene = frozen(textured());
   const Image sharp = render(scene, smallOptions()).image;
   const Image soft = render(scene, trilinear()).image;
@@ -149,12 +149,12 @@ TEST(Trilinear, canBeAskedForBetweenFrames) {
 
 // A chequerboard to the horizon, of which distant squares are smaller than pixels: trilinear
 // lookups come closer to the mean of many samples than any one texel.
-TEST(Trilinear, isCloserToManySamples) {
+TEST(Trilinear, IsCloserToManySamples) {
   SceneBuilder builder;
   Material m = blackMaterial();
   m.emission = Rgb(1.0f);
   m.emissionMap =
-      builder.add(makeTexture(TexelFormat::colour, 2, 2, {0x3fffffffu, 0, 0, 0x3fffffffu}));
+      builder.add(makeTexture(TexelFormat::color, 2, 2, {0x3fffffffu, 0, 0, 0x3fffffffu}));
   Mesh floor = floorAt(0, 500, builder.add(m));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 500, uv.y * 500};
   builder.add(floor);

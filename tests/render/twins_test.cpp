@@ -42,28 +42,28 @@ class Twins : public testing::TestWithParam<std::string> {
   void TearDown() override { simd::chooseTarget("auto"); }
 };
 
-TEST_P(Twins, everyStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(Twins, EveryStageAgreesWithItsTwinOnEveryTarget) {
   expectStagesAgreeOnEveryTarget(load(GetParam()), smallOptions());
 }
 
-TEST_P(Twins, picturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
+TEST_P(Twins, PicturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
 
-TEST_P(Twins, picturesOfTheDefaultDepthAgreeWithTheReference) {
+TEST_P(Twins, PicturesOfTheDefaultDepthAgreeWithTheReference) {
   const bool glass = GetParam() == "glass";
   expectPictureAgrees(GetParam(), RenderOptions().depth,
                       glass ? kPartedInGlassPct : kPixelsGe2CodesPct);
 }
 
-TEST(LargeScenes, atriumAgreesWithTheReference) { expectPictureAgrees("atrium"); }
+TEST(LargeScenes, AtriumAgreesWithTheReference) { expectPictureAgrees("atrium"); }
 
-TEST(LargeScenes, sponzaAgreesWithTheReference) {
+TEST(LargeScenes, SponzaAgreesWithTheReference) {
   if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
     GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
   }
   expectPictureAgrees("sponza-mirror");
 }
 
-TEST_P(Twins, targetsAgreeWithEachOther) {
+TEST_P(Twins, TargetsAgreeWithEachOther) {
   const Scene scene = load(GetParam());
   const Image expected = render(scene, smallOptions()).image;
   for (const std::string& target : simd::availableTargets()) {

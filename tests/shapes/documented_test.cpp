@@ -107,11 +107,11 @@ void expectDocumented(const Generators& generators) {
   }
 }
 
-TEST(Documented, everyShape) { expectDocumented(shapeGenerators()); }
-TEST(Documented, everyPattern) { expectDocumented(patternGenerators()); }
+TEST(Documented, EveryShape) { expectDocumented(shapeGenerators()); }
+TEST(Documented, EveryPattern) { expectDocumented(patternGenerators()); }
 
 // The example is a scene.
-TEST(Documented, exampleCanBeRead) {
+TEST(Documented, ExampleCanBeRead) {
   const std::vector<std::string> page = lines();
   const auto begin = std::find(page.begin(), page.end(), "```json");
   const auto end = std::find(begin, page.end(), "```");

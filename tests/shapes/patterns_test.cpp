@@ -16,8 +16,8 @@ Vec3d data(const Texture& texture, int column, int row) {
          kStep8;
 }
 
-Rgb colour(const Texture& texture, int column, int row) {
-  return decodeColourTexel(texture.texels[static_cast<std::size_t>(row * texture.width + column)]);
+Rgb color(const Texture& texture, int column, int row) {
+  return decodeColorTexel(texture.texels[static_cast<std::size_t>(row * texture.width + column)]);
 }
 
 std::vector<std::string> patternNames() {
@@ -28,7 +28,7 @@ std::vector<std::string> patternNames() {
 
 class EveryPattern : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryPattern, isCompleteAndTheSameEachTime) {
+TEST_P(EveryPattern, IsCompleteAndTheSameEachTime) {
   const Texture a = paint(GetParam(), {{"size", 64.0}}), b = paint(GetParam(), {{"size", 64.0}});
   EXPECT_EQ(a.width, 64);
   EXPECT_EQ(a.height, 64);
@@ -36,10 +36,10 @@ TEST_P(EveryPattern, isCompleteAndTheSameEachTime) {
   EXPECT_EQ(a.texels, b.texels);
   EXPECT_EQ(a.wrapU, Wrap::repeat);
   const bool isData = GetParam().ends_with("Normals") || GetParam().ends_with("Mask");
-  EXPECT_EQ(a.format, isData ? TexelFormat::data : TexelFormat::colour);
+  EXPECT_EQ(a.format, isData ? TexelFormat::data : TexelFormat::color);
 }
 
-TEST_P(EveryPattern, isNotOneFlatColour) {
+TEST_P(EveryPattern, IsNotOneFlatColor) {
   const Texture texture = paint(GetParam(), {{"size", 64.0}});
   EXPECT_NE(std::count(texture.texels.begin(), texture.texels.end(), texture.texels[0]),
             static_cast<std::ptrdiff_t>(texture.texels.size()));
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Patterns, EveryPattern, testing::ValuesIn(patternNames(
 
 class EveryNormalMap : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryNormalMap, holdsUnitVectorsOnTheOutside) {
+TEST_P(EveryNormalMap, HoldsUnitVectorsOnTheOutside) {
   const Texture texture = paint(GetParam(), {{"size", 128.0}});
   Vec3d mean;
   for (int row = 0; row < 128; ++row) {
@@ -61,7 +61,7 @@ TEST_P(EveryNormalMap, holdsUnitVectorsOnTheOutside) {
       mean += n / (128.0 * 128.0);
     }
   }
-  // A repeating surface is level on the whole; steep sides weigh less once they are normalised,
+  // A repeating surface is level on the whole; steep sides weigh less once they are normalized,
   // which tells where one side is steeper than the other (overlapping pans of a roof).
   EXPECT_NEAR(mean.x, 0, 0.05);
   EXPECT_NEAR(mean.y, 0, 0.10);
@@ -72,17 +72,17 @@ INSTANTIATE_TEST_SUITE_P(Patterns, EveryNormalMap,
                                          "roofNormals"),
                          [](const auto& info) { return info.param; });
 
-TEST(Patterns, checkerStartsWithItsFirstColourAtTheLowerLeft) {
+TEST(Patterns, CheckerStartsWithItsFirstColorAtTheLowerLeft) {
   const Texture texture = paint(
       "checker",
-      {{"size", 8.0}, {"columns", 2.0}, {"colour", Vec3d{1, 0, 0}}, {"colour2", Vec3d{0, 0, 1}}});
-  EXPECT_EQ(colour(texture, 0, 7), Rgb(1, 0, 0));
-  EXPECT_EQ(colour(texture, 7, 7), Rgb(0, 0, 1));
-  EXPECT_EQ(colour(texture, 0, 0), Rgb(0, 0, 1));
-  EXPECT_EQ(colour(texture, 7, 0), Rgb(1, 0, 0));
+      {{"size", 8.0}, {"columns", 2.0}, {"color", Vec3d{1, 0, 0}}, {"color2", Vec3d{0, 0, 1}}});
+  EXPECT_EQ(color(texture, 0, 7), Rgb(1, 0, 0));
+  EXPECT_EQ(color(texture, 7, 7), Rgb(0, 0, 1));
+  EXPECT_EQ(color(texture, 0, 0), Rgb(0, 0, 1));
+  EXPECT_EQ(color(texture, 7, 0), Rgb(1, 0, 0));
 }
 
-TEST(Patterns, normalsOfAnUpwardJointLeanAwayFromIt) {
+TEST(Patterns, NormalsOfAnUpwardJointLeanAwayFromIt) {
   // One tile: near its left joint the surface rises to the right, so the normal leans left.
   const Texture texture = paint("tilesNormals", {{"size", 128.0},
                                                  {"columns", 1.0},
@@ -99,7 +99,7 @@ TEST(Patterns, normalsOfAnUpwardJointLeanAwayFromIt) {
   EXPECT_NEAR(data(texture, 64, 64).x, 0.5, level - 0.5);
 }
 
-TEST(Patterns, leafMaskCutsTheCornersAndKeepsTheMiddle) {
+TEST(Patterns, LeafMaskCutsTheCornersAndKeepsTheMiddle) {
   const Texture texture = paint("leafMask", {{"size", 64.0}});
   for (const int row : {0, 63}) {
     EXPECT_EQ(data(texture, 0, row).x, 0);
@@ -108,7 +108,7 @@ TEST(Patterns, leafMaskCutsTheCornersAndKeepsTheMiddle) {
   EXPECT_EQ(data(texture, 32, 32).x, 1);
 }
 
-TEST(Noise, repeatsAfterItsPeriodAndVanishesOnTheLattice) {
+TEST(Noise, RepeatsAfterItsPeriodAndVanishesOnTheLattice) {
   using procedural::fractalNoise;
   for (int k = 0; k < 50; ++k) {
     const double x = 0.37 * k, y = 0.61 * k;
@@ -123,7 +123,7 @@ TEST(Noise, repeatsAfterItsPeriodAndVanishesOnTheLattice) {
   }
 }
 
-TEST(Noise, hashesSpreadEvenly) {
+TEST(Noise, HashesSpreadEvenly) {
   constexpr int kBins = 16, kDraws = 16000;
   std::array<int, kBins> counts{};
   for (int k = 0; k < kDraws; ++k) {

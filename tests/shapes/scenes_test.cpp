@@ -1,4 +1,4 @@
-// The shipped scenes load, hold what they promise and need no mending.
+// The shipped scenes load, hold what they promise and need no repairing.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ Scene load(const std::string& name, const std::string& query = "") {
 
 class Shipped : public testing::TestWithParam<std::string> {};
 
-TEST_P(Shipped, loadsWithoutMendingAndHasCamerasAndAPath) {
+TEST_P(Shipped, LoadsWithoutMendingAndHasCamerasAndAPath) {
   const Scene scene = load(GetParam());
   EXPECT_GE(scene.cameras.size(), 3u);
   EXPECT_GE(scene.cameraPath.size(), 2u);
@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Shipped,
                                          "whitted"),
                          [](const auto& info) { return info.param; });
 
-TEST(Scenes, atriumIsLargeAndCallsForItsEffects) {
+TEST(Scenes, AtriumIsLargeAndCallsForItsEffects) {
   const Scene scene = load("atrium");
   EXPECT_GE(scene.triangles.size(), 250000u);
   EXPECT_GE(scene.lights.size(), 2u);
@@ -51,18 +51,18 @@ TEST(Scenes, atriumIsLargeAndCallsForItsEffects) {
   }
 }
 
-TEST(Scenes, matteCallsForLightsAndShadowsOnly) {
+TEST(Scenes, MatteCallsForLightsAndShadowsOnly) {
   EXPECT_EQ(load("matte").effects, EffectSet().with(Effect::lights).with(Effect::shadows));
 }
 
-TEST(Scenes, glassNestsItsMedia) {
+TEST(Scenes, GlassNestsItsMedia) {
   const Scene scene = load("glass");
   EXPECT_TRUE(scene.effects.has(Effect::transmission));
   EXPECT_TRUE(scene.effects.has(Effect::absorption));
   EXPECT_GE(scene.media.size(), 5u);
 }
 
-TEST(Scenes, landscapeHasAboutTheTrianglesAskedFor) {
+TEST(Scenes, LandscapeHasAboutTheTrianglesAskedFor) {
   // Each of three forests rounds down by less than a tree of 4,000, the ground by less than a row.
   const Scene usual = load("landscape");
   EXPECT_NEAR(static_cast<double>(usual.instancedTriangles), 1e6, 2e4);
@@ -71,7 +71,7 @@ TEST(Scenes, landscapeHasAboutTheTrianglesAskedFor) {
   EXPECT_TRUE(usual.effects.has(Effect::instances));
 }
 
-TEST(Scenes, sponzaHasAMirrorFloor) {
+TEST(Scenes, SponzaHasAMirrorFloor) {
   const char* data = std::getenv("WHIT_DATA");
   const auto folder = data ? std::filesystem::path(data) : sourceDir() / ".." / "shared" / "data";
   if (!std::filesystem::exists(folder / "crytek_sponza" / "sponza.obj")) {

@@ -53,7 +53,7 @@ std::vector<Case> solids() {
 
 class Solid : public testing::TestWithParam<Case> {};
 
-TEST_P(Solid, everyEdgeJoinsTwoTrianglesOfOppositeDirection) {
+TEST_P(Solid, EveryEdgeJoinsTwoTrianglesOfOppositeDirection) {
   for (const ShapePart& part : generate(GetParam().shape, GetParam().parameters).parts) {
     ASSERT_FALSE(part.mesh.triangles.empty());
     EXPECT_EQ(openEdges(part.mesh), 0u);
@@ -61,7 +61,7 @@ TEST_P(Solid, everyEdgeJoinsTwoTrianglesOfOppositeDirection) {
   }
 }
 
-TEST_P(Solid, facesOutwards) {
+TEST_P(Solid, FacesOutwards) {
   for (const ShapePart& part : generate(GetParam().shape, GetParam().parameters).parts) {
     EXPECT_GT(volume(part.mesh), 0);
   }
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Solid, testing::ValuesIn(solids()), caseName);
 // Several closed solids in a part; they may touch, so that an edge may serve four triangles.
 class Assembly : public testing::TestWithParam<Case> {};
 
-TEST_P(Assembly, isClosed) {
+TEST_P(Assembly, IsClosed) {
   const Shape shape = generate(GetParam().shape, GetParam().parameters);
   for (const ShapePart& part : shape.parts) {
     if (part.slot == "leaves") continue;
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class EveryShape : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryShape, hasUnitNormalsThatAgreeWithTheWinding) {
+TEST_P(EveryShape, HasUnitNormalsThatAgreeWithTheWinding) {
   constexpr double kUnit = 1e-6;  // three roundings to float
   for (const ShapePart& part : generate(GetParam()).parts) {
     const Mesh& mesh = part.mesh;
@@ -117,7 +117,7 @@ TEST_P(EveryShape, hasUnitNormalsThatAgreeWithTheWinding) {
   }
 }
 
-TEST_P(EveryShape, keepsIndicesInRangeAndCornersApart) {
+TEST_P(EveryShape, KeepsIndicesInRangeAndCornersApart) {
   for (const ShapePart& part : generate(GetParam()).parts) {
     ASSERT_FALSE(part.mesh.triangles.empty()) << part.slot;
     for (const Vec3f& p : part.mesh.positions) ASSERT_TRUE(isFinite(p));
@@ -130,7 +130,7 @@ TEST_P(EveryShape, keepsIndicesInRangeAndCornersApart) {
   }
 }
 
-TEST_P(EveryShape, comesOutTheSameEachTime) {
+TEST_P(EveryShape, ComesOutTheSameEachTime) {
   const Shape a = generate(GetParam()), b = generate(GetParam());
   ASSERT_EQ(a.parts.size(), b.parts.size());
   for (std::size_t k = 0; k < a.parts.size(); ++k) {
@@ -150,7 +150,7 @@ std::vector<std::string> shapeNames() {
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shapeNames()),
                          [](const auto& info) { return info.param; });
 
-TEST(Shapes, refuseParametersOutOfRange) {
+TEST(Shapes, RefuseParametersOutOfRange) {
   EXPECT_THROW(generate("sphere", {{"segments", 2.0}}), Error);
   EXPECT_THROW(generate("sphere", {{"radius", -1.0}}), Error);
   EXPECT_THROW(generate("tumbler", {{"wall", 5.0}}), Error);

@@ -8,12 +8,12 @@
 namespace whit::test {
 namespace {
 
-TEST(Terrain, hasTheTrianglesAskedFor) {
+TEST(Terrain, HasTheTrianglesAskedFor) {
   EXPECT_EQ(generate("terrain", {{"triangles", 20000.0}}).parts[0].mesh.triangles.size(), 20000u);
   EXPECT_EQ(generate("terrain", {{"triangles", 20100.0}}).parts[0].mesh.triangles.size(), 20000u);
 }
 
-TEST(Terrain, liesOnTheSameGroundAtEveryResolution) {
+TEST(Terrain, LiesOnTheSameGroundAtEveryResolution) {
   MapParameters parameters({{"seed", 5.0}, {"size", 300.0}});
   const procedural::Ground ground(parameters);
   for (const double triangles : {5000.0, 12800.0}) {
@@ -27,19 +27,19 @@ TEST(Terrain, liesOnTheSameGroundAtEveryResolution) {
   }
 }
 
-TEST(Terrain, facesUpEverywhere) {
+TEST(Terrain, FacesUpEverywhere) {
   const Mesh mesh = generate("terrain", {{"triangles", 8192.0}}).parts[0].mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ASSERT_GT(areaVector(mesh, t).y, 0);
   for (const Vec3f& n : mesh.normals) ASSERT_GT(n.y, 0);
 }
 
-TEST(Terrain, changesWithItsSeed) {
+TEST(Terrain, ChangesWithItsSeed) {
   const Mesh a = generate("terrain", {{"triangles", 200.0}, {"seed", 1.0}}).parts[0].mesh;
   const Mesh b = generate("terrain", {{"triangles", 200.0}, {"seed", 2.0}}).parts[0].mesh;
   EXPECT_NE(a.positions, b.positions);
 }
 
-TEST(Forest, standsOnTheGroundOfItsTerrain) {
+TEST(Forest, StandsOnTheGroundOfItsTerrain) {
   MapParameters parameters({{"seed", 3.0}, {"size", 500.0}});
   const procedural::Ground ground(parameters);
   const Shape shape =
@@ -55,7 +55,7 @@ TEST(Forest, standsOnTheGroundOfItsTerrain) {
   }
 }
 
-TEST(Forest, multipliesOutToTheTrianglesAskedFor) {
+TEST(Forest, MultipliesOutToTheTrianglesAskedFor) {
   const Shape shape = generate("forest", {{"triangles", 200000.0}, {"leaves", 300.0}});
   std::size_t tree = 0;
   for (const ShapePart& part : shape.parts) tree += part.mesh.triangles.size();
@@ -64,7 +64,7 @@ TEST(Forest, multipliesOutToTheTrianglesAskedFor) {
   EXPECT_GT(total + tree, 200000u);
 }
 
-TEST(Tree, hasItsLeavesAndReachesItsHeight) {
+TEST(Tree, HasItsLeavesAndReachesItsHeight) {
   for (const char* kind : {"broadleaf", "conifer"}) {
     const Shape shape =
         generate("tree", {{"kind", std::string(kind)}, {"leaves", 700.0}, {"height", 10.0}});

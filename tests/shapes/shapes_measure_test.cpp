@@ -21,7 +21,7 @@ const Mesh& only(const Shape& shape) {
   return shape.parts[0].mesh;
 }
 
-TEST(Measures, spheresApproachTheirVolumeAndArea) {
+TEST(Measures, SpheresApproachTheirVolumeAndArea) {
   const Shape shape = generate("sphere", {{"radius", 2.0}, {"segments", 128.0}});
   const double miss = 3 * 2 * kPi * kPi / (3 * 128.0 * 128.0);  // three directions of curvature
   EXPECT_NEAR(volume(only(shape)) / (4.0 / 3 * kPi * 8), 1, miss);
@@ -31,7 +31,7 @@ TEST(Measures, spheresApproachTheirVolumeAndArea) {
   EXPECT_EQ(only(shape).triangles.size(), 128u * (2 * 62 + 2));
 }
 
-TEST(Measures, icospheresQuadrupleTheirTriangles) {
+TEST(Measures, IcospheresQuadrupleTheirTriangles) {
   for (int level = 0; level < 5; ++level) {
     const Shape shape = generate("icosphere", {{"level", static_cast<double>(level)}});
     EXPECT_EQ(only(shape).triangles.size(), 20u << (2 * level));
@@ -42,7 +42,7 @@ TEST(Measures, icospheresQuadrupleTheirTriangles) {
               5.0 / 12 * (3 + std::sqrt(5.0)) * edge * edge * edge, 10 * kFloat);
 }
 
-TEST(Measures, prismsAreExactForTheirPolygon) {
+TEST(Measures, PrismsAreExactForTheirPolygon) {
   const double n = 24, share = polygonShare(24);
   const Shape cylinder = generate("cylinder", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
   EXPECT_NEAR(volume(only(cylinder)) / (kPi * 2.25 * 3 * share), 1, kFloat);
@@ -55,7 +55,7 @@ TEST(Measures, prismsAreExactForTheirPolygon) {
   EXPECT_NEAR(area(only(disc)) / (kPi * 4 * share), 1, kFloat);
 }
 
-TEST(Measures, torusFollowsPappus) {
+TEST(Measures, TorusFollowsPappus) {
   const Shape shape = generate(
       "torus", {{"radius", 2.0}, {"tubeRadius", 0.5}, {"segments", 200.0}, {"rings", 100.0}});
   const double miss = 2 * kPi * kPi / 3 * (1 / 1e4 + 3 / 4e4);
@@ -63,7 +63,7 @@ TEST(Measures, torusFollowsPappus) {
   EXPECT_NEAR(area(only(shape)) / (4 * kPi * kPi * 2 * 0.5), 1, miss);
 }
 
-TEST(Measures, boxesAndSheetsAreExact) {
+TEST(Measures, BoxesAndSheetsAreExact) {
   const Shape box = generate("box", {{"size", Vec3d{1, 2, 3}}});
   EXPECT_NEAR(volume(only(box)), 6, 6 * kFloat);
   EXPECT_NEAR(area(only(box)), 22, 22 * kFloat);
@@ -76,7 +76,7 @@ TEST(Measures, boxesAndSheetsAreExact) {
   EXPECT_NEAR(area(only(grid)), 4, 4 * kFloat);
 }
 
-TEST(Measures, roundedBoxFollowsSteiner) {
+TEST(Measures, RoundedBoxFollowsSteiner) {
   const double r = 0.2;
   const Vec3d size{1, 2, 3}, core = size - Vec3d(2 * r);
   const Shape shape = generate("roundedBox", {{"size", size}, {"radius", r}, {"steps", 12.0}});
@@ -89,13 +89,13 @@ TEST(Measures, roundedBoxFollowsSteiner) {
   EXPECT_LT(volume(only(shape)), exact);
 }
 
-TEST(Measures, stairsFillTheirProfile) {
+TEST(Measures, StairsFillTheirProfile) {
   const Shape shape =
       generate("stairs", {{"steps", 4.0}, {"rise", 0.2}, {"run", 0.3}, {"width", 2.0}});
   EXPECT_NEAR(volume(only(shape)), 2 * 0.2 * 0.3 * (1 + 2 + 3 + 4), kFloat * 4);
 }
 
-TEST(Measures, wallsAreTheirBoxLessTheOpenings) {
+TEST(Measures, WallsAreTheirBoxLessTheOpenings) {
   const double n = 64;
   const Shape shape = generate("wall", {{"spacing", 3.0},
                                         {"bays", 4.0},
@@ -109,13 +109,13 @@ TEST(Measures, wallsAreTheirBoxLessTheOpenings) {
   EXPECT_NEAR(volume(only(shape)), 0.5 * (12 * 5 - 4 * opening), 60 * kFloat);
 }
 
-TEST(Measures, archIsHalfARing) {
+TEST(Measures, ArchIsHalfARing) {
   const Shape shape =
       generate("arch", {{"width", 2.0}, {"thickness", 0.5}, {"depth", 0.4}, {"segments", 50.0}});
   EXPECT_NEAR(volume(only(shape)), 0.4 * kPi / 2 * (2.25 - 1) * polygonShare(100), 4 * kFloat);
 }
 
-TEST(Measures, groinVaultMeetsItsBarrels) {
+TEST(Measures, GroinVaultMeetsItsBarrels) {
   const Shape shape = generate("vault", {{"width", 4.0}, {"depth", 4.0}, {"segments", 64.0}});
   // A quarter of the square shows the strip |x| < z of a half cylinder of radius a, whose area is
   // the integral of 2 a asin(z / a) over [0, a], 2 a^2 (pi / 2 - 1).
@@ -126,7 +126,7 @@ TEST(Measures, groinVaultMeetsItsBarrels) {
   }
 }
 
-TEST(Measures, sphereNormalsPointAwayFromTheCentre) {
+TEST(Measures, SphereNormalsPointAwayFromTheCenter) {
   const Shape shape = generate("sphere", {{"radius", 3.0}});
   for (std::size_t k = 0; k < only(shape).positions.size(); ++k) {
     const Vec3d out = normalized(Vec3d(only(shape).positions[k]));
@@ -134,7 +134,7 @@ TEST(Measures, sphereNormalsPointAwayFromTheCentre) {
   }
 }
 
-TEST(Measures, columnsStandBetweenFloorAndHeight) {
+TEST(Measures, ColumnsStandBetweenFloorAndHeight) {
   const Shape shape = generate("column", {{"height", 5.0}, {"radius", 0.4}, {"flutes", 16.0}});
   ASSERT_EQ(shape.parts.size(), 2u);
   float low = 1e9f, high = -1e9f;

@@ -31,28 +31,28 @@ TEST(Bake, OneUseIsBakedIntoTheWorld) {
   EXPECT_EQ(scene.instancedTriangles, 2u);
 }
 
-TEST(Bake, VertexColoursAreClampedAndWhiteWhereThereAreNone) {
-  Mesh coloured = square();
-  for (Vec3f& p : coloured.positions) p.z = 1;
-  coloured.colours = {{1, 0.5f, 0}, {2, -1, std::nanf("")}, {0, 0, 1}, {1, 1, 1}};
+TEST(Bake, VertexColorsAreClampedAndWhiteWhereThereAreNone) {
+  Mesh colored = square();
+  for (Vec3f& p : colored.positions) p.z = 1;
+  colored.colors = {{1, 0.5f, 0}, {2, -1, std::nanf("")}, {0, 0, 1}, {1, 1, 1}};
   SceneDescription d = sceneOf(square());
-  d.objects[0].meshes.push_back(coloured);
+  d.objects[0].meshes.push_back(colored);
   Warnings warnings;
   const Scene scene = Scene::finalize(std::move(d), warnings);
-  ASSERT_EQ(scene.colours.size(), scene.triangles.size());
-  for (const float channel : scene.colours[0].colour) EXPECT_EQ(channel, 1);
+  ASSERT_EQ(scene.colors.size(), scene.triangles.size());
+  for (const float channel : scene.colors[0].color) EXPECT_EQ(channel, 1);
   const float wanted[] = {1, 0.5f, 0, 1, 0, 0, 0, 0, 1};
-  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(scene.colours[2].colour[i], wanted[i]) << i;
-  EXPECT_EQ(test::warned(warnings, "vertex colour out of range clamped"), 3u);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(scene.colors[2].color[i], wanted[i]) << i;
+  EXPECT_EQ(test::warned(warnings, "vertex color out of range clamped"), 3u);
   SceneDescription white = sceneOf(square());
-  white.objects[0].meshes[0].colours.assign(4, Rgb(1.0f));
-  EXPECT_TRUE(finalized(std::move(white)).colours.empty());
+  white.objects[0].meshes[0].colors.assign(4, Rgb(1.0f));
+  EXPECT_TRUE(finalized(std::move(white)).colors.empty());
 }
 
 // Whole repeats are taken from each kind of coordinates by itself.
 TEST(Bake, SecondUvsAreKeptBesideTheFirst) {
   SceneDescription d = sceneOf(square());
-  d.textures.push_back(whiteTexture(TexelFormat::colour));
+  d.textures.push_back(whiteTexture(TexelFormat::color));
   d.materials[0].emissionMap = 0;
   d.objects[0].meshes[0].secondUvs = {{20, 0}, {20.5f, 0}, {20, 20}, {std::nanf(""), 1}};
   Mesh without = square();

@@ -12,9 +12,9 @@ namespace {
 
 using stress::makeTexture;
 
-constexpr double kHalfCode = 0.5 / 1023;  // of a colour's square root
+constexpr double kHalfCode = 0.5 / 1023;  // of a color's square root
 
-std::uint32_t grey(std::uint32_t code) { return code | code << 10 | code << 20; }
+std::uint32_t gray(std::uint32_t code) { return code | code << 10 | code << 20; }
 
 Texture noise(TexelFormat format, int width, int height) {
   stress::Numbers numbers(7);
@@ -35,13 +35,13 @@ double meanLight(const Texture& t, int shift) {
   return sum / static_cast<double>(t.texels.size());
 }
 
-TEST(Halved, ColoursAreMeansOfLight) {
+TEST(Halved, ColorsAreMeansOfLight) {
   // Three black texels and a white one in each channel: a quarter of the light, half the code.
-  const Texture t = makeTexture(TexelFormat::colour, 2, 2, {1023u, 0, 1023u << 20, 1023u << 10});
+  const Texture t = makeTexture(TexelFormat::color, 2, 2, {1023u, 0, 1023u << 20, 1023u << 10});
   const Texture half = halved(t);
   ASSERT_EQ(half.texels.size(), 1u);
   // 511.5 goes to the even code.
-  EXPECT_EQ(half.texels[0], grey(512));
+  EXPECT_EQ(half.texels[0], gray(512));
 }
 
 TEST(Halved, DataAreMeansOfCodes) {
@@ -63,8 +63,8 @@ TEST(Halved, OddSizesCutThroughTexels) {
 TEST(Halved, EqualTexelsStayWhatTheyAre) {
   for (const auto& [width, height] :
        {std::pair(8, 8), std::pair(7, 3), std::pair(1, 6), std::pair(5, 1)}) {
-    for (const std::uint32_t texel : {0u, grey(1), grey(511), grey(1023), 0x2a5c3f17u}) {
-      for (const TexelFormat format : {TexelFormat::colour, TexelFormat::data}) {
+    for (const std::uint32_t texel : {0u, gray(1), gray(511), gray(1023), 0x2a5c3f17u}) {
+      for (const TexelFormat format : {TexelFormat::color, TexelFormat::data}) {
         const Texture t = makeTexture(
             format, width, height,
             std::vector<std::uint32_t>(static_cast<std::size_t>(width * height), texel));
@@ -78,7 +78,7 @@ TEST(Halved, EqualTexelsStayWhatTheyAre) {
 // many texels it averages out.
 TEST(Halved, LightIsKeptFromLevelToLevel) {
   for (const auto& [width, height] : {std::pair(256, 128), std::pair(97, 131)}) {
-    const Texture full = noise(TexelFormat::colour, width, height);
+    const Texture full = noise(TexelFormat::color, width, height);
     Texture t = full;
     while (t.width > 8) {
       t = halved(t);
@@ -91,7 +91,7 @@ TEST(Halved, LightIsKeptFromLevelToLevel) {
 }
 
 TEST(MipMaps, ReachDownToOneTexel) {
-  const std::vector<Texture> textures{noise(TexelFormat::colour, 8, 3),
+  const std::vector<Texture> textures{noise(TexelFormat::color, 8, 3),
                                       noise(TexelFormat::data, 4, 4)};
   const MipMaps maps(textures, {true, false});
   ASSERT_EQ(maps.levels(0), 4);
@@ -107,7 +107,7 @@ TEST(MipMaps, ReachDownToOneTexel) {
 
 TEST(MipMaps, AreTheSameForAnyNumberOfThreads) {
   std::vector<Texture> textures;
-  for (int i = 1; i < 9; ++i) textures.push_back(noise(TexelFormat::colour, 16 * i, 9 * i));
+  for (int i = 1; i < 9; ++i) textures.push_back(noise(TexelFormat::color, 16 * i, 9 * i));
   const std::vector<bool> all(textures.size(), true);
   const MipMaps one(textures, all, 1), many(textures, all, 5);
   for (std::size_t i = 0; i < textures.size(); ++i) {
@@ -124,7 +124,7 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
   for (std::int32_t* map :
        {&m.diffuseMap, &m.alphaMap, &m.normalMap, &m.emissionMap, &m.specularMap}) {
     const bool data = map == &m.alphaMap || map == &m.normalMap;
-    *map = builder.add(noise(data ? TexelFormat::data : TexelFormat::colour, 2, 2));
+    *map = builder.add(noise(data ? TexelFormat::data : TexelFormat::color, 2, 2));
   }
   m.emission = m.specular = Rgb(0.5f);
   builder.add(stress::floorAt(0, 1, builder.add(m)));

@@ -12,7 +12,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 PixelSurface pointOnFloor(float x, float z) { return {1, 7, {x, 0, z}, {0, 1, 0}}; }
 
-TEST(OnSameSurface, materialInstanceAndNothing) {
+TEST(OnSameSurface, MaterialInstanceAndNothing) {
   const PixelSurface a = pointOnFloor(0, 0);
   PixelSurface b = pointOnFloor(1, 0);
   EXPECT_TRUE(onSameSurface(a, b));
@@ -25,7 +25,7 @@ TEST(OnSameSurface, materialInstanceAndNothing) {
   EXPECT_TRUE(onSameSurface(PixelSurface{}, PixelSurface{}));
 }
 
-TEST(OnSameSurface, normalsMayTurnByFiveDegrees) {
+TEST(OnSameSurface, NormalsMayTurnByFiveDegrees) {
   const auto turned = [](double degrees) {
     PixelSurface s = pointOnFloor(1, 0);
     s.normal = Vec3f(Vec3d(std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0));
@@ -36,7 +36,7 @@ TEST(OnSameSurface, normalsMayTurnByFiveDegrees) {
 }
 
 // A step of the same material, at any scale.
-TEST(OnSameSurface, parallelPlanesAreTwoSurfaces) {
+TEST(OnSameSurface, ParallelPlanesAreTwoSurfaces) {
   for (const float scale : {1e-6f, 1.0f, 1e6f}) {
     PixelSurface a = pointOnFloor(0, 0), b = pointOnFloor(scale, 0);
     EXPECT_TRUE(onSameSurface(a, b));
@@ -73,9 +73,9 @@ struct Frame {
   std::vector<PixelSurface> surfaces;
 };
 
-// A lone pixel that is different marks itself and its eight neighbours, whether inside or in a
+// A lone pixel that is different marks itself and its eight neighbors, whether inside or in a
 // corner.
-TEST(FindEdges, markBothSides) {
+TEST(FindEdges, MarkBothSides) {
   for (const auto& [cx, cy] : {std::pair(3, 2), std::pair(0, 0), std::pair(6, 4)}) {
     Frame bySurface(7, 5), byContrast(7, 5);
     bySurface.surfaces[bySurface.at(cx, cy)].material = 3;
@@ -91,7 +91,7 @@ TEST(FindEdges, markBothSides) {
   }
 }
 
-TEST(FindEdges, contrastMustExceedTheThreshold) {
+TEST(FindEdges, ContrastMustExceedTheThreshold) {
   Frame frame(3, 1);
   frame.display.rgba[4] = 108;
   EXPECT_EQ(frame.edges(8), (std::vector<std::uint8_t>{0, 0, 0}));
@@ -102,7 +102,7 @@ TEST(FindEdges, contrastMustExceedTheThreshold) {
   EXPECT_EQ(frame.edges(0), (std::vector<std::uint8_t>{0, 0, 0}));
 }
 
-TEST(FindEdges, bandsGiveWhatTheWholeGives) {
+TEST(FindEdges, BandsGiveWhatTheWholeGives) {
   Frame frame(13, 11);
   std::uint32_t state = 1;
   for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
@@ -112,7 +112,7 @@ TEST(FindEdges, bandsGiveWhatTheWholeGives) {
   for (const int bands : {2, 3, 11}) EXPECT_EQ(frame.edges(8, bands), frame.edges());
 }
 
-TEST(Grown, staysInsideTheImage) {
+TEST(Grown, StaysInsideTheImage) {
   EXPECT_EQ(grown({2, 3, 5, 6}, 1, 10, 10), (Crop{1, 2, 6, 7}));
   EXPECT_EQ(grown({1, 3, 5, 9}, 2, 10, 10), (Crop{0, 1, 7, 10}));
   EXPECT_EQ(grown({0, 0, 10, 10}, 2, 10, 10), (Crop{0, 0, 10, 10}));

@@ -38,7 +38,7 @@ std::vector<Vec2f> grid(int side) {
   return samples;
 }
 
-TEST(SamplePattern, beatsTheRegularGrid) {
+TEST(SamplePattern, BeatsTheRegularGrid) {
   for (const int side : {2, 3, 4, 5, 8}) {
     const double ours = starDiscrepancy(samplePattern(side * side));
     const double regular = starDiscrepancy(grid(side));
@@ -81,7 +81,7 @@ double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
 
 // What shows most: edges within 10 degrees of the axes, which a grid's samples meet row by row.
 // Over all directions together both are as good: the sum of both errors is a matter of the number.
-TEST(SamplePattern, rendersNearlyLevelEdgesBetterThanTheRegularGrid) {
+TEST(SamplePattern, RendersNearlyLevelEdgesBetterThanTheRegularGrid) {
   for (const int side : {2, 4, 5}) {
     const std::vector<Vec2f> ours = samplePattern(side * side), regular = grid(side);
     const double level = edgeError(ours, 80, 100), gridLevel = edgeError(regular, 80, 100);
@@ -94,7 +94,7 @@ TEST(SamplePattern, rendersNearlyLevelEdgesBetterThanTheRegularGrid) {
 }
 
 // A place of its own for each sample, across and down.
-TEST(SamplePattern, noTwoSamplesShareARowOrAColumn) {
+TEST(SamplePattern, NoTwoSamplesShareARowOrAColumn) {
   for (const int n : {1, 2, 7, 16, 4096}) {
     const std::vector<Vec2f> samples = samplePattern(n);
     std::vector<int> rows, columns;
@@ -111,20 +111,20 @@ TEST(SamplePattern, noTwoSamplesShareARowOrAColumn) {
   }
 }
 
-// The pilot samples stand for the whole pixel: one in each quarter across, down.
-TEST(SamplePattern, pilotSamplesAreSpread) {
+// The probe samples stand for the whole pixel: one in each quarter across, down.
+TEST(SamplePattern, ProbeSamplesAreSpread) {
   for (const int n : {8, 16, 64, 256}) {
     const std::vector<Vec2f> samples = samplePattern(n);
-    const std::vector<Vec2f> pilot(samples.begin(), samples.begin() + kPilotSamples);
-    std::printf("pilot of %d: discrepancy %.4f\n", n, starDiscrepancy(pilot));
-    EXPECT_LT(starDiscrepancy(pilot), starDiscrepancy(grid(2)));
+    const std::vector<Vec2f> probe(samples.begin(), samples.begin() + kProbeSamples);
+    std::printf("probe of %d: discrepancy %.4f\n", n, starDiscrepancy(probe));
+    EXPECT_LT(starDiscrepancy(probe), starDiscrepancy(grid(2)));
   }
 }
 
 // On a slope of light the mean of samples is the light at their mean place. That of all is the
-// pixel's centre; that of the pilots as near to it as the pattern has: the nearest four lay up to
+// pixel's center; that of the probes as near to it as the pattern has: the nearest four lay up to
 // 0.14 aside, which showed as a shift of all that pixels with no more samples see.
-TEST(SamplePattern, samplesAreCentred) {
+TEST(SamplePattern, SamplesAreCenterd) {
   const auto aside = [](const Vec2f* samples, int n) {
     double x = 0, y = 0;
     for (int i = 0; i < n; ++i) x += double{samples[i].x} - 0.5, y += double{samples[i].y} - 0.5;
@@ -133,12 +133,12 @@ TEST(SamplePattern, samplesAreCentred) {
   for (const int n : {2, 4, 5, 7, 8, 9, 12, 16, 24, 25, 32, 64, 256}) {
     const std::vector<Vec2f> samples = samplePattern(n);
     EXPECT_NEAR(aside(samples.data(), n), 0, 1e-6) << n;
-    if (n <= kPilotSamples) continue;
-    EXPECT_LE(aside(samples.data(), kPilotSamples), n < 16 ? 0.051 : 0.025) << n;
+    if (n <= kProbeSamples) continue;
+    EXPECT_LE(aside(samples.data(), kProbeSamples), n < 16 ? 0.051 : 0.025) << n;
   }
 }
 
-TEST(SamplePattern, oneSampleIsTheCentre) {
+TEST(SamplePattern, OneSampleIsTheCenter) {
   ASSERT_EQ(samplePattern(1).size(), 1u);
   EXPECT_EQ(samplePattern(1)[0].x, 0.5f);
   EXPECT_EQ(samplePattern(1)[0].y, 0.5f);

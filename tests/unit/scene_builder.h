@@ -21,12 +21,12 @@ inline Mesh square() {
   return mesh;
 }
 
-// `mesh` as the only object, once, with a plain grey material.
+// `mesh` as the only object, once, with a plain gray material.
 inline SceneDescription sceneOf(Mesh mesh) {
   SceneDescription d;
   d.name = "test";
   d.materials.resize(1);
-  d.materials[0].name = "grey";
+  d.materials[0].name = "gray";
   d.objects.push_back({"object", {std::move(mesh)}});
   d.instances.push_back({0, Affine{}});
   return d;
@@ -56,7 +56,7 @@ inline Vec3f normalOf(const NormalRecord& n, int i) {
   return {n.normal[3 * i], n.normal[3 * i + 1], n.normal[3 * i + 2]};
 }
 
-// How often something of that kind was mended.
+// How often something of that kind was repaired.
 inline std::uint64_t warned(const Warnings& warnings, const std::string& kind) {
   const auto entries = warnings.entries();
   return entries.contains(kind) ? entries.at(kind).count : 0;

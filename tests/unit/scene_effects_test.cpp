@@ -44,8 +44,8 @@ struct Rule {
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all{
       {Effect::textures,
-       [](auto& d) { first(d).diffuseMap = addTexture(d, TexelFormat::colour); },
-       "1 material with a colour texture, 2 triangles use it",
+       [](auto& d) { first(d).diffuseMap = addTexture(d, TexelFormat::color); },
+       "1 material with a color texture, 2 triangles use it",
        {}},
       {Effect::normalMaps,
        [](auto& d) { first(d).normalMap = addTexture(d, TexelFormat::data); },
@@ -80,17 +80,17 @@ const std::vector<Rule>& rules() {
       {Effect::emissionMaps,
        [](auto& d) {
          first(d).emission = {0, 0, 1};
-         first(d).emissionMap = addTexture(d, TexelFormat::colour);
+         first(d).emissionMap = addTexture(d, TexelFormat::color);
        },
        "1 material with a texture of emission, 2 triangles use it",
        EffectSet().with(Effect::emission).with(Effect::textures)},
-      {Effect::vertexColours,
+      {Effect::vertexColors,
        [](auto& d) {
-         d.objects[0].meshes[0].colours = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.5f, 1}};
+         d.objects[0].meshes[0].colors = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.5f, 1}};
        },
        "some vertices are not white",
        {}},
-      {Effect::sky, [](auto& d) { useSky(d, Sky::Kind::colour); }, "the sky is not black", {}},
+      {Effect::sky, [](auto& d) { useSky(d, Sky::Kind::color); }, "the sky is not black", {}},
       {Effect::skyImage, [](auto& d) { useSky(d, Sky::Kind::image); }, "the sky is an image",
        EffectSet().with(Effect::sky)},
       {Effect::ambient,
@@ -185,7 +185,7 @@ TEST(SceneEffects, UnusedMaterialsDoNotCount) {
   d.materials.emplace_back().transmission = Rgb(1.0f);
   d.objects.push_back({"never placed", {square()}});
   d.objects[1].meshes[0].materials = {1};
-  // Material 2 only colours a triangle that is dropped.
+  // Material 2 only colors a triangle that is dropped.
   Mesh& mesh = d.objects[0].meshes[0];
   mesh.triangles.push_back({0, 0, 1});
   mesh.materials = {0, 0, 2};
@@ -206,7 +206,7 @@ TEST(SceneEffects, CountsMaterialsAndTriangles) {
 TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
   SceneDescription d = sceneOf(square());
   first(d).diffuse = {};
-  first(d).diffuseMap = first(d).specularMap = addTexture(d, TexelFormat::colour);
+  first(d).diffuseMap = first(d).specularMap = addTexture(d, TexelFormat::color);
   first(d).alphaMap = addTexture(d, TexelFormat::data);
   first(d).alphaCutoff = 0;
   first(d).absorption = Rgb(1.0f);  // of what nothing enters

@@ -42,11 +42,11 @@ Sky gradientSky() {
   return sky;
 }
 
-TEST(SkyRadiance, NoneAndColour) {
+TEST(SkyRadiance, NoneAndColor) {
   Sky sky;
   sky.zenith = {1, 2, 3};
   EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), RgbD{});
-  sky.kind = Sky::Kind::colour;
+  sky.kind = Sky::Kind::color;
   sky.scale = 2;
   EXPECT_EQ(skyRadiance(sky, {0, 1, 0}), (RgbD{2, 4, 6}));
   EXPECT_EQ(skyRadiance(sky, {0, -1, 0}), (RgbD{2, 4, 6}));
@@ -61,7 +61,7 @@ TEST(SkyRadiance, GradientIsLinearInTheSineOfTheElevation) {
   EXPECT_EQ(skyRadiance(sky, {0.8, -0.5, 0}), (RgbD{1.5, 1, 1}));
 }
 
-TEST(SkyRadiance, TexelCentresAreExactAndInTheStatedOrder) {
+TEST(SkyRadiance, TexelCentersAreExactAndInTheStatedOrder) {
   const Sky sky = imageSky(8, 4, [](int x, int y) { return 1 + x + 10 * y; });
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 8; ++x) {
@@ -119,11 +119,11 @@ TEST(SkyRadiance, OneTexelAndExactSeamStayInRange) {
 }
 
 TEST(AmbientFromSky, ConstantSkyGivesItself) {
-  Sky colour;
-  colour.kind = Sky::Kind::colour;
-  colour.zenith = {1, 2, 4};
-  colour.scale = 0.5f;
-  const Ambient a = ambientFromSky(colour, 3);
+  Sky color;
+  color.kind = Sky::Kind::color;
+  color.zenith = {1, 2, 4};
+  color.scale = 0.5f;
+  const Ambient a = ambientFromSky(color, 3);
   EXPECT_EQ(a.up, (Rgb{1.5f, 3, 6}));
   EXPECT_EQ(a.down, a.up);
   // The weights of the rows of a hemisphere sum to 1, also where the horizon cuts a row.
@@ -160,7 +160,7 @@ TEST(AmbientFromSky, ImageOfAGradientApproachesTheGradient) {
   const Sky sky =
       imageSky(4, height, [&](int, int y) { return 1 + std::cos(kPi * (y + 0.5) / height); });
   const Ambient a = ambientFromSky(sky, 1);
-  // Texels hold the value at their centres: second order in the row's height.
+  // Texels hold the value at their centers: second order in the row's height.
   EXPECT_NEAR(a.up.x, 1 + 2.0 / 3, 1e-4);
   EXPECT_NEAR(a.down.x, 1 - 2.0 / 3, 1e-4);
 }

@@ -14,11 +14,11 @@ namespace {
 // ends), so at most 0.18 off; over the 256 codes that occur the worst is 0.157, at code 9.
 constexpr double kCodeTolerance = 1.0 / 6;
 
-TEST(ColourTexel, AllSrgbCodesComeBack) {
+TEST(ColorTexel, AllSrgbCodesComeBack) {
   double worst = 0;
   for (int code = 0; code < 256; ++code) {
     const auto linear = static_cast<float>(srgbToLinear(code / 255.0));
-    const Rgb decoded = decodeColourTexel(encodeColourTexel(Rgb(linear)));
+    const Rgb decoded = decodeColorTexel(encodeColorTexel(Rgb(linear)));
     EXPECT_EQ(decoded.x, decoded.y);
     EXPECT_EQ(decoded.x, decoded.z);
     const double back = 255 * linearToSrgb(decoded.x);
@@ -28,31 +28,31 @@ TEST(ColourTexel, AllSrgbCodesComeBack) {
   EXPECT_LE(worst, kCodeTolerance);
 }
 
-TEST(ColourTexel, BlackAndWhiteAreExact) {
-  EXPECT_EQ(decodeColourTexel(encodeColourTexel(Rgb(0.0f))), Rgb(0.0f));
-  EXPECT_EQ(decodeColourTexel(encodeColourTexel(Rgb(1.0f))), Rgb(1.0f));
+TEST(ColorTexel, BlackAndWhiteAreExact) {
+  EXPECT_EQ(decodeColorTexel(encodeColorTexel(Rgb(0.0f))), Rgb(0.0f));
+  EXPECT_EQ(decodeColorTexel(encodeColorTexel(Rgb(1.0f))), Rgb(1.0f));
 }
 
-TEST(ColourTexel, ChannelsLieInOrderFromTheLowBits) {
-  EXPECT_EQ(encodeColourTexel({1, 0, 0}), 0x3ffu);
-  EXPECT_EQ(encodeColourTexel({0, 1, 0}), 0x3ffu << 10);
-  EXPECT_EQ(encodeColourTexel({0, 0, 1}), 0x3ffu << 20);
+TEST(ColorTexel, ChannelsLieInOrderFromTheLowBits) {
+  EXPECT_EQ(encodeColorTexel({1, 0, 0}), 0x3ffu);
+  EXPECT_EQ(encodeColorTexel({0, 1, 0}), 0x3ffu << 10);
+  EXPECT_EQ(encodeColorTexel({0, 0, 1}), 0x3ffu << 20);
   // sqrt(0.25) * 1023 = 511.5, rounded away from zero.
-  EXPECT_EQ(encodeColourTexel({0.25f, 0, 0}), 512u);
+  EXPECT_EQ(encodeColorTexel({0.25f, 0, 0}), 512u);
 }
 
-TEST(ColourTexel, EveryCodeRoundTrips) {
+TEST(ColorTexel, EveryCodeRoundTrips) {
   for (std::uint32_t code = 0; code < 1024; ++code) {
     const std::uint32_t texel = code | (1023 - code) << 10 | code << 20;
-    EXPECT_EQ(encodeColourTexel(decodeColourTexel(texel)), texel);
+    EXPECT_EQ(encodeColorTexel(decodeColorTexel(texel)), texel);
   }
 }
 
 TEST(Texel, OutOfRangeAndNanAreClamped) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(encodeColourTexel({nan, -1, inf}), 0x3ffu << 20);
-  EXPECT_EQ(encodeColourTexel({-inf, 7, -0.0f}), 0x3ffu << 10);
+  EXPECT_EQ(encodeColorTexel({nan, -1, inf}), 0x3ffu << 20);
+  EXPECT_EQ(encodeColorTexel({-inf, 7, -0.0f}), 0x3ffu << 10);
   EXPECT_EQ(encodeDataTexel(nan, -1, inf, 2), 0xffff0000u);
 }
 
@@ -68,7 +68,7 @@ TEST(Srgb, Anchors) {
   EXPECT_EQ(srgbToLinear(0), 0);
   EXPECT_EQ(srgbToLinear(1), 1);
   EXPECT_NEAR(linearToSrgb(1), 1, 1e-15);
-  // ((0.5 + 0.055) / 1.055)^2.4, and mid grey.
+  // ((0.5 + 0.055) / 1.055)^2.4, and mid gray.
   EXPECT_NEAR(srgbToLinear(0.5), 0.21404114048223255, 1e-15);
   EXPECT_NEAR(linearToSrgb(0.18), 0.46135612950044164, 1e-15);
   EXPECT_NEAR(srgbToLinear(0.04), 0.04 / 12.92, 1e-18);

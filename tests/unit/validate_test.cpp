@@ -1,4 +1,4 @@
-// What finalize() refuses, and what it mends.
+// What finalize() refuses, and what it repairs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,16 +87,16 @@ const std::vector<Refusal>& refusals() {
        {"keyframe 1", "after"}},
       {"material map out of range",
        [](auto& d) { d.materials[0].diffuseMap = 0; },
-       {"material 'grey'", "diffuseMap is texture 0"}},
+       {"material 'gray'", "diffuseMap is texture 0"}},
       {"negative map",
        [](auto& d) { d.materials[0].alphaMap = -7; },
-       {"material 'grey'", "alphaMap is texture -7"}},
-      {"colour map of data",
+       {"material 'gray'", "alphaMap is texture -7"}},
+      {"color map of data",
        [](auto& d) {
          d.textures.push_back(test::whiteTexture(TexelFormat::data));
          d.materials[0].specularMap = 0;
        },
-       {"specularMap", "colour"}},
+       {"specularMap", "color"}},
       {"texture without texels",
        [](auto& d) {
          d.textures.push_back(test::whiteTexture(TexelFormat::data));
@@ -109,7 +109,7 @@ const std::vector<Refusal>& refusals() {
          d.materials[0].transmission = Rgb(1.0f);
          d.materials[0].ior = 0;
        },
-       {"material 'grey'", "ior"}},
+       {"material 'gray'", "ior"}},
       {"sky", [](auto& d) { d.sky.zenith.x = kInf; }, {"test: sky", "finite"}},
       {"sky image",
        [](auto& d) {
@@ -176,7 +176,7 @@ TEST(Validate, TinyTransformsAreNotSingular) {
   EXPECT_EQ(finalized(std::move(d)).triangles.size(), 2u);
 }
 
-TEST(Validate, MendsMaterialsToTheNearestSensibleValue) {
+TEST(Validate, RepairsMaterialsToTheNearestSensibleValue) {
   SceneDescription d = sceneOf(square());
   d.materials[0].diffuse = {-1, std::nanf(""), 0.5f};
   d.materials[0].roughness = 3;
@@ -185,13 +185,13 @@ TEST(Validate, MendsMaterialsToTheNearestSensibleValue) {
   EXPECT_EQ(scene.materials[0].diffuse, (Rgb{0, 0, 0.5f}));
   EXPECT_EQ(scene.materials[0].roughness, 1);
   const auto entries = warnings.entries();
-  ASSERT_TRUE(entries.contains("material value out of range mended"));
-  EXPECT_EQ(entries.at("material value out of range mended").count, 2u);
-  EXPECT_EQ(entries.at("material value out of range mended").first, "test: material 'grey'");
+  ASSERT_TRUE(entries.contains("material value out of range repaired"));
+  EXPECT_EQ(entries.at("material value out of range repaired").count, 2u);
+  EXPECT_EQ(entries.at("material value out of range repaired").first, "test: material 'gray'");
 }
 
 // H57: one bad texel must not reach the picture.
-TEST(Validate, MendsSkyTexels) {
+TEST(Validate, RepairsSkyTexels) {
   SceneDescription d = sceneOf(square());
   d.sky.kind = Sky::Kind::image;
   d.sky.image = {2, 1, {1, std::nanf("")}, {1, -1}, {kInf, 1}};
@@ -207,7 +207,7 @@ TEST(Validate, StrictRefusesWhatWouldBeMended) {
   SceneDescription d = sceneOf(square());
   d.materials[0].roughness = -1;
   Warnings strict(true);
-  expectError(ExitStatus::badScene, {"material 'grey'", "--strict"},
+  expectError(ExitStatus::badScene, {"material 'gray'", "--strict"},
               [&] { Scene::finalize(std::move(d), strict); });
 }
 

@@ -16,7 +16,7 @@
 namespace whit::test {
 namespace {
 
-TEST(WorkerPool, everyWorkerRunsOnceARun) {
+TEST(WorkerPool, EveryWorkerRunsOnceARun) {
   for (const int workers : {1, 2, 3, 8}) {
     WorkerPool pool(workers);
     // Plain integers, one a worker: a missing barrier is a data race that the thread sanitizer
@@ -29,7 +29,7 @@ TEST(WorkerPool, everyWorkerRunsOnceARun) {
   }
 }
 
-TEST(WorkerPool, workIsSharedThroughACounter) {
+TEST(WorkerPool, WorkIsSharedThroughACounter) {
   WorkerPool pool(3);
   std::vector<int> done(1000, 0);
   std::atomic<std::size_t> next{0};
@@ -39,7 +39,7 @@ TEST(WorkerPool, workIsSharedThroughACounter) {
   for (const int d : done) EXPECT_EQ(d, 1);
 }
 
-TEST(WorkerPool, anExceptionReachesTheCallerAndThePoolLivesOn) {
+TEST(WorkerPool, AnExceptionReachesTheCallerAndThePoolLivesOn) {
   WorkerPool pool(2);
   for (const int thrower : {0, 1}) {
     EXPECT_THROW(pool.run([&](int worker) {
@@ -69,7 +69,7 @@ TEST(WorkerPool, H55_denormalsAreFlushedInEveryWorkerAndNowhereElse) {
 }
 
 // Some threads can be started, others not: those that were are ended in order.
-TEST(WorkerPoolDeathTest, noRoomForThreadsIsALimit) {
+TEST(WorkerPoolDeathTest, NoRoomForThreadsIsALimit) {
   if (kSanitized) GTEST_SKIP() << "addresses cannot be limited under this sanitizer";
   const auto fillUp = [] {
     rlimit stack{};
@@ -87,7 +87,7 @@ TEST(WorkerPoolDeathTest, noRoomForThreadsIsALimit) {
   EXPECT_EXIT(fillUp(), testing::ExitedWithCode(7), "");
 }
 
-TEST(WorkerPool, thereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }
+TEST(WorkerPool, ThereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }
 
 }  // namespace
 }  // namespace whit::test

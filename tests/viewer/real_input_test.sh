@@ -110,4 +110,4 @@ status=0
 wait $viewer || status=$?
 [ $status -eq 0 ] || fail "Escape ended it with status $status"
 [ ! -s "$work/err" ] || fail "it said something on standard error"
-echo "real_input_test: keys, both buttons, full screen, minimised, resized: as expected"
+echo "real_input_test: keys, both buttons, full screen, minimized, resized: as expected"

@@ -178,7 +178,7 @@ std::string randomEvents(unsigned seed, int count) {
         break;
       case 5:
         if (below(4) == 0) script << "resize " << 1 + below(400) << ' ' << 1 + below(300) << "\n";
-        if (below(8) == 0) script << "minimise\nwait 2 frames\nrestore\n";
+        if (below(8) == 0) script << "minimize\nwait 2 frames\nrestore\n";
         if (below(8) == 0) script << "drop " << (below(2) == 0 ? "tiny.json" : "none.json") << "\n";
         script << "wait " << 1 + below(10) << " frames\n";
         break;
@@ -196,9 +196,9 @@ TEST_F(Viewer, SurvivesTwoHundredRandomEvents) {
   EXPECT_EQ(outcome.err.find("Sanitizer"), std::string::npos) << outcome.err;
 }
 
-TEST_F(Viewer, FullScreenMinimisedAndResized) {
+TEST_F(Viewer, FullScreenMinimizedAndResized) {
   const cli::Outcome outcome = play(
-      "key H\nkey F\nwait 5 frames\nkey F\nwait 5 frames\nminimise\nwait 5 frames\nrestore\n"
+      "key H\nkey F\nwait 5 frames\nkey F\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
       "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n");
   const RawImage shown = codes("shown.png");
   EXPECT_EQ(shown.width, 200);

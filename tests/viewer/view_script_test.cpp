@@ -38,7 +38,7 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
             "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, panel, drop, resize, "
-            "minimise, restore, errors or quit, got 'jump'");
+            "minimize, restore, errors or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
@@ -71,14 +71,14 @@ TEST(Script, ClicksAndDragsOnThePanel) {
 
 TEST(Script, CommandsToTheWindowComeOnce) {
   ScriptPlayer player(
-      parseScript("resize 320 200\nminimise\nerrors show\ndrop a.json\n", "walk.txt"));
+      parseScript("resize 320 200\nminimize\nerrors show\ndrop a.json\n", "walk.txt"));
   Input input;
   const ScriptCommand* command = player.next(true, input).command;
   ASSERT_TRUE(command);
   EXPECT_EQ(command->kind, ScriptCommand::Kind::resize);
   EXPECT_EQ(command->x, 320);
   EXPECT_EQ(command->y, 200);
-  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::minimise);
+  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::minimize);
   EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::showErrors);
   EXPECT_FALSE(player.next(true, input).command);
   EXPECT_EQ(input.dropped, std::vector<std::string>{"a.json"});

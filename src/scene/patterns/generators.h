@@ -13,7 +13,7 @@ Texture makeLeafMask(ShapeParameters& parameters);
 Texture makeFrondMask(ShapeParameters& parameters);
 Texture makeLeaf(ShapeParameters& parameters);
 
-// masonry.cpp: the normals take the same layout parameters as the colours.
+// masonry.cpp: the normals take the same layout parameters as the colors.
 Texture makeBricks(ShapeParameters& parameters);
 Texture makeBrickNormals(ShapeParameters& parameters);
 Texture makeTiles(ShapeParameters& parameters);

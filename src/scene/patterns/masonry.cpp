@@ -83,16 +83,16 @@ double roofHeight(double u, double v, int columns, int rows, double depth) {
 
 Texture makeBricks(ShapeParameters& parameters) {
   const Layout layout = brickLayout(parameters);
-  const Rgb colour = colourOf(parameters, "colour", {0.42, 0.17, 0.10});
-  const Rgb colour2 = colourOf(parameters, "colour2", {0.28, 0.10, 0.07});
-  const Rgb mortar = colourOf(parameters, "mortar", {0.45, 0.42, 0.38});
+  const Rgb color = colorOf(parameters, "color", {0.42, 0.17, 0.10});
+  const Rgb color2 = colorOf(parameters, "color2", {0.28, 0.10, 0.07});
+  const Rgb mortar = colorOf(parameters, "mortar", {0.45, 0.42, 0.38});
   const double stain = parameters.number("stain", 0.25, 0, 1);
   const std::uint32_t seed = seedOf(parameters);
-  return paintColour("bricks", sideOf(parameters), [=](double u, double v) {
+  return paintColor("bricks", sideOf(parameters), [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const double grain = 0.5 + 0.5 * fractalNoise(seed + 11, 16 * u, 16 * v, 5, 16);
     const double cloud = 0.5 + 0.5 * fractalNoise(seed + 3, 3 * u, 3 * v, 4, 3);
-    const Rgb stone = mix(colour, colour2, unitHash(seed, s.column, s.row));
+    const Rgb stone = mix(color, color2, unitHash(seed, s.column, s.row));
     const Rgb base = mix(mortar, stone, layout.face(s));
     return base * static_cast<float>((1 - 0.5 * stain + stain * (grain - 0.5)) *
                                      (1 - stain * (cloud - 0.5)));
@@ -104,16 +104,16 @@ Texture makeBrickNormals(ShapeParameters& parameters) {
   return masonryNormals(parameters, "bricksNormals", layout, 0.006, 0.8);
 }
 
-// Polished slabs in two colours, chequered, with veins that differ from slab to slab.
+// Polished slabs in two colors, chequered, with veins that differ from slab to slab.
 Texture makeTiles(ShapeParameters& parameters) {
   const Layout layout = tileLayout(parameters);
-  const Rgb colour = colourOf(parameters, "colour", {0.62, 0.56, 0.48});
-  const Rgb colour2 = colourOf(parameters, "colour2", {0.34, 0.16, 0.10});
-  const Rgb joint = colourOf(parameters, "mortar", {0.10, 0.09, 0.08});
+  const Rgb color = colorOf(parameters, "color", {0.62, 0.56, 0.48});
+  const Rgb color2 = colorOf(parameters, "color2", {0.34, 0.16, 0.10});
+  const Rgb joint = colorOf(parameters, "mortar", {0.10, 0.09, 0.08});
   const double variation = parameters.number("variation", 0.15, 0, 1);
   const double veins = parameters.number("veins", 0.35, 0, 1);
   const std::uint32_t seed = seedOf(parameters);
-  return paintColour("tiles", sideOf(parameters, 1024), [=](double u, double v) {
+  return paintColor("tiles", sideOf(parameters, 1024), [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const bool odd = (s.column + s.row) % 2 == 1;
     const double own = unitHash(seed, s.column, s.row);
@@ -123,7 +123,7 @@ Texture makeTiles(ShapeParameters& parameters) {
     const double line = 1 - std::fabs(fractalNoise(seed + 30, 1.2 * x + warp, 1.6 * y, 4));
     const double vein = std::pow(std::clamp(line, 0.0, 1.0), 14);
     const double cloud = 0.5 + 0.5 * warp;
-    Rgb slab = odd ? colour2 : colour;
+    Rgb slab = odd ? color2 : color;
     slab = slab * static_cast<float>(1 + variation * (own - 0.5) + 0.5 * veins * (cloud - 0.5));
     slab = mix(slab, odd ? Rgb(0.6f) : slab * 0.45f, veins * vein);
     return mix(joint, slab, layout.face(s));
@@ -138,17 +138,17 @@ Texture makeTileNormals(ShapeParameters& parameters) {
 Texture makeRoof(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 8, 1, 1024);
   const int rows = parameters.integer("rows", 6, 1, 1024);
-  const Rgb colour = colourOf(parameters, "colour", {0.45, 0.18, 0.09});
-  const Rgb colour2 = colourOf(parameters, "colour2", {0.30, 0.13, 0.08});
+  const Rgb color = colorOf(parameters, "color", {0.45, 0.18, 0.09});
+  const Rgb color2 = colorOf(parameters, "color2", {0.30, 0.13, 0.08});
   const std::uint32_t seed = seedOf(parameters);
-  return paintColour("roof", sideOf(parameters), [=](double u, double v) {
+  return paintColor("roof", sideOf(parameters), [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns);
     const double fv = v * rows - std::floor(v * rows);
     const double own = unitHash(seed, static_cast<int>(u * columns), static_cast<int>(v * rows));
     const double grain = fractalNoise(seed + 2, 16 * u, 16 * v, 4, 16);
     const double gutter = smoothStep(0, 0.14, std::min(fu, 1 - fu));
     const double shade = (0.45 + 0.55 * gutter) * (fv > 0.93 ? 0.6 : 1.0) * (1 + 0.2 * grain);
-    return mix(colour, colour2, own) * static_cast<float>(shade);
+    return mix(color, color2, own) * static_cast<float>(shade);
   });
 }
 

@@ -19,7 +19,7 @@ Texture blank(const std::string& name, int side, TexelFormat format) {
   return texture;
 }
 
-// Calls visit(u, v) at the texel centres, row by row from the top.
+// Calls visit(u, v) at the texel centers, row by row from the top.
 template <typename Visitor>
 void forEachTexel(int side, Visitor&& visit) {
   for (int row = 0; row < side; ++row) {
@@ -31,10 +31,10 @@ void forEachTexel(int side, Visitor&& visit) {
 
 }  // namespace
 
-Texture paintColour(const std::string& name, int side, const ColourFormula& colour) {
-  Texture texture = blank(name, side, TexelFormat::colour);
+Texture paintColor(const std::string& name, int side, const ColorFormula& color) {
+  Texture texture = blank(name, side, TexelFormat::color);
   forEachTexel(
-      side, [&](double u, double v) { texture.texels.push_back(encodeColourTexel(colour(u, v))); });
+      side, [&](double u, double v) { texture.texels.push_back(encodeColorTexel(color(u, v))); });
   return texture;
 }
 
@@ -49,7 +49,7 @@ Texture paintNormals(const std::string& name, int side, const ScalarFormula& hei
     return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
                    static_cast<std::size_t>(c)];
   };
-  const double reach = 2.0 / side;  // between the neighbours on both sides
+  const double reach = 2.0 / side;  // between the neighbors on both sides
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
       const double du = at(row, column + 1) - at(row, column - 1);
@@ -79,7 +79,7 @@ std::uint32_t seedOf(ShapeParameters& parameters) {
   return static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
 }
 
-Rgb colourOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
+Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
   return Rgb(parameters.vector(key, fallback));
 }
 

@@ -10,14 +10,14 @@
 
 namespace whit::procedural {
 
-using ColourFormula = std::function<Rgb(double u, double v)>;
+using ColorFormula = std::function<Rgb(double u, double v)>;
 using ScalarFormula = std::function<double(double u, double v)>;
 
-// Linear colours in [0, 1].
-Texture paintColour(const std::string& name, int side, const ColourFormula& colour);
+// Linear colors in [0, 1].
+Texture paintColor(const std::string& name, int side, const ColorFormula& color);
 
 // Tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the square,
-// in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalised.
+// in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
 Texture paintNormals(const std::string& name, int side, const ScalarFormula& height);
 
 // The same value in r, g and b; a is 1.
@@ -27,7 +27,7 @@ Texture paintScalar(const std::string& name, int side, const ScalarFormula& valu
 int sideOf(ShapeParameters& parameters, int fallback = 512);
 std::uint32_t seedOf(ShapeParameters& parameters);
 // Linear light, clamped to [0, 1] when it is encoded.
-Rgb colourOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback);
+Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback);
 Rgb mix(const Rgb& a, const Rgb& b, double t);
 
 }  // namespace whit::procedural

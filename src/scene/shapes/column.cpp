@@ -114,7 +114,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
   for (const bool top : {false, true}) {
     const int j = top ? plan.rings : 0;
     const Vec3d normal{0, top ? 1.0 : -1.0, 0};
-    const std::uint32_t centre = builder.vertex({{0, height(j), 0}, normal, {}});
+    const std::uint32_t center = builder.vertex({{0, height(j), 0}, normal, {}});
     std::vector<std::uint32_t> rim;
     for (int i = 0; i < segments; ++i) {
       const TurnPoint t = turn(i, segments);
@@ -123,7 +123,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     }
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
-      builder.triangle(centre, top ? a : b, top ? b : a);
+      builder.triangle(center, top ? a : b, top ? b : a);
     }
   }
 }

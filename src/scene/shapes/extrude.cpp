@@ -49,8 +49,8 @@ void addSides(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z0
     leaving[edge.first] = outward(edge);
     arriving[edge.second] = outward(edge);
   }
-  const auto smoothed = [](const Vec3d& own, const Vec3d& neighbour) {
-    return dot(own, neighbour) > kCreaseCosine ? own + neighbour : own;
+  const auto smoothed = [](const Vec3d& own, const Vec3d& neighbor) {
+    return dot(own, neighbor) > kCreaseCosine ? own + neighbor : own;
   };
   for (const auto& [edge, present] : outline) {
     const auto& [a, b] = edge;
@@ -87,10 +87,10 @@ PlanCell rectangle(double x0, double y0, double x1, double y1) {
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
 }
 
-std::vector<PlanCell> halfRing(PlanPoint centre, PlanPoint inner, PlanPoint outer, int segments) {
+std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint outer, int segments) {
   const auto at = [&](const PlanPoint& radii, int k) {
     const TurnPoint t = turn(k, 2 * segments);
-    return PlanPoint{centre[0] + radii[0] * t.cosine, centre[1] + radii[1] * t.sine};
+    return PlanPoint{center[0] + radii[0] * t.cosine, center[1] + radii[1] * t.sine};
   };
   std::vector<PlanCell> cells;
   cells.reserve(static_cast<std::size_t>(segments));

@@ -18,8 +18,8 @@ using PlanCell = std::array<PlanPoint, 4>;
 Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double repeat);
 
 PlanCell rectangle(double x0, double y0, double x1, double y1);
-// Cells of the half ring between two half ellipses over `centre`.
-std::vector<PlanCell> halfRing(PlanPoint centre, PlanPoint innerRadii, PlanPoint outerRadii,
+// Cells of the half ring between two half ellipses over `center`.
+std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint innerRadii, PlanPoint outerRadii,
                                int segments);
 
 }  // namespace whit::procedural

@@ -30,7 +30,7 @@ Shape flatSheet(ShapeParameters& parameters, int nx, int nz, const char* name) {
 
 }  // namespace
 
-// Faces up, centred on the origin: width along x, depth along z.
+// Faces up, centerd on the origin: width along x, depth along z.
 Shape makeQuad(ShapeParameters& parameters) { return flatSheet(parameters, 1, 1, "quad"); }
 
 Shape makeGrid(ShapeParameters& parameters) {
@@ -48,7 +48,7 @@ Shape makeBox(ShapeParameters& parameters) {
 }
 
 // A cube whose six faces are grids; each point is pushed out from the inner box by the radius, so
-// neighbouring faces compute the same points along their common edges.
+// neighboring faces compute the same points along their common edges.
 Shape makeRoundedBox(ShapeParameters& parameters) {
   const Vec3d half = max(abs(parameters.vector("size", {2, 2, 2})) / 2.0, Vec3d(1e-9));
   const double least = std::min(half.x, std::min(half.y, half.z));
@@ -73,7 +73,7 @@ Shape makeRoundedBox(ShapeParameters& parameters) {
       p[axis] = sign * ((half[axis] - r) + r);
       p[a] = coordinate(first, half[a]);
       p[b] = coordinate(j, half[b]);
-      // At the face's rim the coordinate is the very one the neighbouring face holds fixed.
+      // At the face's rim the coordinate is the very one the neighboring face holds fixed.
       const Vec3d inner = max(min(p, half - Vec3d(r)), Vec3d(r) - half);
       const Vec3d out = normalized(p - inner);
       return SurfacePoint{

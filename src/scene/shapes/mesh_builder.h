@@ -44,7 +44,7 @@ class MeshBuilder {
   // A sheet of nu x nv cells; at(i, j) for 0 <= i <= nu, 0 <= j <= nv. Outside is where i x j
   // points.
   void sheet(int nu, int nv, const std::function<SurfacePoint(int, int)>& at);
-  // The same with normals from the differences of neighbouring positions. wrapU: column nu is
+  // The same with normals from the differences of neighboring positions. wrapU: column nu is
   // column 0 again (`position` is asked for i < nu only).
   void smoothSheet(int nu, int nv, bool wrapU, const std::function<Vec3d(int, int)>& position,
                    const std::function<Uv(int, int)>& uv);

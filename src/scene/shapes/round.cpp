@@ -137,7 +137,7 @@ Shape makeDisc(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
   const int segments = segmentsOf(parameters, 64);
   MeshBuilder builder(MeshBuilder::Shading::flat);
-  const std::uint32_t centre = builder.vertex({{0, 0, 0}, {0, 1, 0}, {0.5, 0.5}});
+  const std::uint32_t center = builder.vertex({{0, 0, 0}, {0, 1, 0}, {0.5, 0.5}});
   for (int i = 0; i < segments; ++i) {
     const TurnPoint t = turn(i, segments);
     builder.vertex({{radius * t.cosine, 0, -radius * t.sine},
@@ -145,7 +145,7 @@ Shape makeDisc(ShapeParameters& parameters) {
                     {0.5 + 0.5 * t.cosine, 0.5 + 0.5 * t.sine}});
   }
   const auto n = static_cast<std::uint32_t>(segments);
-  for (std::uint32_t i = 0; i < n; ++i) builder.triangle(centre, 1 + i, 1 + (i + 1) % n);
+  for (std::uint32_t i = 0; i < n; ++i) builder.triangle(center, 1 + i, 1 + (i + 1) % n);
   return singlePart(builder.take("disc"));
 }
 

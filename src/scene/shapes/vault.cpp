@@ -9,12 +9,12 @@ namespace {
 
 // One bay of a groin vault over [-a, a] x [-b, b]: two half barrels cross, the higher one shows.
 // The grid follows both arcs in equal angles, so that the groins run along its diagonals; n even.
-void addGroinBay(MeshBuilder& builder, const Vec3d& centre, double a, double b, double rise, int n,
+void addGroinBay(MeshBuilder& builder, const Vec3d& center, double a, double b, double rise, int n,
                  double repeat) {
   const auto corner = [&](int i, int j, bool arcOverX) {
     const TurnPoint s = turn(i, 2 * n), t = turn(j, 2 * n);
-    const Vec3d p{centre.x - a * s.cosine, centre.y + rise * std::max(s.sine, t.sine),
-                  centre.z - b * t.cosine};
+    const Vec3d p{center.x - a * s.cosine, center.y + rise * std::max(s.sine, t.sine),
+                  center.z - b * t.cosine};
     const Vec3d normal =
         arcOverX ? Vec3d{rise * s.cosine, -a * s.sine, 0} : Vec3d{0, -b * t.sine, rise * t.cosine};
     return builder.vertex({p, normal, {p.x / repeat, p.z / repeat}});
@@ -43,7 +43,7 @@ void addGroinBay(MeshBuilder& builder, const Vec3d& centre, double a, double b, 
 
 }  // namespace
 
-// Ceilings seen from below, springing from y = 0, centred on the origin: `groin` has baysX x baysZ
+// Ceilings seen from below, springing from y = 0, centerd on the origin: `groin` has baysX x baysZ
 // crossed barrels, `barrel` one tunnel along z.
 Shape makeVault(ShapeParameters& parameters) {
   const std::string kind = parameters.word("kind", "groin", {"groin", "barrel"});
@@ -68,8 +68,8 @@ Shape makeVault(ShapeParameters& parameters) {
   }
   for (int k = 0; k < baysZ; ++k) {
     for (int i = 0; i < baysX; ++i) {
-      const Vec3d centre{(2 * i + 1) * a - width / 2, 0, (2 * k + 1) * b - depth / 2};
-      addGroinBay(builder, centre, a, b, rise, n, repeat);
+      const Vec3d center{(2 * i + 1) * a - width / 2, 0, (2 * k + 1) * b - depth / 2};
+      addGroinBay(builder, center, a, b, rise, n, repeat);
     }
   }
   return singlePart(builder.take("vault"));

@@ -7,7 +7,7 @@
 namespace whit::procedural {
 namespace {
 
-// A pier from floor to top, cut at the levels that its neighbours have corners at.
+// A pier from floor to top, cut at the levels that its neighbors have corners at.
 void addPier(std::vector<PlanCell>& cells, const std::vector<double>& levels, double x0,
              double x1) {
   if (!(x1 > x0)) return;

@@ -8,7 +8,7 @@ namespace whit::reference {
 
 // The media whose surfaces a ray from the point leaves without having entered them first, the one
 // left first in the low byte; at most four (hard case H47). 0 without Effect::transmission.
-MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                       const Vec3d& point);
+MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                              const Vec3d& point);
 
 }  // namespace whit::reference

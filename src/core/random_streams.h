@@ -7,7 +7,7 @@
 
 namespace whit {
 
-// The finaliser of MurmurHash3 (Appleby 2011): a bijection in which every bit of the argument flips
+// The finalizer of MurmurHash3 (Appleby 2011): a bijection in which every bit of the argument flips
 // each bit of the result about half of the time.
 inline constexpr std::uint32_t kMixFirst = 0x85ebca6bu, kMixSecond = 0xc2b2ae35u;
 constexpr std::uint32_t mixed(std::uint32_t x) {
@@ -19,14 +19,14 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
 // The first ray's: its pixel is packed (core/pixel.h), `sample` its place in the sample pattern.
 // The samples of a pixel are equal steps apart.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
-constexpr std::uint32_t pathOfPixel(std::uint32_t pixel, std::uint32_t sample) {
+constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample) {
   return mixed(pixel + kPixelSalt) + sample * kSampleStep;
 }
 
 // A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe.
 inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2, kFirstGlossyBranch = 3;
 inline constexpr std::uint32_t kBranchStep = 0x3c6ef35fu;
-constexpr std::uint32_t childPath(std::uint32_t path, std::uint32_t branch) {
+constexpr std::uint32_t childStream(std::uint32_t path, std::uint32_t branch) {
   return mixed(path ^ (branch * kBranchStep));
 }
 

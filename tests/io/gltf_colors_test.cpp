@@ -1,4 +1,4 @@
-// Emission by textures, unlit materials, vertex colours, and what is counted because it is left
+// Emission by textures, unlit materials, vertex colors, and what is counted because it is left
 // out.
 #include "core/srgb.h"
 #include "gltf_pictures.h"
@@ -12,8 +12,8 @@ TEST_F(GltfMaterials, EmissionByATexture) {
   save("t.tga", tga(1, 1, {{255, 188, 0}}));
   useImages({"t.tga"});
   const auto half = static_cast<float>(srgbToLinear(188 / 255.0));
-  expectColour(pixel(matte("", "\"emissiveFactor\":[0.5,1,1],\"emissiveTexture\":{\"index\":0}")),
-               {0.5f, half, 0});
+  expectColor(pixel(matte("", "\"emissiveFactor\":[0.5,1,1],\"emissiveTexture\":{\"index\":0}")),
+              {0.5f, half, 0});
 }
 
 // Not lit, and not reflecting what a metal would.
@@ -21,22 +21,22 @@ TEST_F(GltfMaterials, UnlitTexture) {
   save("t.tga", tga(1, 1, {{255, 188, 0}}));
   useImages({"t.tga"});
   const auto half = static_cast<float>(srgbToLinear(188 / 255.0));
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,1,1],"
-                     "\"roughnessFactor\":0,\"baseColorTexture\":{\"index\":0}},"
-                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
-               {0.5f, half, 0});
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,1,1],"
+                    "\"roughnessFactor\":0,\"baseColorTexture\":{\"index\":0}},"
+                    "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+              {0.5f, half, 0});
 }
 
 // Between the corners as between any attributes; in the middle of the first triangle's edge, half
 // of each end.
-TEST_F(GltfMaterials, VertexColours) {
-  colours_ = {1, 0, 0, 0, 1, 0, 1, 0.5f, 1, 0, 0, 1};
-  expectColour(pixel(matte("\"baseColorFactor\":[0.5,0.5,1,1]")), {0.5f, 0.125f, 0.5f});
+TEST_F(GltfMaterials, VertexColors) {
+  colors_ = {1, 0, 0, 0, 1, 0, 1, 0.5f, 1, 0, 0, 1};
+  expectColor(pixel(matte("\"baseColorFactor\":[0.5,0.5,1,1]")), {0.5f, 0.125f, 0.5f});
   candela_ = 0;
-  expectColour(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,1,1]},"
-                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
-               {0.5f, 0.125f, 0.5f});
-  expectColour(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base colour
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,1,1]},"
+                    "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
+              {0.5f, 0.125f, 0.5f});
+  expectColor(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base color
 }
 
 TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {

@@ -1,4 +1,4 @@
-#include "scene/pilots.h"
+#include "scene/probe_samples.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,7 +8,7 @@ namespace whit {
 
 namespace {
 
-// In units of the contrast that makes neighbouring centres an edge. Samples of one pixel that
+// In units of the contrast that makes neighboring centers an edge. Samples of one pixel that
 // differ by less than twice that have a mean that is off by less than it; and only part of what
 // begins beyond the border lies within. With half of both, whitted at 16 samples and contrast 16
 // took 1.1 times the rays for 0.98 times the FLIP.
@@ -24,11 +24,11 @@ int largestDifference(std::uint32_t a, std::uint32_t b) {
   return largest;
 }
 
-// Of the pilots of the pixel at (dx, dy) from another, the one nearest to that one's centre.
-std::size_t nearestPilot(const std::vector<Vec2f>& pattern, int dx, int dy) {
+// Of the probes of the pixel at (dx, dy) from another, the one nearest to that one's center.
+std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   std::size_t nearest = 0;
   float least = std::numeric_limits<float>::infinity();
-  for (std::size_t k = 0; k < kPilotSamples; ++k) {
+  for (std::size_t k = 0; k < kProbeSamples; ++k) {
     const float x = static_cast<float>(dx) + pattern[k].x - 0.5f;
     const float y = static_cast<float>(dy) + pattern[k].y - 0.5f;
     if (x * x + y * y < least) least = x * x + y * y, nearest = k;
@@ -38,18 +38,18 @@ std::size_t nearestPilot(const std::vector<Vec2f>& pattern, int dx, int dy) {
 
 }  // namespace
 
-Pilots::Pilots(const Crop& window, const std::vector<std::uint8_t>& edges,
-               const std::vector<Vec2f>& pattern)
+ProbeSamples::ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& edges,
+                           const std::vector<Vec2f>& pattern)
     : window_(window), edges_(edges), samples_(edges.size()) {
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
     const int place = static_cast<int>(i);
-    nearest_[i] = nearestPilot(pattern, place % 3 - 1, place / 3 - 1);
+    nearest_[i] = nearestProbe(pattern, place % 3 - 1, place / 3 - 1);
   }
 }
 
-bool Pilots::differ(int x, int y, int contrast) const {
-  const PilotSamples& own = at(x, y);
-  for (std::size_t a = 1; a < kPilotSamples; ++a) {
+bool ProbeSamples::differ(int x, int y, int contrast) const {
+  const PixelProbes& own = at(x, y);
+  for (std::size_t a = 1; a < kProbeSamples; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (largestDifference(own.codes[a], own.codes[b]) > kWithinPixel * contrast) return true;
     }

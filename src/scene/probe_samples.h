@@ -14,23 +14,23 @@
 namespace whit {
 
 // Of one pixel.
-struct PilotSamples {
-  std::array<std::uint32_t, kPilotSamples> codes{};  // as displayed: r | g << 8 | b << 16
+struct PixelProbes {
+  std::array<std::uint32_t, kProbeSamples> codes{};  // as displayed: r | g << 8 | b << 16
   RgbD total;  // their sum, or their mean: for who goes on with more samples
 };
 
-class Pilots {
+class ProbeSamples {
  public:
-  // Room for the window's pixels. `edges`, one a pixel: not 0 where pilots are traced. They must
-  // outlive the pilots. The pattern is that of all samples, kPilotSamples or more.
-  Pilots(const Crop& window, const std::vector<std::uint8_t>& edges,
-         const std::vector<Vec2f>& pattern);
+  // Room for the window's pixels. `edges`, one a pixel: not 0 where probes are traced. They must
+  // outlive the probes. The pattern is that of all samples, kProbeSamples or more.
+  ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& edges,
+               const std::vector<Vec2f>& pattern);
 
-  PilotSamples& at(int x, int y) { return samples_[index(x, y)]; }
-  const PilotSamples& at(int x, int y) const { return samples_[index(x, y)]; }
-  // Of a pixel with pilots, when its eight neighbours have theirs.
+  PixelProbes& at(int x, int y) { return samples_[index(x, y)]; }
+  const PixelProbes& at(int x, int y) const { return samples_[index(x, y)]; }
+  // Of a pixel with probes, when its eight neighbors have theirs.
   bool differ(int x, int y, int contrast) const;
-  std::size_t bytes() const { return samples_.capacity() * sizeof(PilotSamples); }
+  std::size_t bytes() const { return samples_.capacity() * sizeof(PixelProbes); }
 
  private:
   bool inside(int x, int y) const {
@@ -44,8 +44,8 @@ class Pilots {
 
   Crop window_;
   const std::vector<std::uint8_t>& edges_;
-  std::array<std::size_t, 9> nearest_{};  // of each neighbour's pilots, row by row
-  std::vector<PilotSamples> samples_;
+  std::array<std::size_t, 9> nearest_{};  // of each neighbor's probes, row by row
+  std::vector<PixelProbes> samples_;
 };
 
 }  // namespace whit

@@ -1,4 +1,4 @@
-// Random numbers of paths (the scalar twin: src/core/path_numbers.h; the bits are the same).
+// Random numbers of paths (the scalar twin: src/core/random_streams.h; the bits are the same).
 #if defined(WHIT_SIMD_PATH_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_PATH_NUMBERS_INL_H_
 #undef WHIT_SIMD_PATH_NUMBERS_INL_H_
@@ -6,7 +6,7 @@
 #define WHIT_SIMD_PATH_NUMBERS_INL_H_
 #endif
 
-#include "core/path_numbers.h"
+#include "core/random_streams.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,12 +19,12 @@ HWY_INLINE VU Mixed(VU x) {
   return hn::Xor(x, hn::ShiftRight<16>(x));
 }
 
-HWY_INLINE VU PathOfPixel(VU pixel, uint32_t sample) {
+HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample) {
   const UintTag du;
   return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, kPixelSalt))), hn::Set(du, sample * kSampleStep));
 }
 
-HWY_INLINE VU ChildPath(VU path, uint32_t branch) {
+HWY_INLINE VU ChildStream(VU path, uint32_t branch) {
   return Mixed(hn::Xor(path, hn::Set(UintTag(), branch * kBranchStep)));
 }
 

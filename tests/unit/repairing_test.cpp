@@ -24,7 +24,7 @@ const std::string kBadCorner = "triangle with a non-finite or enormous corner dr
 const std::string kBadIndex = "triangle with a vertex index out of range dropped";
 
 // H23
-TEST(Mending, DegenerateTrianglesAreDroppedAndCounted) {
+TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   Mesh mesh = square();
   const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -48,7 +48,7 @@ TEST(Mending, DegenerateTrianglesAreDroppedAndCounted) {
 }
 
 // H15
-TEST(Mending, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
+TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
   for (const bool glass : {false, true}) {
     Mesh mesh = square();
     const std::vector<Vec3f> own = mesh.positions;
@@ -67,7 +67,7 @@ TEST(Mending, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
 }
 
 // H27
-TEST(Mending, BadVerticesTakeOnlyTheirTriangles) {
+TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
   const float inf = std::numeric_limits<float>::infinity();
   for (const float bad : {std::nanf(""), inf, -inf, 1e19f, -1e19f}) {
     Mesh mesh = square();
@@ -84,7 +84,7 @@ TEST(Mending, BadVerticesTakeOnlyTheirTriangles) {
   EXPECT_EQ(finalized(sceneOf(large)).triangles.size(), 2u);
 }
 
-TEST(Mending, IndicesOutOfRangeTakeTheirTriangle) {
+TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
   Mesh mesh = square();
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({0xffffffffu, 1, 2});
@@ -97,7 +97,7 @@ TEST(Mending, IndicesOutOfRangeTakeTheirTriangle) {
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
 }
 
-TEST(Mending, StrictRefusesDroppedTriangles) {
+TEST(Repairing, StrictRefusesDroppedTriangles) {
   Mesh mesh = square();
   mesh.triangles.push_back({1, 1, 2});
   Warnings strict(true);
@@ -105,7 +105,7 @@ TEST(Mending, StrictRefusesDroppedTriangles) {
               [&] { Scene::finalize(sceneOf(mesh), strict); });
 }
 
-TEST(Mending, TextureCoordinatesThatAreNotFiniteBecomeZero) {
+TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
   Mesh mesh = square();
   mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
   Warnings warnings;
@@ -118,12 +118,12 @@ TEST(Mending, TextureCoordinatesThatAreNotFiniteBecomeZero) {
 }
 
 // H68: whole numbers off, so the picture is the same, with all bits for the fraction.
-TEST(Mending, FarTextureCoordinatesAreRecentredWhereTheyRepeat) {
+TEST(Repairing, FarTextureCoordinatesAreRecenterdWhereTheyRepeat) {
   Mesh mesh = square();
   mesh.uvs = {{1000000.25f, -20.5f}, {1000001.5f, -17}, {1000000, -30}, {1000002, -18}};
   const auto firstUv = [&](Wrap wrapU, Wrap wrapV) {
     SceneDescription d = sceneOf(mesh);
-    d.textures.push_back(whiteTexture(TexelFormat::colour));
+    d.textures.push_back(whiteTexture(TexelFormat::color));
     d.textures[0].wrapU = wrapU;
     d.textures[0].wrapV = wrapV;
     d.materials[0].diffuseMap = 0;
@@ -139,11 +139,11 @@ TEST(Mending, FarTextureCoordinatesAreRecentredWhereTheyRepeat) {
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
 }
 
-TEST(Mending, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
+TEST(Repairing, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
   Mesh mesh = square();
   mesh.uvs.assign(4, {100.5f, 100.5f});
   SceneDescription d = sceneOf(mesh);
-  d.textures = {whiteTexture(TexelFormat::colour), whiteTexture(TexelFormat::data)};
+  d.textures = {whiteTexture(TexelFormat::color), whiteTexture(TexelFormat::data)};
   d.textures[0].wrapU = Wrap::clamp;
   d.materials[0].diffuseMap = 0;
   d.materials[0].alphaMap = 1;
@@ -153,7 +153,7 @@ TEST(Mending, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
 }
 
 // H34
-TEST(Mending, NormalsOfNoUseBecomeTheFaces) {
+TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();
   mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
   Warnings warnings;
@@ -166,14 +166,14 @@ TEST(Mending, NormalsOfNoUseBecomeTheFaces) {
   EXPECT_EQ(warned(warnings, "zero or non-finite normal replaced by the face's"), 4u);
 }
 
-TEST(Mending, FlatNormalsAreNotKept) {
+TEST(Repairing, FlatNormalsAreNotKept) {
   EXPECT_TRUE(finalized(sceneOf(square())).normals.empty());
   Mesh flat = square();
   flat.normals.assign(4, {0, 0, 7});
   EXPECT_TRUE(finalized(sceneOf(flat)).normals.empty());
 }
 
-TEST(Mending, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
+TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
   Mesh smooth = square();
   smooth.normals.assign(4, {1, 0, 1});
   for (Vec3f& p : smooth.positions) p.z = 1;
@@ -186,7 +186,7 @@ TEST(Mending, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
 }
 
 // H29: whatever the bits, there is an error or a scene that can be rendered.
-TEST(Mending, GarbageNeverReachesTheTables) {
+TEST(Repairing, GarbageNeverReachesTheTables) {
   std::mt19937 random(29);
   const auto word = [&] { return static_cast<std::uint32_t>(random()); };
   const auto anyFloat = [&] {
@@ -206,7 +206,7 @@ TEST(Mending, GarbageNeverReachesTheTables) {
     }
     mesh.materials = {0};
     SceneDescription d = sceneOf(mesh);
-    d.textures.push_back(whiteTexture(TexelFormat::colour));
+    d.textures.push_back(whiteTexture(TexelFormat::color));
     d.materials[0].diffuseMap = 0;
     const Scene scene = finalized(std::move(d));
     ASSERT_TRUE(isFinite(scene.lower) && isFinite(scene.upper));

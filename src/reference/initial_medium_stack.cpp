@@ -1,4 +1,4 @@
-#include "reference/eye_media.h"
+#include "reference/initial_medium_stack.h"
 
 #include <array>
 
@@ -7,8 +7,8 @@
 
 namespace whit::reference {
 
-MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                       const Vec3d& point) {
+MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                              const Vec3d& point) {
   constexpr int kMostSurfaces = 256;
   if (!effects.has(Effect::transmission)) return 0;
   // In no plane, and through no edge, that a model is likely to have.

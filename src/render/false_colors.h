@@ -9,12 +9,12 @@
 namespace whit {
 
 struct WatchedPixel {
-  Rgb sum{0, 0, 0};  // of `count` colours, or of amounts in x
+  Rgb sum{0, 0, 0};  // of `count` colors, or of amounts in x
   double count = 0;
 };
 
-// Mean colours; `linear`: to be encoded.
-void paintColours(const std::vector<WatchedPixel>& pixels, bool linear, DisplayImage& display);
+// Mean colors; `linear`: to be encoded.
+void paintColors(const std::vector<WatchedPixel>& pixels, bool linear, DisplayImage& display);
 // Bright is near; what was not hit is black.
 std::string paintDepth(const std::vector<WatchedPixel>& pixels, DisplayImage& display);
 

@@ -8,13 +8,13 @@
 
 namespace whit {
 
-// Both pictures of the film's window, with the same options and samples. A pixel has flipped when
+// Both pictures of the film's window, with the same options and samples. A pixel has diverged when
 // its hits (triangle and instance), shadow bits or sequence of impulses differ between packets and
 // reference: there the two saw different surfaces, and no tolerance on values applies.
 struct PathComparison {
   Image packets, reference;
-  std::vector<std::uint8_t> flipped;  // 0 or 1, as the pixels of the images
-  std::uint64_t flips = 0;
+  std::vector<std::uint8_t> diverged;  // 0 or 1, as the pixels of the images
+  std::uint64_t divergences = 0;
 };
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film);
 

@@ -1,4 +1,4 @@
-#include "render/false_colours.h"
+#include "render/false_colors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/display.h"
-#include "metrics/heat_colour.h"
+#include "metrics/heat_color.h"
 
 namespace whit {
 
@@ -42,7 +42,7 @@ std::string legendOf(const char* what, double low, double high) {
 
 }  // namespace
 
-void paintColours(const std::vector<WatchedPixel>& pixels, bool linear, DisplayImage& display) {
+void paintColors(const std::vector<WatchedPixel>& pixels, bool linear, DisplayImage& display) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const auto n = static_cast<float>(std::max(pixels[i].count, 1.0));
     const Rgb c = pixels[i].sum * (1 / n);
@@ -85,16 +85,16 @@ std::string paintHeat(const std::vector<double>& amounts, const char* what, Disp
   const double low = std::max(smallest, high / kLongestScale);
   for (std::size_t i = 0; i < amounts.size(); ++i) {
     const double share = high > low ? std::log(amounts[i] / low) / std::log(high / low) : 0;
-    const auto colour = heatColour(share > 0 ? std::min(share, 1.0) : 0);
-    setCode(display, i, colour[0], colour[1], colour[2]);
+    const auto color = heatColor(share > 0 ? std::min(share, 1.0) : 0);
+    setCode(display, i, color[0], color[1], color[2]);
   }
   return legendOf(what, low, high);
 }
 
 std::string paintShare(const std::vector<double>& shares, const char* what, DisplayImage& display) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    const auto colour = heatColour(std::clamp(shares[i], 0.0, 1.0));
-    setCode(display, i, colour[0], colour[1], colour[2]);
+    const auto color = heatColor(std::clamp(shares[i], 0.0, 1.0));
+    setCode(display, i, color[0], color[1], color[2]);
   }
   return legendOf(what, 0, 1);
 }

@@ -1,4 +1,4 @@
-#include "render/path_flips.h"
+#include "render/path_divergence.h"
 
 #include <atomic>
 
@@ -12,7 +12,7 @@ namespace whit {
 
 namespace {
 
-// splitmix64's finaliser: sums of it tell multisets apart.
+// splitmix64's finalizer: sums of it tell multisets apart.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -120,18 +120,18 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
   Film scratch = film;
   const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   std::vector<std::uint64_t> signatures(film.image.pixels.size());
-  std::vector<SignatureObserver> observers(p.tracers.size(),
-                                           SignatureObserver(film.image.window, p.plan.traceShadows,
-                                                             p.plan.groups.instances, signatures));
-  std::vector<StageObserver*> onlookers;
-  onlookers.reserve(observers.size());
-  for (SignatureObserver& observer : observers) onlookers.push_back(&observer);
-  p.renderObserved(job, onlookers);
+  std::vector<SignatureObserver> signers(p.tracers.size(),
+                                         SignatureObserver(film.image.window, p.plan.traceShadows,
+                                                           p.plan.groups.instances, signatures));
+  std::vector<StageObserver*> observers;
+  observers.reserve(signers.size());
+  for (SignatureObserver& signer : signers) observers.push_back(&signer);
+  p.renderObserved(job, observers);
   PathComparison result{scratch.image, reference.image, {}, 0};
-  result.flipped.resize(signatures.size());
+  result.diverged.resize(signatures.size());
   for (std::size_t i = 0; i < signatures.size(); ++i) {
-    result.flipped[i] = signatures[i] != reference.signatures[i];
-    result.flips += result.flipped[i];
+    result.diverged[i] = signatures[i] != reference.signatures[i];
+    result.divergences += result.diverged[i];
   }
   return result;
 }

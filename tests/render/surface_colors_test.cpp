@@ -1,4 +1,4 @@
-// Vertex colours and textures of emission: in the reference against closed forms, in the vector
+// Vertex colors and textures of emission: in the reference against closed forms, in the vector
 // pipeline against the reference.
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@ namespace whit::test {
 namespace {
 
 // The square [0, 1]^2 of the floor y = 0, seen from above; u and -z run from its first corner.
-Mesh colouredFloor(std::uint32_t material) {
+Mesh coloredFloor(std::uint32_t material) {
   Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
-  mesh.colours = {{1, 0.5f, 0.25f}, {0, 0.5f, 0.75f}, {0.5f, 1, 0}, {0.25f, 0.25f, 1}};
+  mesh.colors = {{1, 0.5f, 0.25f}, {0, 0.5f, 0.75f}, {0.5f, 1, 0}, {0.25f, 0.25f, 1}};
   return mesh;
 }
 
@@ -28,42 +28,42 @@ void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRoundin
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
 }
 
-// Ambient light 1 shows the diffuse colour.
+// Ambient light 1 shows the diffuse color.
 Scene ambientScene(const Material& material) {
   SceneBuilder builder;
-  builder.add(colouredFloor(builder.add(material)));
+  builder.add(coloredFloor(builder.add(material)));
   builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
   return builder.build();
 }
 
-TEST(VertexColours, AreInterpolatedAndMultiplyTheDiffuseColour) {
+TEST(VertexColors, AreInterpolatedAndMultiplyTheDiffuseColor) {
   const Scene scene = ambientScene(diffuseMaterial(0.5f));
   // In the first triangle, corners 0, 1, 2: weights 1 - u, u - v, v.
   const double u = 0.75, v = 0.25;
   expectNear(seenAt(scene, u, v),
              RgbD{0.25 + 0.5 * 0.25, 0.125 + 0.25 + 0.25, 0.0625 + 0.375} * 0.5);
-  expectNear(seenAt(scene, u, v, EffectSet::all().without(Effect::vertexColours)), RgbD(0.5));
+  expectNear(seenAt(scene, u, v, EffectSet::all().without(Effect::vertexColors)), RgbD(0.5));
 }
 
-TEST(VertexColours, OfWhatIsUnlitMultiplyTheEmissionAlone) {
+TEST(VertexColors, OfWhatIsUnlitMultiplyTheEmissionAlone) {
   Material m = diffuseMaterial(0.5f);
   m.emission = Rgb(2.0f);
   m.vertexTint = VertexTint::emission;
-  const RgbD colour{0.25 + 0.5 * 0.25, 0.125 + 0.25 + 0.25, 0.0625 + 0.375};
-  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(0.5) + colour * 2.0);
+  const RgbD color{0.25 + 0.5 * 0.25, 0.125 + 0.25 + 0.25, 0.0625 + 0.375};
+  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(0.5) + color * 2.0);
   m.vertexTint = VertexTint::diffuse;
-  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(2.0) + colour * 0.5);
+  expectNear(seenAt(ambientScene(m), 0.75, 0.25), RgbD(2.0) + color * 0.5);
 }
 
-TEST(VertexColours, OfMetalMultiplyTheHighlight) {
+TEST(VertexColors, OfMetalMultiplyTheHighlight) {
   Material m = blackMaterial();
   m.specular = Rgb(0.5f);
-  const auto highlight = [&](VertexTint tint, bool coloured) {
+  const auto highlight = [&](VertexTint tint, bool colored) {
     m.vertexTint = tint;
     SceneBuilder builder;
-    Mesh mesh = colouredFloor(builder.add(m));
-    // Above 4 % of reflectance nothing else depends on the colour at normal incidence.
-    mesh.colours.assign(coloured ? 4 : 0, {1, 0.5f, 0.25f});
+    Mesh mesh = coloredFloor(builder.add(m));
+    // Above 4 % of reflectance nothing else depends on the color at normal incidence.
+    mesh.colors.assign(colored ? 4 : 0, {1, 0.5f, 0.25f});
     builder.add(std::move(mesh));
     builder.description.lights = {lightAt({0.75f, 2, -0.25f}, 1)};
     return seenAt(builder.build(), 0.75, 0.25);
@@ -74,13 +74,13 @@ TEST(VertexColours, OfMetalMultiplyTheHighlight) {
   expectNear(highlight(VertexTint::diffuseAndSpecular, true), white * RgbD{1, 0.5, 0.25}, 1e-6);
 }
 
-// Two texels, red and dark grey, side by side; (code / 1023)^2 is the light.
+// Two texels, red and dark gray, side by side; (code / 1023)^2 is the light.
 TEST(EmissionMap, MultipliesTheEmission) {
   SceneBuilder builder;
   Material m = blackMaterial();
   m.emission = {4, 8, 8};
   m.emissionMap =
-      builder.add(makeTexture(TexelFormat::colour, 2, 1, {1023u, 341u | 341u << 10 | 341u << 20}));
+      builder.add(makeTexture(TexelFormat::color, 2, 1, {1023u, 341u | 341u << 10 | 341u << 20}));
   builder.add(quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m)));
   const Scene scene = builder.build();
   expectNear(seenAt(scene, 0.25, 0.5), {4, 0, 0});
@@ -93,7 +93,7 @@ TEST(EmissionMap, MultipliesTheEmission) {
 Scene everything() {
   SceneBuilder builder;
   const std::int32_t map = builder.add(makeTexture(
-      TexelFormat::colour, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+      TexelFormat::color, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
     m.vertexTint = static_cast<VertexTint>(i % 3);
@@ -102,20 +102,20 @@ Scene everything() {
     if (i % 2) m.diffuseMap = map;
     m.specular = Rgb(i == 2 ? 0.0f : 0.4f);
     m.roughness = 0.4f;
-    Mesh mesh = colouredFloor(builder.add(m));
-    if (i == 5) mesh.colours.clear();
+    Mesh mesh = coloredFloor(builder.add(m));
+    if (i == 5) mesh.colors.clear();
     return mesh;
   });
 }
 
-TEST(SurfaceColours, agreeWithTheReferenceOnEveryTarget) {
+TEST(SurfaceColors, AgreeWithTheReferenceOnEveryTarget) {
   expectTheReferenceOnEveryTarget(everything(), smallOptions());
 }
 
-TEST(SurfaceColours, eachEffectLeftOutIsGoneAsInTheReference) {
+TEST(SurfaceColors, EachEffectLeftOutIsGoneAsInTheReference) {
   const Scene scene = everything();
   for (const Effect effect :
-       {Effect::vertexColours, Effect::emissionMaps, Effect::textures, Effect::emission}) {
+       {Effect::vertexColors, Effect::emissionMaps, Effect::textures, Effect::emission}) {
     RenderOptions o = smallOptions();
     o.disable = EffectSet().with(effect);
     const auto name = kEffectNames[static_cast<std::size_t>(effect)].name;

@@ -1,4 +1,4 @@
-// The colours of heat maps.
+// The colors of heat maps.
 #pragma once
 
 #include <array>
@@ -8,6 +8,6 @@ namespace whit {
 
 // From black over violet and orange to a light yellow, lightness growing all the way. `t` in
 // [0, 1]; 8-bit sRGB.
-std::array<std::uint8_t, 3> heatColour(double t);
+std::array<std::uint8_t, 3> heatColor(double t);
 
 }  // namespace whit
