@@ -1,111 +1,232 @@
-// The vector stages, seen from the rest of the program. Each call runs over the slots [0, n) of its
-// columns with the best SIMD target of the CPU (or the one that was chosen), dispatched once a
-// call. Kernels are noexcept and allocate nothing. Slots from n to the next multiple of 16 may be
-// overwritten with anything; their hits must be misses.
+// The vector kernels, seen from the rest of the program: the one table from which they are
+// instantiated, named, listed (whit info --kernels) and found.
 //
-// The scalar twin of every kernel is in src/reference, written to the same formulas in double.
+// A kernel that is a step of its own is a function of a chunk (stages/chunk.h); the others work for
+// steps that call Embree or write the film. Kernels run over the slots [0, n) of their columns with
+// the SIMD target that was chosen last, are noexcept and allocate nothing. Slots from n to the next
+// multiple of 16 may be overwritten with anything; their hits must be misses. The scalar twin of
+// each is in src/reference, in the file of the same stage, written to the same formulas in double.
+//
+// An effect that changes what a kernel does in each lane is a choice of that kernel: a template
+// bit. It is compiled once for every subset of its choices, and once more for every SIMD target.
+// Which of these functions runs is looked up once a plan. All else that a frame may lack leaves out
+// whole kernels (render/plan.h) or is a branch that goes the same way for a whole call
+// (stages/features.h).
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/effects.h"
-#include "core/options.h"
-#include "core/random_streams.h"
-#include "stages/columns.h"
+#include "stages/chunk.h"
+#include "stages/contract.h"
 #include "stages/packet_words.h"
-#include "stages/shading_tables.h"
 
 namespace whit::simd {
 
-// A CameraFrame in float, for one sample of the pattern.
-struct CameraRays {
-  Vec3f eye, forward, right, up;
-  float halfWidth = 0, halfHeight = 0;
-  float sampleX = 0.5f, sampleY = 0.5f;
-  std::uint32_t sampleNumber = 0;  // the sample's place in the pattern
-  std::uint32_t media = 0;         // CameraFrame's
-  bool orthographic = false;
-  float coneWidth = 0;  // RayCone's, where there are cones
+struct Kernel {
+  std::string_view name;
+  Stage stage;
+  // The function of variant `index` for the chosen target; null where it is no step of its own.
+  StepFunction (*find)(std::size_t index) = nullptr;
+  Parts reads, writes;
+  EffectSet choices;
+
+  constexpr std::size_t variantCount() const { return std::size_t{1} << std::popcount(bits()); }
+
+  // Variant `index` has the k-th choice, counted from the lowest bit, where bit k of `index` is
+  // set.
+  constexpr EffectSet variant(std::size_t index) const {
+    EffectSet set;
+    std::size_t k = 0;
+    for (std::uint32_t rest = bits(); rest != 0; rest &= rest - 1, ++k) {
+      if ((index >> k & 1) != 0) set = EffectSet(set.bits() | (rest & (~rest + 1)));
+    }
+    return set;
+  }
+
+  // The variant that runs in a frame with these effects.
+  constexpr std::size_t variantFor(EffectSet effects) const {
+    std::size_t index = 0, k = 0;
+    for (std::uint32_t rest = bits(); rest != 0; rest &= rest - 1, ++k) {
+      if ((effects.bits() & rest & (~rest + 1)) != 0) index |= std::size_t{1} << k;
+    }
+    return index;
+  }
+
+  StepFunction functionFor(EffectSet effects) const { return find(variantFor(effects)); }
+
+ private:
+  constexpr std::uint32_t bits() const { return choices.bits(); }
 };
 
-// Pixels are packed (core/pixel.h). Writes origin, direction, weight 1, throughput 1, parent =
-// slot, the media around the eye, and the number of the path.
-void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
-                  const RayColumns& rays) noexcept;
+// Of the chosen target; `index` as in Kernel::variant.
+StepFunction findGenerateRays(std::size_t index);
+StepFunction findInterpolateSurfels(std::size_t index);
+StepFunction findLiftShadowOrigins(std::size_t index);
+StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
+StepFunction findFindRadianceAndShadowRays(std::size_t index);
+StepFunction findAddShading(std::size_t index);
+StepFunction findAddReflections(std::size_t index);
+StepFunction findAddGlossyReflections(std::size_t index);
+StepFunction findAddRefractions(std::size_t index);
+StepFunction findReturnImpulses(std::size_t index);
 
-// Rays [0, n) into Embree's packets, and what comes back. Lanes left over get empty rays, and so do
-// rays that Embree cannot take: it ends the program at a NaN or where the sum of the coordinates'
-// sizes is beyond `reach` (hard case H28).
-void packRays(const RayColumns& rays, std::size_t n, float reach, const PacketWords& to) noexcept;
-void packShadowRays(const ShadowColumns& rays, std::size_t n, float reach,
-                    const PacketWords& to) noexcept;
-// Of scenes without instances: a triangle's number is that of its class's first one plus its own.
-void unpackHits(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
-                const HitColumns& hits) noexcept;
-// visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
-void unpackVisibility(const PacketWords& from, std::size_t n, const std::uint32_t* slot,
-                      float* visible) noexcept;
+// Origin, direction, weight 1, throughput 1, parent = slot, the media around the eye, and the
+// number of the path.
+inline constexpr Kernel kGenerateRays{"generateRays", Stage::generateRays, findGenerateRays,
+                                      {Part::pixels}, {Part::rays},        {}};
 
-// Second half of findIntersections: surfels from hits. Absorption in the medium that a ray came
-// through is multiplied into its weight and throughput. Returns the kMaterial flags that the
-// material of some surfel has: what none has, the stages that follow can leave out. Where there are
-// cones, `coneSpread` is that of all rays.
-std::uint32_t interpolateSurfels(const ShadingTables& tables, EffectSet effects,
-                                 const RayColumns& rays, const HitColumns& hits, std::size_t n,
-                                 const SurfelColumns& surfels, float coneSpread = 0) noexcept;
+// Rays into Embree's packets, and what comes back (PacketKernels below).
+inline constexpr Kernel kPackRays{"packRays", Stage::findIntersections, nullptr, {Part::rays}, {},
+                                  {}};
+inline constexpr Kernel kUnpackHits{
+    "unpackHits", Stage::findIntersections, nullptr, {}, {Part::hits}, {}};
+
+// Surfels from hits, and the kMaterial flags of them all. Absorption in the medium that a ray came
+// through is multiplied into its weight and throughput.
+inline constexpr Kernel kInterpolateSurfels{
+    "interpolateSurfels",
+    Stage::findIntersections,
+    findInterpolateSurfels,
+    {Part::rays, Part::hits},
+    {Part::surfels, Part::rays},
+    EffectSet().with(Effect::smoothNormals).with(Effect::textures).with(Effect::normalMaps)};
 
 // Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
 // the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
-void liftShadowOrigins(const ShadingTables& tables, EffectSet effects, const HitColumns& hits,
-                       std::size_t n, const SurfelColumns& surfels) noexcept;
+inline constexpr Kernel kLiftShadowOrigins{"liftShadowOrigins",   Stage::findIntersections,
+                                           findLiftShadowOrigins, {Part::hits, Part::surfels},
+                                           {Part::surfels},       {}};
 
-void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
-                                      const RayColumns& rays, const SurfelColumns& surfels,
-                                      std::size_t n, const RadianceColumns& radiance) noexcept;
+inline constexpr Kernel kWriteEmittedAndReflectiveAmbient{"writeEmittedAndReflectiveAmbient",
+                                                          Stage::writeEmittedAndReflectiveAmbient,
+                                                          findWriteEmittedAndReflectiveAmbient,
+                                                          {Part::rays, Part::surfels},
+                                                          {Part::radiance},
+                                                          {}};
 
-// Unshadowed radiance from one light, and a shadow ray for each slot where it is not zero. Returns
-// the number of shadow rays; `visible` is 0 in the slots that have one, and 0 where nothing
-// contributes. Without Effect::shadows no rays are written and `visible` is 1 where light falls.
-std::size_t findRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
-                                      const Light& light, const RayColumns& rays,
-                                      const SurfelColumns& surfels, std::size_t n,
-                                      const UnshadowedColumns& unshadowed,
-                                      const ShadowColumns& shadows) noexcept;
+// Unshadowed radiance from the chunk's light, and a shadow ray for each slot where it is not zero.
+// `visible` is 0 in the slots that have one, and 0 where nothing contributes. Without
+// Feature::shadows no rays are written and `visible` is 1 where light falls.
+inline constexpr Kernel kFindRadianceAndShadowRays{
+    "findRadianceAndShadowRays",
+    Stage::findRadianceAndShadowRays,
+    findFindRadianceAndShadowRays,
+    {Part::rays, Part::surfels},
+    {Part::unshadowed, Part::shadows},
+    EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
+
+inline constexpr Kernel kPackShadowRays{
+    "packShadowRays", Stage::checkShadows, nullptr, {Part::shadows}, {}, {}};
+inline constexpr Kernel kUnpackVisibility{
+    "unpackVisibility", Stage::checkShadows, nullptr, {}, {Part::unshadowed}, {}};
 
 // radiance += unshadowed where visible.
-void addShading(const UnshadowedColumns& unshadowed, std::size_t n,
-                const RadianceColumns& radiance) noexcept;
+inline constexpr Kernel kAddShading{"addShading",     Stage::addShading,
+                                    findAddShading,   {Part::unshadowed, Part::radiance},
+                                    {Part::radiance}, {}};
 
-// Children of the surfels, appended to `children` from slot `first` on; return their number. A
-// child whose throughput is below `cutoff` is not written. `children` must have room for n.
-std::size_t addReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
-                           const RayColumns& children, std::size_t first) noexcept;
-std::size_t addRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
-                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
-                           const RayColumns& children, std::size_t first) noexcept;
-
+// Children of the surfels, appended to the chunk's. A child whose throughput is below the cutoff is
+// not written. There must be room for one a slot, of sampled lobes for so many a slot as
+// lobeSampling says.
+inline constexpr Kernel kAddReflections{"addReflections",   Stage::addImpulses,
+                                        findAddReflections, {Part::rays, Part::surfels},
+                                        {Part::children},   {}};
 // Samples of the surfels' glossy lobes, each written with its share of the weight; whether it is
-// worth tracing is decided as if it were the whole lobe. `children` must have room for n times
-// sampling.count; paths and glossy columns must be there.
-std::size_t addGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                                 const LobeSampling& sampling, const RayColumns& rays,
-                                 const SurfelColumns& surfels, std::size_t n,
-                                 const RayColumns& children, std::size_t first) noexcept;
-
+// worth tracing is decided as if it were the whole lobe.
+inline constexpr Kernel kAddGlossyReflections{"addGlossyReflections",   Stage::addImpulses,
+                                              findAddGlossyReflections, {Part::rays, Part::surfels},
+                                              {Part::children},         {}};
+inline constexpr Kernel kAddRefractions{"addRefractions",   Stage::addImpulses,
+                                        findAddRefractions, {Part::rays, Part::surfels},
+                                        {Part::children},   {}};
 // The way back: parent radiance += weight * radiance, child by child in slot order.
-void returnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, std::size_t n,
-                    const RadianceColumns& parentRadiance) noexcept;
+inline constexpr Kernel kReturnImpulses{
+    "returnImpulses",       Stage::addImpulses,
+    findReturnImpulses,     {Part::rays, Part::radiance, Part::parentRadiance},
+    {Part::parentRadiance}, {}};
 
-// Exposure, tone curve and sRGB: radiance to packed codes r | g << 8 | b << 16 | 255 << 24.
-void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
-                   const RadianceColumns& radiance, std::size_t n, std::uint32_t* codes) noexcept;
+// Exposure, tone curve and sRGB (encodeDisplay below).
+inline constexpr Kernel kEncodeDisplay{"encodeDisplay",  Stage::updateImage, nullptr,
+                                       {Part::radiance}, {Part::codes},      {}};
 
-// Names as in --simd. chooseTarget("auto") takes the best; false: this machine or build lacks it.
-// Not thread-safe; call before any kernel runs.
+// In the order of the stages.
+inline constexpr std::array kKernels{kGenerateRays,
+                                     kPackRays,
+                                     kUnpackHits,
+                                     kInterpolateSurfels,
+                                     kLiftShadowOrigins,
+                                     kWriteEmittedAndReflectiveAmbient,
+                                     kFindRadianceAndShadowRays,
+                                     kPackShadowRays,
+                                     kUnpackVisibility,
+                                     kAddShading,
+                                     kAddReflections,
+                                     kAddGlossyReflections,
+                                     kAddRefractions,
+                                     kReturnImpulses,
+                                     kEncodeDisplay};
+
+// The place of a kernel in the table.
+constexpr std::size_t indexOf(const Kernel& kernel) {
+  std::size_t index = 0;
+  while (kKernels[index].name != kernel.name) ++index;
+  return index;
+}
+
+// One function a variant: make.operator()<bits>() for each of the kernel's sets of bits, in order.
+template <const Kernel& kKernel, typename Make, std::size_t... kIndex>
+constexpr auto variantTable(Make make, std::index_sequence<kIndex...>) {
+  return std::array{make.template operator()<kKernel.variant(kIndex).bits()>()...};
+}
+template <const Kernel& kKernel, typename Make>
+constexpr auto variantTable(Make make) {
+  return variantTable<kKernel>(make, std::make_index_sequence<kKernel.variantCount()>());
+}
+
+// Between columns and Embree's packets. Lanes left over get empty rays, and so do rays that Embree
+// cannot take: it ends the program at a NaN or where the sum of the coordinates' sizes is beyond
+// `reach` (hard case H28).
+struct PacketKernels {
+  void (*packRays)(const RayColumns& rays, std::size_t n, float reach, const PacketWords& to);
+  void (*packShadowRays)(const ShadowColumns& rays, std::size_t n, float reach,
+                         const PacketWords& to);
+  // Of scenes without instances: a triangle's number is that of its class's first one plus its own.
+  void (*unpackHits)(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
+                     const HitColumns& hits);
+  // visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
+  void (*unpackVisibility)(const PacketWords& from, std::size_t n, const std::uint32_t* slot,
+                           float* visible);
+};
+// Of the chosen target.
+PacketKernels findPacketKernels();
+
+// Radiance of n slots to packed codes r | g << 8 | b << 16 | 255 << 24.
+struct EncodeArgs {
+  float exposureScale = 1;
+  ToneCurve curve = ToneCurve::none;
+  SrgbEncoding encoding = SrgbEncoding::exact;
+  RadianceColumns radiance;
+  std::size_t n = 0;
+  std::uint32_t* codes = nullptr;
+};
+void encodeDisplay(const EncodeArgs& args) noexcept;
+
+// "textures+smoothNormals", "plain" for none.
+std::string variantName(EffectSet variant);
+
+// Names as in --simd, best first: of the targets that the kernels were compiled for, and of those
+// among them that this machine has. chooseTarget("auto") takes the best; false: this machine or
+// build lacks it. Functions that were found before stay those of the target before. Not
+// thread-safe.
+std::vector<std::string> compiledTargets();
 std::vector<std::string> availableTargets();
 bool chooseTarget(const std::string& name);
 std::string chosenTarget();

@@ -1,12 +1,17 @@
-// Structures of arrays. Each lists its columns once, as X(type, name, group); the struct, its
-// allocation, comparison and printing all come from that list. A column that no effect of the frame
-// needs stays null (see Groups).
+// Structures of arrays. Each lists its columns once, as X(type, name, feature); the struct, its
+// allocation, comparison and printing all come from that list. A column whose feature the frame
+// has no use for stays null (stages/features.h).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <new>
+#include <type_traits>
+
+#include "stages/features.h"
 
 namespace whit {
 
@@ -17,32 +22,8 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   return (n + kBlock - 1) / kBlock * kBlock;
 }
 
-// Why a column exists: needed by every frame, or only by frames with some effect or choice.
-enum class Group : std::uint8_t {
-  always,
-  glossy,
-  transmission,
-  instances,
-  emission,
-  lift,
-  paths,
-  cones
-};
-
-struct Groups {
-  bool glossy = true, transmission = true, instances = true, emission = true;
-  bool lift = false, paths = false, cones = false;  // by choice, whatever the effects
-  bool operator==(const Groups&) const = default;
-  constexpr bool has(Group g) const {
-    return g == Group::always || (g == Group::glossy && glossy) ||
-           (g == Group::transmission && transmission) || (g == Group::instances && instances) ||
-           (g == Group::emission && emission) || (g == Group::lift && lift) ||
-           (g == Group::paths && paths) || (g == Group::cones && cones);
-  }
-};
-
-#define WHIT_COLUMN_MEMBER(type, name, group) type* name = nullptr;
-#define WHIT_COLUMN_VISIT(type, name, group) visit(#name, c.name, Group::group);
+#define WHIT_COLUMN_MEMBER(type, name, feature) type* name = nullptr;
+#define WHIT_COLUMN_VISIT(type, name, feature) visit(#name, c.name, Feature::feature);
 #define WHIT_DECLARE_COLUMNS(Struct, LIST)                \
   struct Struct {                                         \
     LIST(WHIT_COLUMN_MEMBER)                              \
@@ -52,7 +33,7 @@ struct Groups {
     }                                                     \
   }
 
-// X(type, name, group). Directions are unit vectors; `parent` is the slot at the depth above (a
+// X(type, name, feature). Directions are unit vectors; `parent` is the slot at the depth above (a
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
 // each, the one entered last in the low byte; `path` is its number (core/random_streams.h), where
@@ -71,7 +52,7 @@ struct Groups {
   X(float, throughput, always)          \
   X(std::uint32_t, parent, always)      \
   X(std::uint32_t, media, transmission) \
-  X(std::uint32_t, path, paths)         \
+  X(std::uint32_t, path, streams)       \
   X(float, cone, cones)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
@@ -108,9 +89,9 @@ struct Groups {
   X(float, specularG, glossy)           \
   X(float, specularB, glossy)           \
   X(float, alpha, glossy)               \
-  X(float, emissionR, emission)         \
-  X(float, emissionG, emission)         \
-  X(float, emissionB, emission)         \
+  X(float, emissionR, emissionFactors)  \
+  X(float, emissionG, emissionFactors)  \
+  X(float, emissionB, emissionFactors)  \
   X(float, liftX, lift)                 \
   X(float, liftY, lift)                 \
   X(float, liftZ, lift)                 \
@@ -157,7 +138,7 @@ inline constexpr std::uint32_t kHidden = 2;    // inside a dielectric of higher 
 template <typename Columns>
 Columns advanced(const Columns& columns, std::size_t first) {
   Columns result = columns;
-  Columns::forEachColumn(result, [&](const char*, auto*& column, Group) {
+  Columns::forEachColumn(result, [&](const char*, auto*& column, Feature) {
     if (column) column += first;
   });
   return result;
@@ -168,24 +149,25 @@ template <typename Columns>
 class ColumnStore {
  public:
   ColumnStore() = default;
-  ColumnStore(std::size_t capacity, const Groups& groups) { allocate(capacity, groups); }
+  ColumnStore(std::size_t capacity, FeatureSet features) { allocate(capacity, features); }
 
-  void allocate(std::size_t capacity, const Groups& groups) {
+  void allocate(std::size_t capacity, FeatureSet features) {
     capacity_ = roundUpToBlock(capacity);
     // Four-byte elements. Columns one cache line further apart than a power of two, or all of them
     // would compete for the same sets of the L1 cache; one block to spare for a vector's overhang.
     const std::size_t stride = (capacity_ + 2 * kBlock) * sizeof(float);
     std::size_t count = 0;
-    Columns::forEachColumn(columns_, [&](const char*, auto*&, Group g) { count += groups.has(g); });
+    Columns::forEachColumn(
+        columns_, [&](const char*, auto*&, Feature feature) { count += features.has(feature); });
     bytes_ = count * stride;
     memory_.reset(static_cast<std::byte*>(std::aligned_alloc(64, bytes_)));
     if (!memory_) throw std::bad_alloc();
     std::byte* next = memory_.get();
     std::fill(next, next + bytes_, std::byte{0});
-    Columns::forEachColumn(columns_, [&](const char*, auto*& column, Group g) {
+    Columns::forEachColumn(columns_, [&](const char*, auto*& column, Feature feature) {
       using Element = std::remove_reference_t<decltype(*column)>;
       static_assert(sizeof(Element) == sizeof(float));
-      column = groups.has(g) ? reinterpret_cast<Element*>(next) : nullptr;
+      column = features.has(feature) ? reinterpret_cast<Element*>(next) : nullptr;
       if (column) next += stride;
     });
   }

@@ -1,0 +1,96 @@
+// What the steps of a frame run on: a chunk of one depth's queue of rays, with the columns that
+// belong to it and what is the same for all chunks of the frame. Kernels, calls into Embree and the
+// reference's twins are functions of it and of nothing else.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/options.h"
+#include "stages/columns.h"
+#include "stages/features.h"
+#include "stages/ray_tally.h"
+#include "stages/shading_tables.h"
+#include "stages/stage.h"
+
+namespace whit {
+
+class Accel;
+
+// A CameraFrame (scene/camera.h) in float.
+struct CameraRays {
+  Vec3f eye, forward, right, up;
+  float halfWidth = 0, halfHeight = 0;  // of the image, in pixels
+  std::uint32_t media = 0;              // around the eye
+  bool orthographic = false;
+  float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
+};
+struct CameraFrame;
+CameraRays cameraRays(const CameraFrame& camera);
+
+// The same for all chunks of a frame, and read-only while it is rendered.
+struct FrameConstants {
+  const ShadingTables* tables = nullptr;
+  const Accel* accel = nullptr;
+  FeatureSet features;
+  RenderOptions options;
+  CameraRays camera;
+};
+
+// Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
+struct Segment {
+  RayKind kind = RayKind::primary;
+  std::size_t begin = 0, end = 0;
+};
+// The kinds that a queue may hold: at depth 0 primary rays, below it reflections, then refractions.
+inline constexpr std::size_t kSegmentLimit = kRayKindCount;
+
+// What tracing adds up to.
+struct TraceMeter {
+  std::array<RayTally, kRayKindCount> tally{};
+  double embreeMs = 0;  // inside Embree's calls alone
+};
+
+struct Chunk {
+  const FrameConstants* frame = nullptr;
+  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/pixel.h)
+  // Where in the pixel the sample lies, and its place in the pattern.
+  Vec2f sample{0.5f, 0.5f};
+  std::uint32_t sampleNumber = 0;
+
+  int depth = 0;
+  bool coherent = true;          // the rays travel so close together that Embree should know
+  std::size_t first = 0, n = 0;  // the chunk's place in its queue
+  std::array<Segment, kSegmentLimit> segments{};  // of the chunk's rays, in order
+  std::size_t segmentCount = 0;
+  RayColumns rays;
+  HitColumns hits;
+  SurfelColumns surfels;
+  std::uint32_t materialFlags = 0;  // kMaterial flags that the material of some surfel has
+  RadianceColumns radiance;
+
+  // From findRadianceAndShadowRays to addShading.
+  const Light* light = nullptr;
+  UnshadowedColumns unshadowed;
+  ShadowColumns shadows;
+  std::size_t shadowCount = 0;
+
+  // Impulses are appended behind the `childCount` that are there.
+  RayColumns children;
+  std::size_t childCount = 0;
+  // Of the chunk whose children these rays are.
+  RadianceColumns parentRadiance;
+
+  std::uint32_t* codes = nullptr;  // display codes, a pixel each
+  TraceMeter* meter = nullptr;     // never null where rays are traced
+
+  bool has(Feature feature) const { return frame->features.has(feature); }
+  const ShadingTables& tables() const { return *frame->tables; }
+  const RenderOptions& options() const { return frame->options; }
+};
+
+using StepFunction = void (*)(Chunk&);
+
+}  // namespace whit

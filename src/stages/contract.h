@@ -1,0 +1,43 @@
+// What a step reads and writes of its chunk. Builds without NDEBUG hold steps to it
+// (render/contract_check.h); plans are checked for steps that read what none has written.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace whit {
+
+enum class Part : std::uint8_t {
+  pixels,
+  rays,  // of the chunk
+  hits,
+  surfels,
+  radiance,
+  unshadowed,  // one light's radiance, and whether it is visible
+  shadows,     // shadow rays
+  children,    // rays of the next depth
+  parentRadiance,
+  codes,
+  film
+};
+
+class Parts {
+ public:
+  constexpr Parts() = default;
+  constexpr Parts(std::initializer_list<Part> parts) {
+    for (const Part part : parts) bits_ |= bit(part);
+  }
+  constexpr bool has(Part part) const { return (bits_ & bit(part)) != 0; }
+  constexpr bool holds(Parts others) const { return (others.bits_ & ~bits_) == 0; }
+  constexpr Parts with(Parts others) const {
+    Parts sum;
+    sum.bits_ = bits_ | others.bits_;
+    return sum;
+  }
+
+ private:
+  static constexpr std::uint32_t bit(Part part) { return 1u << static_cast<std::uint32_t>(part); }
+  std::uint32_t bits_ = 0;
+};
+
+}  // namespace whit

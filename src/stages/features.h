@@ -1,0 +1,59 @@
+// What a frame has use for, found out once by its plan. This is the one answer to "is it on?" for
+// whole calls: a set of columns belongs to a feature and is there only with it, and steps ask their
+// chunk (`chunk.has(Feature::cones)`). Code in the lanes of a kernel that is there for some effects
+// only is chosen when the kernel is compiled, by template bits (simd/kernels.h). Nothing
+// else is asked: neither null columns nor empty tables.
+#pragma once
+
+#include <cstdint>
+
+namespace whit {
+
+// name, what it is there for
+#define WHIT_FEATURES(X)                                                  \
+  X(always, "every frame")                                                \
+  X(ambient, "ambient light")                                             \
+  X(emission, "materials that emit")                                      \
+  X(emissionFactors, "emission by maps or vertex colors")                 \
+  X(vertexColors, "vertex colors")                                        \
+  X(sky, "a sky that is not black")                                       \
+  X(glossy, "glossy lobes")                                               \
+  X(streams, "random numbers along paths")                                \
+  X(transmission, "media along rays")                                     \
+  X(absorption, "media that absorb")                                      \
+  X(instances, "hits on instances")                                       \
+  X(shadows, "shadow rays")                                               \
+  X(lift, "shadow rays that start above their facets (--terminator)")     \
+  X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
+  X(secondUvs, "maps looked up with second texture coordinates")
+
+enum class Feature : std::uint8_t {
+#define WHIT_FEATURE_ENUM(name, text) name,
+  WHIT_FEATURES(WHIT_FEATURE_ENUM)
+#undef WHIT_FEATURE_ENUM
+};
+
+#define WHIT_FEATURE_COUNT(name, text) +1
+inline constexpr int kFeatureCount = 0 WHIT_FEATURES(WHIT_FEATURE_COUNT);
+#undef WHIT_FEATURE_COUNT
+
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  static constexpr FeatureSet all() { return FeatureSet((1u << kFeatureCount) - 1); }
+
+  constexpr bool has(Feature f) const { return (bits_ & bit(f)) != 0; }
+  constexpr FeatureSet with(Feature f, bool on = true) const {
+    return FeatureSet(on ? bits_ | bit(f) : bits_);
+  }
+  constexpr FeatureSet without(Feature f) const { return FeatureSet(bits_ & ~bit(f)); }
+  constexpr bool operator==(const FeatureSet&) const = default;
+
+ private:
+  constexpr explicit FeatureSet(std::uint32_t bits) : bits_(bits | bit(Feature::always)) {}
+  static constexpr std::uint32_t bit(Feature f) { return 1u << static_cast<std::uint32_t>(f); }
+
+  std::uint32_t bits_ = bit(Feature::always);
+};
+
+}  // namespace whit
