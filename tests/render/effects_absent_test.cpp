@@ -121,7 +121,7 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
 
 TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
   const Cost cost = costWithout(EffectSet());
-  for (const RayTally& tally : cost.stats.tally) EXPECT_GT(tally.rays, 0u);
+  for (const RayTally& tally : cost.stats.meter.tally) EXPECT_GT(tally.rays, 0u);
   for (const std::uint64_t calls : cost.stats.kernelCalls) EXPECT_GT(calls, 0u);
   EXPECT_GT(cost.stats.reflectionCalls, 0u);
   EXPECT_GT(cost.stats.glossyCalls, 0u);

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "render/plan.h"
-#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
