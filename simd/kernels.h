@@ -13,7 +13,7 @@
 
 #include "core/effects.h"
 #include "core/options.h"
-#include "core/random_streams.h"
+#include "sampling/random_streams.h"
 #include "stages/columns.h"
 #include "stages/packet_words.h"
 #include "stages/shading_tables.h"

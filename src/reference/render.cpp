@@ -12,7 +12,7 @@
 #include "core/film.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
-#include "scene/probe_samples.h"
+#include "sampling/probe_samples.h"
 
 namespace whit::reference {
 

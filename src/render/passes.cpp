@@ -7,7 +7,7 @@
 #include "core/pixel.h"
 #include "render/renderer_parts.h"
 #include "render/stage_clock.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit {
 

@@ -9,7 +9,7 @@
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
 #include "render/renderer_parts.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 #include "simd/kernels.h"
 
 namespace whit {

@@ -16,8 +16,8 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/renderer.h"
-#include "scene/pixel_edges.h"
-#include "scene/probe_samples.h"
+#include "sampling/pixel_edges.h"
+#include "sampling/probe_samples.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"
 

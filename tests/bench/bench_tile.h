@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "core/random_streams.h"
 #include "io/load_scene.h"
 #include "reference/generate_ray.h"
 #include "render/renderer.h"
 #include "render/renderer_parts.h"
 #include "render/tiles.h"
+#include "sampling/random_streams.h"
 #include "simd/kernels.h"
 
 namespace whit::bench {
