@@ -2,21 +2,10 @@
 #include <array>
 
 #include "core/srgb.h"
-#include "io/image_decoders.h"
 #include "io/image_file.h"
 #include "scene/texture.h"
 
 namespace whit {
-
-const std::array<float, 256>& linearOfCode() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> linear{};
-    for (int code = 0; code < 256; ++code)
-      linear[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
-    return linear;
-  }();
-  return table;
-}
 
 namespace {
 
@@ -42,8 +31,9 @@ std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, 
 const std::array<std::uint32_t, 256>& colorBitsOfCode() {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> bits{};
-    for (std::size_t code = 0; code < 256; ++code)
-      bits[code] = encodeColorTexel({linearOfCode()[code], 0, 0}) & 1023u;
+    for (int code = 0; code < 256; ++code) {
+      bits[static_cast<std::size_t>(code)] = encodeColorTexel({linearOfCode(code), 0, 0}) & 1023u;
+    }
     return bits;
   }();
   return table;
@@ -96,7 +86,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
       value = channelsOf(raw.values, raw.channels, i, 1.0f);
     } else {
       const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
-      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode()[codes[c]];
+      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode(codes[c]);
     }
     environment.r[i] = value[0];
     environment.g[i] = value[1];
