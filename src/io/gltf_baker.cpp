@@ -5,7 +5,7 @@
 
 #include "core/srgb.h"
 #include "io/image_decoders.h"
-#include "io/raw_channels.h"
+#include "io/texture_from_image.h"
 
 namespace whit {
 namespace {
