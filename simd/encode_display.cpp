@@ -1,5 +1,5 @@
 // The 8-bit half of updateImage.
-#include "simd/display_tables.h"
+#include "core/srgb.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -28,7 +28,7 @@ HWY_INLINE VF NearCode(VF x) {
 }
 
 // round(255 * srgb(x)), exactly as the scalar srgbCode of the same float.
-HWY_INLINE VU SrgbCode(const DisplayTables& tables, VF x) {
+HWY_INLINE VU SrgbCode(const SrgbTables& tables, VF x) {
   const FloatTag d;
   const IntTag di;
   const VF one = hn::Set(d, 1.0f);
@@ -76,20 +76,21 @@ HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
 }
 
 // The code of the nearest step: srgbCodeByTable in float.
-HWY_INLINE VU SrgbCodeByTable(const DisplayTables& tables, VF x) {
+HWY_INLINE VU SrgbCodeByTable(const SrgbTables& tables, VF x) {
   const FloatTag d;
   const IntTag di;
   const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), hn::Set(d, 1.0f));
   const VF step =
       hn::Add(hn::Mul(clamped, hn::Set(d, static_cast<float>(kSrgbSteps))), hn::Set(d, 0.5f));
-  return hn::BitCast(UintTag(), hn::GatherIndex(di, tables.byStep.data(), hn::ConvertTo(di, step)));
+  return hn::BitCast(UintTag(),
+                     hn::GatherIndex(di, tables.codeOfStep.data(), hn::ConvertTo(di, step)));
 }
 
 void EncodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
                    const RadianceColumns& radiance, size_t n, uint32_t* codes) {
   const FloatTag d;
   const UintTag du;
-  const DisplayTables& tables = displayTables();
+  const SrgbTables& tables = srgbTables();
   const VF scale = hn::Set(d, exposureScale);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto encode = [&](const float* column) HWY_ATTR {

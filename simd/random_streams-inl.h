@@ -1,4 +1,4 @@
-// Random numbers of paths (the scalar twin: src/core/random_streams.h; the bits are the same).
+// Random numbers of paths (the scalar twin: src/sampling/random_streams.h; the bits are the same).
 #if defined(WHIT_SIMD_PATH_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_PATH_NUMBERS_INL_H_
 #undef WHIT_SIMD_PATH_NUMBERS_INL_H_
@@ -6,7 +6,7 @@
 #define WHIT_SIMD_PATH_NUMBERS_INL_H_
 #endif
 
-#include "core/random_streams.h"
+#include "sampling/random_streams.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();

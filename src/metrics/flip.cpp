@@ -70,13 +70,10 @@ Vec3f xyzOfOpponent(const Vec3f& o) {
 using Planes = std::array<Plane, 3>;
 
 std::vector<Rgb> linearOf(const DisplayImage& image) {
-  std::array<float, 256> linear{};
-  for (std::size_t code = 0; code < 256; ++code)
-    linear[code] = static_cast<float>(srgbToLinear(static_cast<double>(code) / 255));
   std::vector<Rgb> pixels(image.rgba.size() / 4);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::uint8_t* code = image.rgba.data() + 4 * i;
-    pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    pixels[i] = {linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])};
   }
   return pixels;
 }

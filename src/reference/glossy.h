@@ -1,8 +1,8 @@
 // Rays that a rough surface reflects: samples of its GGX lobe.
 #pragma once
 
-#include "core/random_streams.h"
 #include "reference/impulses.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "core/pixel.h"
-#include "core/random_streams.h"
 #include "reference/generate_ray.h"
 #include "reference/glossy.h"
 #include "reference/impulses.h"
@@ -11,7 +10,8 @@
 #include "reference/reference.h"
 #include "reference/shading.h"
 #include "reference/surfel.h"
-#include "scene/sample_pattern.h"
+#include "sampling/random_streams.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit::reference {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/pixel.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit {
 

@@ -10,7 +10,7 @@
 
 #include "render/frame.h"
 #include "render/scheduler.h"
-#include "scene/pixel_edges.h"
+#include "sampling/pixel_edges.h"
 
 namespace whit {
 

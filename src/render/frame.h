@@ -6,7 +6,7 @@
 
 #include "render/film.h"
 #include "render/observer.h"
-#include "scene/probe_samples.h"
+#include "sampling/probe_samples.h"
 #include "stages/chunk.h"
 
 namespace whit {

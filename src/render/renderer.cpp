@@ -6,7 +6,7 @@
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 #include "simd/kernels.h"
 
 namespace whit {

@@ -7,7 +7,7 @@
 
 #include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit::reference {
 namespace {

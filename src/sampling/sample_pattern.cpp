@@ -1,4 +1,4 @@
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 #include <algorithm>
 #include <array>

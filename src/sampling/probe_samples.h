@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit {
 

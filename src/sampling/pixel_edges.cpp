@@ -1,4 +1,4 @@
-#include "scene/pixel_edges.h"
+#include "sampling/pixel_edges.h"
 
 #include <algorithm>
 #include <cmath>

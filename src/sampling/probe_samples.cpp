@@ -1,4 +1,4 @@
-#include "scene/probe_samples.h"
+#include "sampling/probe_samples.h"
 
 #include <algorithm>
 #include <cstdlib>

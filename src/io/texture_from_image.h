@@ -1,11 +1,19 @@
-// Looking into decoded images before they become textures: alpha channels and height maps.
+// Decoded images as what shading reads: textures, environments, alpha channels, height maps.
 #pragma once
 
 #include <string>
 
 #include "io/image_file.h"
+#include "scene/texture.h"
 
 namespace whit {
+
+// A texture of the given format. Color textures decode sRGB from 8-bit codes; data textures take
+// codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
+// alpha is 1.
+Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
+// Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
+EnvironmentImage makeEnvironment(const RawImage& raw);
 
 // Whether there is an alpha channel (2 or 4 channels) with a texel below opaque.
 bool hasTranslucentAlpha(const RawImage& raw);
