@@ -2,6 +2,7 @@
 
 #include "accuracy/digest.h"
 #include "cli/info_rows.h"
+#include "render/floor.h"
 
 namespace whit::cli {
 

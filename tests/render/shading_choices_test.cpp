@@ -8,6 +8,7 @@
 #include "metrics/metrics.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
+#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -96,7 +97,8 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     EXPECT_LE(d.pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1) << choice.name;
     for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
       const auto rays = static_cast<double>(b.meter.tally[kind].rays);
-      EXPECT_NEAR(static_cast<double>(a.meter.tally[kind].rays), rays, 1e-3 * rays + 1) << choice.name;
+      EXPECT_NEAR(static_cast<double>(a.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
+          << choice.name;
     }
   }
 }

@@ -1,4 +1,4 @@
-// The table of compiled kernel variants.
+// The table of compiled kernel variants, and the plans that are made of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +16,7 @@ using simd::kKernels;
 Plan planOf(EffectSet effects) {
   Scene scene;
   scene.effects = effects;
+  scene.lights.resize(1);
   RenderOptions options;
   options.glossy = 2;
   return makePlan(scene, options);
@@ -80,7 +81,7 @@ TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
       ASSERT_NE(kernel, kKernels.end()) << use.kernel;
       EXPECT_EQ(use.stage, kernel->stage);
     }
-    EXPECT_EQ(std::vector<Stage>(stages.begin(), stages.end()), plan.stages);
+    EXPECT_EQ(std::vector<Stage>(stages.begin(), stages.end()), plan.stages());
     EXPECT_TRUE(
         std::is_sorted(uses.begin(), uses.end(),
                        [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; }));
@@ -110,6 +111,7 @@ TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
     options.packet = packet;
     Scene scene;
     scene.effects = EffectSet::all();
+    scene.lights.resize(1);
     std::vector<std::string> names;
     for (const KernelUse& use : kernelsOf(makePlan(scene, options))) {
       const bool traces = use.stage == Stage::findIntersections || use.stage == Stage::checkShadows;
@@ -122,6 +124,38 @@ TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
         "liftShadowOrigins", "packShadowRays", "occluded",   "unpackVisibility"};
     EXPECT_EQ(names, packet == 1 ? singly : inPackets);
   }
+}
+
+TEST(Plans, HaveNoStepThatReadsWhatNoneHasWritten) {
+  for (std::uint32_t bits = 0; bits <= EffectSet::all().bits(); bits += 37) {
+    EXPECT_NO_THROW(planOf(EffectSet(bits))) << bits;
+  }
+}
+
+TEST(Plans, EndEachStageOnce) {
+  planOf(EffectSet::all()).forEachStep([](const Step& step) {
+    EXPECT_EQ(step.endsStage, step.name != "findHits" && step.name != "interpolateSurfels" &&
+                                  step.name != "addReflections" &&
+                                  step.name != "addGlossyReflections")
+        << step.name;
+    EXPECT_NE(step.run, nullptr) << step.name;
+  });
+}
+
+TEST(Plans, GiveEachLightTheCodeOfItsOwnKind) {
+  Scene scene;
+  scene.effects = EffectSet::all();
+  scene.lights.resize(3);
+  scene.lights[1].kind = Light::Kind::spot;
+  scene.lights[2].kind = Light::Kind::directional;
+  const Plan plan = makePlan(scene, RenderOptions());
+  ASSERT_EQ(plan.perLight.size(), 3u);
+  std::set<std::string> variants;
+  for (const LightSteps& light : plan.perLight) {
+    variants.insert(light.steps[0].kernels[0].variant);
+  }
+  EXPECT_EQ(variants,
+            (std::set<std::string>{"glossy", "glossy+spotLights", "glossy+directionalLights"}));
 }
 
 }  // namespace
