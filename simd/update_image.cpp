@@ -3,7 +3,7 @@
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/encode_display.cpp"
+#define HWY_TARGET_INCLUDE "simd/update_image.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/vec3-inl.h"
 
@@ -86,13 +86,15 @@ HWY_INLINE VU SrgbCodeByTable(const SrgbTables& tables, VF x) {
                      hn::GatherIndex(di, tables.codeOfStep.data(), hn::ConvertTo(di, step)));
 }
 
-void EncodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
-                   const RadianceColumns& radiance, size_t n, uint32_t* codes) {
+void EncodeDisplay(const EncodeArgs& args) {
   const FloatTag d;
   const UintTag du;
   const SrgbTables& tables = srgbTables();
-  const VF scale = hn::Set(d, exposureScale);
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+  const ToneCurve curve = args.curve;
+  const SrgbEncoding encoding = args.encoding;
+  const RadianceColumns radiance = args.radiance;
+  const VF scale = hn::Set(d, args.exposureScale);
+  for (size_t i = 0; i < args.n; i += hn::Lanes(d)) {
     const auto encode = [&](const float* column) HWY_ATTR {
       const VF curved = ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale));
       return encoding == SrgbEncoding::table ? SrgbCodeByTable(tables, curved)
@@ -100,7 +102,7 @@ void EncodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
     };
     const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
     const VU b = hn::ShiftLeft<16>(encode(radiance.b));
-    hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, codes + i);
+    hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, args.codes + i);
   }
 }
 
@@ -110,9 +112,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whit::simd {
 HWY_EXPORT(EncodeDisplay);
-void encodeDisplay(float exposureScale, ToneCurve curve, SrgbEncoding encoding,
-                   const RadianceColumns& radiance, std::size_t n, std::uint32_t* codes) noexcept {
-  HWY_DYNAMIC_DISPATCH(EncodeDisplay)(exposureScale, curve, encoding, radiance, n, codes);
-}
+void encodeDisplay(const EncodeArgs& args) noexcept { HWY_DYNAMIC_DISPATCH(EncodeDisplay)(args); }
 }  // namespace whit::simd
 #endif
