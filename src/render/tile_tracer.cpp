@@ -100,10 +100,9 @@ void TileTracer::shadeChunk(int depth, const Watch& watch) {
   work_.takeChunk(depth, chunk_);
   runSteps(plan_.perQueue, watch);
   for (const LightSteps& light : plan_.perLight) {
-    chunk_.light = &chunk_.tables().lights[light.light];
+    chunk_.turnTo(light.light, light.sample, light.samples);
     runSteps(light.steps, watch);
   }
-  chunk_.light = nullptr;
   if (depth < plan_.depth) addImpulses(watch);
 }
 

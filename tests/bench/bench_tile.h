@@ -47,7 +47,7 @@ class BenchTile {
     for (const Step& step : plan().perSample) runStep(step);
     for (const Step& step : plan().perQueue) runStep(step);
     for (const LightSteps& light : plan().perLight) {
-      chunk_.light = &chunk_.tables().lights[light.light];
+      chunk_.turnTo(light.light, light.sample, light.samples);
       for (const Step& step : light.steps) runStep(step);
     }
     std::size_t most = 0;
