@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstddef>
 
 #include "accel/embree_calls.h"
-#include "simd/kernels.h"
+#include "stages/packet_words.h"
 
 namespace whit {
 
@@ -72,6 +74,27 @@ void setLanes(Lanes<kWidth>* lanes, std::size_t rays) {
   for (std::size_t i = 0; i < packetsFor<kWidth>(rays) * kWidth; ++i) {
     lanes[i / kWidth].live[i % kWidth] = i < rays ? -1 : 0;
   }
+}
+
+// Packets are filled, traced and emptied in groups of this many rays, so that the clock around
+// Embree's calls is read rarely and sees nothing but them.
+inline constexpr std::size_t kGroup = 128;
+
+template <int kWidth, typename Packet>
+struct Group {
+  static constexpr std::size_t kPackets = kGroup / kWidth;
+  alignas(64) std::array<Packet, kPackets> packets;
+  std::array<Lanes<kWidth>, kPackets> lanes;
+};
+template <int kWidth>
+using HitGroup = Group<kWidth, typename PacketTypes<kWidth>::RayHit>;
+template <int kWidth>
+using ShadowGroup = Group<kWidth, typename PacketTypes<kWidth>::Ray>;
+
+using TraceClock = std::chrono::steady_clock;
+
+inline double millisecondsSince(TraceClock::time_point start) {
+  return std::chrono::duration<double, std::milli>(TraceClock::now() - start).count();
 }
 
 }  // namespace whit

@@ -1,11 +1,11 @@
 // The floor: what Embree alone needs for the rays of a frame.
+#include <algorithm>
+#include <limits>
 #include <vector>
 
-#include "accel/bad_rays.h"
-#include "accel/embree_scene.h"
-#include "accel/packing.h"
-#include "accel/parts.h"
-#include "accel/trace_packets.h"
+#include "accel/accel_parts.h"
+#include "accel/packets.h"
+#include "accel/single_rays.h"
 
 namespace whit {
 
@@ -17,7 +17,8 @@ float* column(const RayLog::Stream& stream, std::size_t c) {
 }
 
 template <int kWidth>
-double replayShadows(const EmbreeScene& scene, const RayLog::Stream& stream) {
+double replayShadows(const Accel::Parts& parts, const RayLog::Stream& stream) {
+  const EmbreeScene& scene = parts.embree;
   const std::size_t count = packetsFor<kWidth>(stream.count);
   std::vector<typename PacketTypes<kWidth>::Ray> packets(count);
   std::vector<Lanes<kWidth>> lanes(count);
@@ -26,16 +27,18 @@ double replayShadows(const EmbreeScene& scene, const RayLog::Stream& stream) {
   const ShadowColumns shadows{
       column(stream, 0), column(stream, 1), column(stream, 2), column(stream, 3),
       column(stream, 4), column(stream, 5), column(stream, 6), nullptr};
-  simd::packShadowRays(shadows, stream.count, scene.reach(), wordsOf<kWidth>(packets.data()));
+  parts.kernels.packShadowRays(shadows, stream.count, scene.reach(),
+                               wordsOf<kWidth>(packets.data()));
   QueryContext context(stream.coherent);
-  const bool together = stream.coherent && scene.streamWidth() == kWidth;
+  const bool together = parts.together(kWidth, stream.coherent);
   const auto start = TraceClock::now();
   occludedAll(lanes.data(), scene.top(), context, together, packets.data(), count);
   return millisecondsSince(start);
 }
 
 template <int kWidth>
-double replayHits(const EmbreeScene& scene, const RayLog::Stream& stream) {
+double replayHits(const Accel::Parts& parts, const RayLog::Stream& stream) {
+  const EmbreeScene& scene = parts.embree;
   const std::size_t count = packetsFor<kWidth>(stream.count);
   std::vector<typename PacketTypes<kWidth>::RayHit> packets(count);
   std::vector<Lanes<kWidth>> lanes(count);
@@ -44,10 +47,10 @@ double replayHits(const EmbreeScene& scene, const RayLog::Stream& stream) {
   RayColumns rays;
   rays.orgX = column(stream, 0), rays.orgY = column(stream, 1), rays.orgZ = column(stream, 2);
   rays.dirX = column(stream, 3), rays.dirY = column(stream, 4), rays.dirZ = column(stream, 5);
-  simd::packRays(rays, stream.count, scene.reach(), wordsOf<kWidth>(packets.data()));
+  parts.kernels.packRays(rays, stream.count, scene.reach(), wordsOf<kWidth>(packets.data()));
   forgetHits<kWidth>(packets.data(), count);
   QueryContext context(stream.coherent);
-  const bool together = stream.coherent && scene.streamWidth() == kWidth;
+  const bool together = parts.together(kWidth, stream.coherent);
   const auto start = TraceClock::now();
   intersectAll(lanes.data(), scene.top(), context, together, packets.data(), count);
   return millisecondsSince(start);
@@ -55,28 +58,20 @@ double replayHits(const EmbreeScene& scene, const RayLog::Stream& stream) {
 
 // Full packets but for the last one of a stream.
 template <int kWidth>
-double replayStream(const EmbreeScene& scene, const RayLog::Stream& stream) {
-  return stream.occlusion ? replayShadows<kWidth>(scene, stream)
-                          : replayHits<kWidth>(scene, stream);
+double replayStream(const Accel::Parts& parts, const RayLog::Stream& stream) {
+  return stream.occlusion ? replayShadows<kWidth>(parts, stream)
+                          : replayHits<kWidth>(parts, stream);
 }
 
 double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
   std::vector<RTCRayHit> rays;
   rays.reserve(stream.count);
   for (std::size_t i = 0; i < stream.count; ++i) {
-    std::array<float, 7> r;
-    for (std::size_t c = 0; c < r.size(); ++c) r[c] = stream.columns[c][i];
-    if (!isTraceable(scene.reach(), r[0], r[1], r[2], r[3], r[4], r[5])) continue;
-    RTCRayHit& ray = rays.emplace_back();
-    ray.ray.org_x = r[0];
-    ray.ray.org_y = r[1];
-    ray.ray.org_z = r[2];
-    ray.ray.dir_x = r[3];
-    ray.ray.dir_y = r[4];
-    ray.ray.dir_z = r[5];
-    ray.ray.tfar = r[6];
-    ray.ray.mask = stream.occlusion ? kShadowMask : kSeenMask;
-    ray.hit.geomID = ray.hit.primID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    const auto& c = stream.columns;
+    const Vec3f origin{c[0][i], c[1][i], c[2][i]}, direction{c[3][i], c[4][i], c[5][i]};
+    if (!isTraceable(scene.reach(), origin, direction)) continue;
+    const unsigned mask = stream.occlusion ? kShadowMask : kSeenMask;
+    rays.push_back(withoutHit(singleRay(origin, direction, c[6][i], mask)));
   }
   QueryContext context(stream.coherent);
   const auto start = TraceClock::now();
@@ -92,22 +87,34 @@ double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
 
 }  // namespace
 
-void RayLog::append(bool occlusion, bool coherent, const float* const columns[7], std::size_t n) {
-  Stream* stream = nullptr;
+RayLog::Stream& RayLog::streamOf(bool occlusion, bool coherent) {
   for (Stream& s : streams_) {
-    if (s.occlusion == occlusion && s.coherent == coherent) stream = &s;
+    if (s.occlusion == occlusion && s.coherent == coherent) return s;
   }
-  if (!stream) {
-    streams_.push_back({occlusion, coherent, 0, {}});
-    stream = &streams_.back();
+  return streams_.emplace_back(Stream{occlusion, coherent, 0, {}});
+}
+
+void RayLog::append(const RayColumns& rays, std::size_t n, bool coherent) {
+  append(streamOf(false, coherent),
+         {rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr}, n);
+}
+
+void RayLog::append(const ShadowColumns& s, std::size_t n, bool coherent) {
+  append(streamOf(true, coherent), {s.orgX, s.orgY, s.orgZ, s.dirX, s.dirY, s.dirZ, s.tFar}, n);
+}
+
+void RayLog::append(Stream& stream, const std::array<const float*, 7>& from, std::size_t n) {
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    std::vector<float>& column = stream.columns[c];
+    column.resize(stream.count);
+    if (from[c]) {
+      column.insert(column.end(), from[c], from[c] + n);
+    } else {
+      column.resize(stream.count + n, std::numeric_limits<float>::infinity());
+    }
+    column.resize(roundUpToBlock(stream.count + n));
   }
-  for (std::size_t c = 0; c < stream->columns.size(); ++c) {
-    std::vector<float>& column = stream->columns[c];
-    column.resize(stream->count);
-    column.insert(column.end(), columns[c], columns[c] + n);
-    column.resize(roundUpToBlock(stream->count + n));
-  }
-  stream->count += n;
+  stream.count += n;
 }
 
 double Accel::replay(const RayLog& log) const {
@@ -115,13 +122,13 @@ double Accel::replay(const RayLog& log) const {
   for (const RayLog::Stream& stream : log.streams()) {
     switch (stream.occlusion ? parts_->shadowPacket(stream.coherent) : parts_->packet) {
       case 16:
-        sum += replayStream<16>(parts_->embree, stream);
+        sum += replayStream<16>(*parts_, stream);
         break;
       case 8:
-        sum += replayStream<8>(parts_->embree, stream);
+        sum += replayStream<8>(*parts_, stream);
         break;
       case 4:
-        sum += replayStream<4>(parts_->embree, stream);
+        sum += replayStream<4>(*parts_, stream);
         break;
       default:
         sum += replaySingly(parts_->embree, stream);
