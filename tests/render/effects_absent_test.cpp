@@ -3,7 +3,6 @@
 
 #include "render/renderer_parts.h"
 #include "render/shipped_scene.h"
-#include "scene/effect_steps.h"
 #include "scene/leave_out.h"
 
 namespace whit::test {
