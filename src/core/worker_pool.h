@@ -70,7 +70,4 @@ class FlushDenormals {
   unsigned long long saved_;
 };
 
-// Threads that this process may use at once: its affinity mask, bounded by the cgroup's CPU quota.
-int usableThreads();
-
 }  // namespace whit

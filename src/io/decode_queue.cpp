@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/usable_threads.h"
 
 namespace whit {
 

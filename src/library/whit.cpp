@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/failure.h"
 #include "core/nearest_name.h"
 #include "core/option_values.h"
 #include "core/quality.h"

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "core/usable_threads.h"
 #include "reference/initial_medium_stack.h"
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"

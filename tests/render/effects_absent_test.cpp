@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "render/shipped_scene.h"
-#include "scene/effect_steps.h"
 #include "scene/leave_out.h"
 
 namespace whit::test {

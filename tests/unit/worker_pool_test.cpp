@@ -141,7 +141,5 @@ TEST(WorkerPoolDeathTest, NoRoomForThreadsIsALimit) {
   EXPECT_EXIT(fillUp(), testing::ExitedWithCode(7), "");
 }
 
-TEST(WorkerPool, ThereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }
-
 }  // namespace
 }  // namespace whit::test

@@ -1,5 +1,5 @@
 // Quotas of control groups, read from folders that look like the kernel's.
-#include "core/cgroup_quota.h"
+#include "core/usable_threads.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -74,6 +74,8 @@ TEST_F(CgroupQuota, NonsenseIsNoLimit) {
   put("cpu.max", "100000 0");
   EXPECT_EQ(cgroupQuota("0::/\n", root_), 0);
 }
+
+TEST(UsableThreads, ThereIsAtLeastOne) { EXPECT_GE(usableThreads(), 1); }
 
 }  // namespace
 }  // namespace whit

@@ -1,4 +1,4 @@
-#include "core/failure.h"
+#include "core/error.h"
 
 #include <new>
 #include <system_error>
