@@ -19,11 +19,7 @@ Vec3f latticeDirection(int i, int n) {
 bool isEnclosed(const Accel& accel, const Vec3f& eye) {
   constexpr int kDirections = 256;
   for (int i = 0; i < kDirections; ++i) {
-    std::uint32_t triangle = kMiss, instance = kMiss;
-    float t = 0, u = 0, v = 0;
-    if (!accel.closest(eye, latticeDirection(i, kDirections), triangle, instance, t, u, v)) {
-      return false;
-    }
+    if (!accel.closest(eye, latticeDirection(i, kDirections)).found()) return false;
   }
   return true;
 }

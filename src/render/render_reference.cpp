@@ -8,13 +8,12 @@
 namespace whit {
 
 bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
-  float t = 0, u = 0, v = 0;
-  if (!accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), c.triangle, c.instance, t, u, v)) {
-    return false;
-  }
-  c.u = static_cast<double>(u);
-  c.v = static_cast<double>(v);
-  return true;
+  const Hit hit = accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction));
+  c.triangle = hit.triangle;
+  c.instance = hit.instance;
+  c.u = static_cast<double>(hit.u);
+  c.v = static_cast<double>(hit.v);
+  return hit.found();
 }
 
 bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {

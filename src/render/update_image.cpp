@@ -4,6 +4,7 @@
 
 #include "core/film.h"
 #include "core/pixel.h"
+#include "core/srgb.h"
 #include "render/film.h"
 #include "simd/kernels.h"
 
