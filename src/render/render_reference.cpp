@@ -22,21 +22,7 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
 }
 
 reference::Settings Renderer::Parts::referenceSettings() const {
-  reference::Settings settings;
-  settings.spp = options.spp;
-  settings.adaptive = adaptive();
-  settings.contrast = options.contrast;
-  settings.exposure = options.exposure;
-  settings.toneCurve = options.toneCurve;
-  settings.srgb = options.srgb;
-  settings.film = options.film;
-  settings.depth = options.depth;
-  settings.glossy = options.glossy;
-  settings.cutoff = static_cast<double>(options.cutoff);
-  settings.shading = options.shading;
-  settings.effects = plan.effects;
-  settings.threads = machine.threads;
-  return settings;
+  return {options, plan.effects, machine.threads};
 }
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
