@@ -12,10 +12,9 @@ namespace {
 // Of every option, as on the command line.
 std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
   std::map<std::string, std::string> values;
-  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
-                             const auto& field) {
-    const std::string value = formatValue(renderOptionSpec(name, placeholder), field);
-    values[name] = value.empty() ? "none" : value;
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+    const std::string value = formatValue(spec, field);
+    values[std::string(spec.name)] = value.empty() ? "none" : value;
   });
   return values;
 }

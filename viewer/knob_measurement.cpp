@@ -1,32 +1,15 @@
 #include "viewer/knob_measurement.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "core/option_values.h"
+#include "core/option_table.h"
 
 namespace whit::view {
 
 namespace {
 
 constexpr int kTurns = 3;
-
-// The cheapest setting that still makes a picture of the scene.
-constexpr std::array<std::pair<const char*, const char*>, 13> kCheapest{
-    {{"depth", "0"},
-     {"cutoff", "0.004"},
-     {"light-cutoff", "0.004"},
-     {"glossy", "0"},
-     {"fresnel", "schlick"},
-     {"texture-filter", "nearest"},
-     {"offset", "fixed"},
-     {"terminator", "off"},
-     {"bend", "off"},
-     {"reciprocal", "approximate"},
-     {"film", "float"},
-     {"srgb", "table"},
-     {"effects", "auto"}}};
 
 struct Candidate {
   std::string name, other;
@@ -35,15 +18,12 @@ struct Candidate {
 
 std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOptions& options) {
   std::vector<Candidate> candidates;
-  for (const auto& [name, cheapest] : kCheapest) {
-    Candidate candidate{name, cheapest, options};
-    forEachOption(candidate.options, [&](const std::string& option, const char* placeholder,
-                                         const char*, auto& field) {
-      if (option != candidate.name) return;
-      parseValue(renderOptionSpec(option, placeholder), candidate.other, field);
-    });
+  forEachOption(options, [&](const OptionSpec& spec, const auto&) {
+    if (spec.cheapest.empty()) return;
+    Candidate candidate{std::string(spec.name), std::string(spec.cheapest), options};
+    setOption(candidate.options, candidate.name, candidate.other);
     candidates.push_back(std::move(candidate));
-  }
+  });
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     if (!renderer.plan().effects.has(effect)) continue;

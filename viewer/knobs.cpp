@@ -15,26 +15,12 @@ namespace {
 
 constexpr float kControlWidth = 11;  // in heights of the font
 
-// Options that are no knobs (where the camera is, what happens to the picture afterwards), that the
-// viewer sets itself, or that have a place of their own in the panel.
-constexpr std::array kElsewhere{"size",    "camera",   "eye",     "at",    "up",   "fov",
-                                "ortho",   "crop",     "threads", "simd",  "mode", "quality",
-                                "disable", "exposure", "tonemap", "strict"};
-
-bool isElsewhere(const std::string& name) {
-  return std::find(kElsewhere.begin(), kElsewhere.end(), name) != kElsewhere.end();
-}
-
-// A list of the placeholder's words.
 template <typename Field>
 void drawChoice(const OptionSpec& spec, Field& field) {
   const std::string now = formatValue(spec, field);
-  if (!ImGui::BeginCombo(spec.name.c_str(), now.c_str())) return;
-  for (std::size_t begin = 0; begin <= spec.placeholder.size();) {
-    const std::size_t end = std::min(spec.placeholder.find('|', begin), spec.placeholder.size());
-    const std::string word = spec.placeholder.substr(begin, end - begin);
+  if (!ImGui::BeginCombo(spec.name.data(), now.c_str())) return;
+  for (const std::string& word : choicesOf(spec)) {
     if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
-    begin = end + 1;
   }
   ImGui::EndCombo();
 }
@@ -47,21 +33,21 @@ void drawNumber(const OptionSpec& spec, int& field) {
   constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
   const auto flags = ImGuiSliderFlags_AlwaysClamp |
                      (high - low > kShort ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-  if (ImGui::SliderInt(spec.name.c_str(), &value, low, high, "%d", flags)) field = value;
+  if (ImGui::SliderInt(spec.name.data(), &value, low, high, "%d", flags)) field = value;
 }
 
 void drawNumber(const OptionSpec& spec, float& field) {
   const auto low = static_cast<float>(std::max(spec.low, 0.0));
   const auto high = static_cast<float>(std::min(spec.high, 1.0));
   constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
-  ImGui::SliderFloat(spec.name.c_str(), &field, low, high, "%.1e", kFlags);
+  ImGui::SliderFloat(spec.name.data(), &field, low, high, "%.1e", kFlags);
 }
 
 template <typename Field>
 void drawKnob(const OptionSpec& spec, Field& field) {
   if constexpr (std::is_same_v<Field, bool>) {
-    ImGui::Checkbox(spec.name.c_str(), &field);
-  } else if (spec.placeholder.find('|') != std::string::npos) {
+    ImGui::Checkbox(spec.name.data(), &field);
+  } else if (!choicesOf(spec).empty()) {
     drawChoice(spec, field);
   } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
     drawNumber(spec, field);
@@ -115,12 +101,11 @@ void drawCost(const KnobCosts& costs, const std::string& name) {
 void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
   drawPresets(options);
   ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
-  forEachOption(options, [&](const std::string& name, const char* placeholder, const char* help,
-                             auto& field) {
-    if (isElsewhere(name)) return;
-    drawKnob(renderOptionSpec(name, placeholder), field);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
-    drawCost(costs, name);
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::knobs) return;
+    drawKnob(spec, field);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
+    drawCost(costs, std::string(spec.name));
   });
   ImGui::PopItemWidth();
 }
@@ -128,11 +113,14 @@ void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
 void drawDisplay(RenderOptions& options) {
   constexpr float kStops = 10;
   ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
-  ImGui::SliderFloat("exposure", &options.exposure, -kStops, kStops, "%+.2f EV");
-  forEachOption(options,
-                [&](const std::string& name, const char* placeholder, const char*, auto& field) {
-                  if (name == "tonemap") drawKnob(renderOptionSpec(name, placeholder), field);
-                });
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::picture) return;
+    if constexpr (std::is_same_v<decltype(field), float&>) {
+      ImGui::SliderFloat(spec.name.data(), &field, -kStops, kStops, "%+.2f EV");
+    } else {
+      drawKnob(spec, field);
+    }
+  });
   ImGui::PopItemWidth();
 }
 

@@ -7,7 +7,7 @@
 #include "cli/image_output.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
-#include "core/picture_options.h"
+#include "core/option_table.h"
 #include "io/atomic_file.h"
 #include "io/json_text.h"
 #include "io/paths.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/picture_options.h"
+#include "core/options.h"
 
 namespace whit::accuracy {
 
@@ -164,9 +164,9 @@ std::string digestOf(const Scene& scene) {
 
 std::string digestOf(const RenderOptions& options) {
   Digester d;
-  forEachOption(options, [&](const char* name, const char*, const char*, const auto& field) {
-    if (!changesPicture(name) || std::string_view(name) == "quality") return;
-    d.text(name);
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+    if (!spec.changesPicture || spec.name == "quality") return;
+    d.text(spec.name);
     add(d, field);
   });
   return d.hex();

@@ -32,7 +32,7 @@ class Digester {
 // Every table of the finalized scene that a picture can depend on. Its name, its own size, its
 // cameras and the reasons for its effects are left out: what is used of them comes from elsewhere.
 std::string digestOf(const Scene& scene);
-// Every option that can change a picture, those of changesPicture(), but the name of the preset:
+// Every option that can change a picture, but the name of the preset:
 // what it stands for is in the others.
 std::string digestOf(const RenderOptions& options);
 std::string digestOf(const Camera& camera);

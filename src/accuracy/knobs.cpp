@@ -1,11 +1,94 @@
 #include "accuracy/knobs.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "core/option_table.h"
+#include "core/option_values.h"
 
 namespace whit::accuracy {
+
+namespace {
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+std::string missing(const KnobSpec& spec, EffectSet effects) {
+  for (const Need& need : spec.needs) {
+    const bool needed = need.oneOf.bits() != 0;
+    if (needed && (need.oneOf.bits() & effects.bits()) == 0) return std::string(need.without);
+  }
+  return {};
+}
+
+std::string whereRaysBranch(EffectSet effects) {
+  if (!effects.has(Effect::transmission)) return {};
+  return "without a cutoff the rays of both impulses double with every bounce";
+}
+
+// A word as the option writes it, of all ways to write its value.
+std::string labelOf(const std::string& option, const std::string& word) {
+  RenderOptions options;
+  setOption(options, option, word);
+  return optionText(options, option);
+}
+
+// "--option value", repeated.
+void setAll(RenderOptions& options, const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
+    setOption(options, words[i].substr(2), words[i + 1]);
+  }
+}
+
+Knob knobOf(const std::string& name, const KnobSpec& spec) {
+  const std::string exact = labelOf(name, std::string(spec.exact));
+  const auto labels = [&](std::string_view text) {
+    std::vector<std::string> all = wordsOf(text);
+    for (std::string& word : all) word = labelOf(name, word);
+    return all;
+  };
+  const std::vector<std::string> crossed = labels(spec.crossed), spare = labels(spec.spare);
+  const auto isIn = [](const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  Knob knob{name, spec.cause, {}, nullptr, nullptr};
+  knob.idle = [spec](EffectSet effects) { return missing(spec, effects); };
+  knob.makeExact = [=, endless = spec.endless](RenderOptions& o, const Exactness& exactness) {
+    setOption(o, name, endless ? formatValue(OptionSpec{}, exactness.cutoff) : exact);
+  };
+  for (const std::string& label : labels(spec.values)) {
+    KnobValue value{label, nullptr, isIn(crossed, label), isIn(spare, label), nullptr, {}};
+    if (label == exact && spec.endless) value.idle = whereRaysBranch;
+    if (label != exact) value.alongside = wordsOf(spec.alongside);
+    std::vector<std::string> words{"--" + name, label};
+    words.insert(words.end(), value.alongside.begin(), value.alongside.end());
+    value.apply = [words](RenderOptions& o) { setAll(o, words); };
+    knob.values.push_back(value);
+  }
+  return knob;
+}
+
+std::vector<Knob> makeKnobs() {
+  std::vector<Knob> knobs;
+  const RenderOptions options;
+  forEachOption(options, [&](const OptionSpec& spec, const auto&) {
+    if (spec.knob) knobs.push_back(knobOf(std::string(spec.name), *spec.knob));
+  });
+  return knobs;
+}
+
+}  // namespace
+
+const std::vector<Knob>& allKnobs() {
+  static const std::vector<Knob> knobs = makeKnobs();
+  return knobs;
+}
 
 std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
   if (names.empty()) return allKnobs();

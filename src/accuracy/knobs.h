@@ -1,20 +1,14 @@
-// The options that trade accuracy for time. To sweep a new one, add a row to the table in
-// knob_table.cpp: its values, which of them is exact, what kind of error the others make, and in
-// which scenes it does nothing.
+// The options that trade accuracy for time, as the table of options in core/options.h has them.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "core/effects.h"
 #include "core/options.h"
 
 namespace whit::accuracy {
 
-// What an inexact value costs the picture: rounding (the same rays, computed otherwise), rays and
-// terms that are left out or approximated, or too few samples of a pixel.
-enum class Cause { arithmetic, algorithm, sampling };
 inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling"};
 
 // Why something does nothing, or cannot be done, in scenes with these effects; empty where it can.
@@ -23,13 +17,10 @@ using Idle = std::function<std::string(EffectSet)>;
 struct KnobValue {
   std::string label;  // as on the command line: --KNOB LABEL
   std::function<void(RenderOptions&)> apply;
-  bool joint = false;  // takes part in the combinations of a full sweep
-  Idle idle;           // null: wherever the knob does something
-  // What else it sets, as on the command line: other options that it needs to have an effect.
+  bool crossed = false, spare = false;  // see KnobSpec
+  Idle idle;                            // null: wherever the knob does something
+  // What else it sets, as on the command line.
   std::vector<std::string> alongside;
-  // Between others, or the same picture by construction: a quick sweep has it last, and does
-  // without when its minute is over.
-  bool spare = false;
 };
 
 // Where both a reflected and a refracted ray go on, rays double with every bounce, and only the

@@ -81,7 +81,7 @@ struct SceneSweep {
   std::string referenceDigest;
   double referenceMs = 0;
   bool referenceFromFile = false;
-  std::vector<Point> points;       // the baseline first, then in the order of the knob table
+  std::vector<Point> points;       // the baseline first, then in the order of the table of options
   std::vector<std::string> order;  // labels in the order in which they were measured
   std::vector<IdleKnob> idle;
   std::vector<StageDifference> stages;  // of the baseline

@@ -45,7 +45,7 @@ class PointCollector {
   std::set<std::string> seen_;
 };
 
-// All combinations of the knobs' joint values, named by what differs from `base`.
+// All combinations of the knobs' crossed values, named by what differs from `base`.
 std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
                                                                 const std::vector<Knob>& knobs) {
   std::vector<std::pair<std::string, RenderOptions>> all{{"", base}};
@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOpti
     std::vector<std::pair<std::string, RenderOptions>> more;
     for (const auto& [label, options] : all) {
       for (const KnobValue& value : knob.values) {
-        if (!value.joint) continue;
+        if (!value.crossed) continue;
         RenderOptions changed = options, alone = base;
         value.apply(changed);
         value.apply(alone);

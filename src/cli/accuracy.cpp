@@ -19,7 +19,7 @@
 #include "cli/progress_bar.h"
 #include "cli/stress_report.h"
 #include "core/error.h"
-#include "core/picture_options.h"
+#include "core/option_table.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
 

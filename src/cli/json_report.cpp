@@ -7,7 +7,7 @@
 #include "cli/info_rows.h"
 #include "cli/interrupt.h"
 #include "cli/machine_facts.h"
-#include "core/option_values.h"
+#include "core/option_table.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {
@@ -21,12 +21,7 @@ Json orNull(const std::optional<double>& value) { return value ? Json(*value) : 
 // The words of the options, as they are given on the command line.
 Json settingsJson(const RenderOptions& options) {
   Json json;
-  forEachOption(options, [&](const std::string& name, const char* placeholder, const char*,
-                             const auto& field) {
-    if (name == "mode" || name == "batch") {
-      json[name] = formatValue(renderOptionSpec(name, placeholder), field);
-    }
-  });
+  for (const char* name : {"mode", "batch"}) json[name] = optionText(options, name);
   json["robust"] = options.robust;
   return json;
 }

@@ -28,13 +28,12 @@ class OptionList {
   template <typename T>
   Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
     const std::string known = formatValue(spec, field);
-    const bool tell =
-        !spec.placeholder.empty() && !known.empty() && help.find('(') == std::string::npos;
+    const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
     return push(spec, tell ? help + " (default: " + known + ")" : help,
                 [spec, &field](const std::string& text) { parseValue(spec, text, field); });
   }
-  Entry& flag(const std::string& name, const std::string& help, bool& field) {
-    const OptionSpec spec{name, ""};
+  Entry& flag(std::string_view name, const std::string& help, bool& field) {
+    const OptionSpec spec{.name = name};
     return push(spec, help,
                 [spec, &field](const std::string& text) { parseValue(spec, text, field); });
   }
@@ -56,7 +55,8 @@ class OptionList {
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,
               std::function<void(const std::string&)> set) {
-    entries.push_back({group_, spec.name, "", spec.placeholder, help, false, std::move(set)});
+    entries.push_back(
+        {group_, std::string(spec.name), "", std::string(spec.words), help, false, std::move(set)});
     return entries.back();
   }
 

@@ -95,14 +95,13 @@ void listReportOptions(OptionList& list, CommonOptions& common) {
 
 void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.group("Rendering");
-  forEachOption(
-      common.render, [&](const char* name, const char* placeholder, const char* help, auto& field) {
-        OptionList::Entry& entry = list.value(renderOptionSpec(name, placeholder), help, field);
-        entry.set = [set = std::move(entry.set), &common, name](const std::string& text) {
-          set(text);
-          common.given.insert(name);
-        };
-      });
+  forEachOption(common.render, [&](const OptionSpec& spec, auto& field) {
+    OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
+    entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
+      set(text);
+      common.given.insert(name);
+    };
+  });
   list.group("Loading");
   list.flag("allow-outside", "the scene may name files outside its own folder",
             common.load.allowOutside);

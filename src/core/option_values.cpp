@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -13,7 +12,7 @@ namespace {
 
 [[noreturn]] void throwBadValue(const OptionSpec& spec, const std::string& text,
                                 const std::string& expected) {
-  throwUsage("--" + spec.name + ": expected " + expected + ", got '" + text + "'");
+  throwUsage("--" + std::string(spec.name) + ": expected " + expected + ", got '" + text + "'");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -24,11 +23,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
   }
   parts.push_back(text.substr(begin));
   return parts;
-}
-
-std::vector<std::string> choicesOf(const OptionSpec& spec) {
-  if (spec.placeholder.find('|') == std::string::npos) return {};
-  return split(spec.placeholder, '|');
 }
 
 // The whole text as a finite number.
@@ -70,32 +64,18 @@ std::string joined(const Vec3f& v) {
 
 }  // namespace
 
-OptionSpec renderOptionSpec(const std::string& name, const std::string& placeholder) {
-  OptionSpec spec{name, placeholder};
-  const auto limit = [&](const char* option, double low, double high) {
-    if (name == option) spec.low = low, spec.high = high;
-  };
-  limit("spp", 1, kSppLimit);
-  limit("contrast", 0, 255);
-  limit("depth", 0, kDepthLimit);
-  limit("glossy", 0, kGlossyLimit);
-  limit("cutoff", 0, 1);
-  limit("light-cutoff", 0, 1e6);
-  limit("threads", 0, kThreadLimit);
-  limit("fov", 0.001, 179);
-  limit("ortho", 0, 1e18);
-  limit("exposure", -64, 64);
-  limit("tile", 1, 4096);
-  limit("queue", 0, 1 << 24);
-  return spec;
+std::vector<std::string> choicesOf(const OptionSpec& spec) {
+  if (spec.words.find('|') == std::string_view::npos) return {};
+  return split(std::string(spec.words), '|');
 }
 
 int parseChoice(const OptionSpec& spec, const std::string& text) {
   const std::vector<std::string> choices = choicesOf(spec);
   const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end()) {
-    throwBadValue(spec, text,
-                  "one of " + spec.placeholder + " (nearest: " + nearestName(text, choices) + ")");
+    throwBadValue(
+        spec, text,
+        "one of " + std::string(spec.words) + " (nearest: " + nearestName(text, choices) + ")");
   }
   return static_cast<int>(found - choices.begin());
 }

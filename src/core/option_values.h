@@ -1,24 +1,13 @@
 // The text form of every kind of option value, both ways.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/options.h"
 
 namespace whit {
-
-// What a value may be. A placeholder with '|' lists the only words that are accepted; of an
-// enumeration they stand in the order of its enumerators.
-struct OptionSpec {
-  std::string name, placeholder;
-  double low = std::numeric_limits<double>::lowest();
-  double high = std::numeric_limits<double>::max();
-};
-
-// The specification of an option of forEachOption, with the limits of core/options.h.
-OptionSpec renderOptionSpec(const std::string& name, const std::string& placeholder);
 
 // Each throws Error(usage) that names the option, the text and what was expected.
 void parseValue(const OptionSpec& spec, const std::string& text, std::string& value);
@@ -31,7 +20,9 @@ void parseValue(const OptionSpec& spec, const std::string& text, Crop& value);
 void parseValue(const OptionSpec& spec, const std::string& text, Vec3f& value);
 void parseValue(const OptionSpec& spec, const std::string& text, EffectSet& value);
 
-// Which of the placeholder's words `text` is; throws naming the nearest one.
+// The words that an option takes; none if it takes others than those.
+std::vector<std::string> choicesOf(const OptionSpec& spec);
+// Which of them `text` is; throws naming the nearest one.
 int parseChoice(const OptionSpec& spec, const std::string& text);
 std::string choiceName(const OptionSpec& spec, int index);
 

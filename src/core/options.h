@@ -1,11 +1,14 @@
-// Every option of a render, declared once: forEachOption() is visited by the command-line parser,
-// by --help, and by the metadata written into images, so that none of them can disagree.
+// Every option of a render, declared once: a member of RenderOptions and its entry in
+// withOptions(). The command line, --help, the manual page, the metadata of images, the library,
+// what a renderer makes anew, the viewer's panel and the sweep of `whit accuracy` all follow from
+// the entry.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "core/effects.h"
+#include "core/option_spec.h"
 #include "core/shading_choices.h"
 #include "core/vec3.h"
 
@@ -32,11 +35,9 @@ struct Crop {
   bool operator==(const Crop&) const = default;
 };
 
-// Neighboring pixels that differ by more in some 8-bit code show an edge.
-inline constexpr int kDefaultContrast = 8;
-
 inline constexpr int kDepthLimit = 64;
 
+// In the order of their entries below.
 struct RenderOptions {
   std::optional<ImageSize> size;
   std::string camera;
@@ -45,16 +46,16 @@ struct RenderOptions {
   std::optional<Crop> crop;
   int spp = 1;
   bool adaptive = false;
-  int contrast = kDefaultContrast;
+  int contrast = 8;  // neighbors that differ by more in some 8-bit code show an edge
   int depth = kDepthLimit;
   int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
   float cutoff = 1.0e-4f;
+  ShadingChoices shading;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
   std::string simd = "auto";
   Mode mode = Mode::packets;
   Batch batch = Batch::tile;
-  ShadingChoices shading;
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
   EffectChoice effects = EffectChoice::automatic;
@@ -72,82 +73,239 @@ struct RenderOptions {
 };
 
 inline constexpr int kSppLimit = 4096;
-inline constexpr int kGlossyLimit = 64;
 inline constexpr int kImageSideLimit = 65536;
-inline constexpr int kThreadLimit = 1024;
 
-// Calls visit(name, placeholder, help, field) for each option, in the order of --help.
+// What is known of an option, and its value.
+template <typename Field>
+struct Option {
+  OptionSpec spec;
+  Field& field;
+};
+template <typename Field>
+Option(OptionSpec, Field&) -> Option<Field>;
+
+// Calls use(option, ...) with all options, in the order of --help.
+template <typename Options, typename Use>
+decltype(auto) withOptions(Options& o, Use&& use) {
+  // clang-format off
+  return use(
+      Option{{.name = "size", .words = "WxH",
+              .help = "image size in pixels (default: the scene's, else 480x300)",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.size},
+      Option{{.name = "camera", .words = "NAME",
+              .help = "one of the scene's cameras (default: the first)",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.camera},
+      Option{{.name = "eye", .words = "x,y,z", .help = "viewpoint",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.eye},
+      Option{{.name = "at", .words = "x,y,z", .help = "point looked at",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.at},
+      Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.up},
+      Option{{.name = "fov", .words = "DEG", .low = 0.001, .high = 179,
+              .help = "vertical field of view",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.fov},
+      Option{{.name = "ortho", .words = "HEIGHT", .low = 0, .high = 1e18,
+              .help = "parallel rays; height of the picture in the scene (0: perspective)",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.ortho},
+      Option{{.name = "crop", .words = "x0,y0,x1,y1",
+              .help = "pixels traced; the EXR's data window",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.crop},
+      Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
+              .help = "samples per pixel",
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
+                               .values = "1 2 4 8 16", .crossed = "1 4 16", .spare = "2"}},
+             o.spp},
+      // More samples than the 16 that are swept everywhere: they make up for the pixels that get
+      // few.
+      Option{{.name = "adaptive", .words = "on|off",
+              .help = "--spp samples only where neighbors differ in surface or contrast, elsewhere "
+                      "one",
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
+                               .alongside = "--spp 24"}},
+             o.adaptive},
+      Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
+              .help = "8-bit codes by which neighbors may differ before --adaptive acts",
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "8", .values = "8 4 16 24",
+                               .alongside = "--adaptive on --spp 24"}},
+             o.contrast},
+      Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
+              .help = "deepest impulse",
+              .cheapest = "0",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
+                               .values = "0 1 2 3 4 8 16 32 64", .crossed = "4 8 64",
+                               .spare = "1 3 16 32", .needs = {kNeedsImpulses}}},
+             o.depth},
+      // Its exact value is of each sample of the reference, which has many of a pixel.
+      Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
+              .help = "rays that sample the reflection of a rough surface, one where it is seen by "
+                      "such a ray or by an impulse; 0: rough surfaces reflect lights only",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "0",
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
+                               .spare = "1 4 16", .needs = {kNeedsGlossyReflection}}},
+             o.glossy},
+      Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
+              .help = "smallest contribution of an impulse that is still traced",
+              .cheapest = "0.004",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
+                               .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
+                               .crossed = "1e-4 1e-3 4e-3", .spare = "3e-4", .endless = true,
+                               .needs = {kNeedsImpulses}}},
+             o.cutoff},
+      Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
+              .help = "smallest contribution of a light to the pixel that is still added, and its "
+                      "shadow traced",
+              .cheapest = "0.004",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
+                               .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
+                               .needs = {kNeedsLights}}},
+             o.shading.lightCutoff},
+      Option{{.name = "fresnel", .words = "exact|schlick",
+              .help = "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
+              .cheapest = "schlick",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
+                               .values = "exact schlick", .needs = {kNeedsTransmission}}},
+             o.shading.fresnel},
+      Option{{.name = "texture-filter", .words = "nearest|bilinear|trilinear",
+              .help = "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "nearest",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
+                               .values = "bilinear nearest trilinear", .needs = {kNeedsTextures}}},
+             o.shading.textureFilter},
+      Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
+              .help = "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and "
+                      "more",
+              .cheapest = "fixed",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
+                               .values = "bound fixed wachter-binder",
+                               .spare = "fixed wachter-binder", .needs = {kNeedsSecondaryRays}}},
+             o.shading.offset},
+      Option{{.name = "terminator", .words = "on|off",
+              .help = "shadow rays from above the facets of smooth surfaces: no staircase where the "
+                      "light ends",
+              .cheapest = "off",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
+                               .spare = "on", .needs = {kNeedsVertexNormals, kNeedsShadows}}},
+             o.shading.terminator},
+      Option{{.name = "bend", .words = "on|off",
+              .help = "impulses that normal maps send to the wrong side of their surface are turned "
+                      "back",
+              .cheapest = "off",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
+                               .spare = "off", .needs = {kNeedsBentNormals, kNeedsImpulses}}},
+             o.shading.bend},
+      Option{{.name = "reciprocal", .words = "exact|refined|approximate",
+              .help = "1/sqrt of the kernels' normalizations: divided, or estimated with or without "
+                      "a Newton step",
+              .cheapest = "approximate",
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
+                               .values = "exact refined approximate",
+                               .spare = "refined approximate"}},
+             o.shading.reciprocal},
+      Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
+              .help = "workers (default: what affinity and cgroup quota allow)",
+              .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none},
+             o.threads},
+      Option{{.name = "packet", .words = "auto|1|4|8|16",
+              .help = "rays per packet (auto: widest the CPU runs natively)",
+              .rebuilds = Rebuild::workers,
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "1 4 8 16",
+                               .spare = "1 4 8 16"}},
+             o.packet},
+      Option{{.name = "simd", .words = "auto|avx3|avx2|sse4|sse2|neon|scalar",
+              .help = "kernel target, and the Embree ISA with it",
+              .rebuilds = Rebuild::acceleration, .tab = Tab::none},
+             o.simd},
+      Option{{.name = "mode", .words = "packets|reference",
+              .help = "vector pipeline in float, or the scalar recursive reference in double",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none,
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "reference",
+                               .values = "packets reference", .spare = "reference"}},
+             o.mode},
+      Option{{.name = "batch", .words = "tile|frame",
+              .help = "stages run over a tile at a time, or over the whole frame",
+              .rebuilds = Rebuild::workers, .changesPicture = false},
+             o.batch},
+      Option{{.name = "robust", .words = "on|off", .help = "Embree's watertight traversal",
+              .rebuilds = Rebuild::acceleration,
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
+                               .crossed = "on off"}},
+             o.robust},
+      Option{{.name = "retry", .words = "on|off",
+              .help = "robust rays that find nothing in a closed scene are traced once more",
+              .rebuilds = Rebuild::acceleration,
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
+                               .spare = "off"}},
+             o.retry},
+      Option{{.name = "bvh", .words = "low|medium|high",
+              .help = "Embree's build quality; high, for spatial splits, is ignored by Embree when "
+                      "robust",
+              .rebuilds = Rebuild::acceleration,
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
+                               .values = "low medium high", .spare = "low high"}},
+             o.bvh},
+      Option{{.name = "effects", .words = "auto|all",
+              .help = "kernels for what the scene calls for, or every effect",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "auto",
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
+                               .spare = "all"}},
+             o.effects},
+      Option{{.name = "quality", .words = "draft|standard|fine|reference",
+              .help = "presets of the other options",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.quality},
+      Option{{.name = "disable", .words = "a,b",
+              .help = "effects left out (the names that whit info prints)",
+              .rebuilds = Rebuild::tables, .tab = Tab::none},
+             o.disable},
+      Option{{.name = "exposure", .words = "EV", .low = -64, .high = 64,
+              .help = "exposure of 8-bit output",
+              .tab = Tab::picture},
+             o.exposure},
+      Option{{.name = "tonemap", .words = "none|filmic|reinhard",
+              .help = "tone curve of 8-bit output",
+              .tab = Tab::picture},
+             o.toneCurve},
+      Option{{.name = "film", .words = "float|half|8bit",
+              .help = "numbers that the picture is kept in before exposure; 8bit: sRGB codes",
+              .cheapest = "float",
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "float",
+                               .values = "float half 8bit", .spare = "half 8bit"}},
+             o.film},
+      Option{{.name = "srgb", .words = "exact|table", .help = "how 8-bit codes are found",
+              .cheapest = "table",
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
+                               .values = "exact table", .spare = "table"}},
+             o.srgb},
+      Option{{.name = "tile", .words = "N", .low = 1, .high = 4096,
+              .help = "side of a tile in pixels",
+              .rebuilds = Rebuild::workers, .changesPicture = false},
+             o.tile},
+      Option{{.name = "queue", .words = "N", .low = 0, .high = 1 << 24,
+              .help = "rays a queue holds before the deeper one is drained (0: one tile)",
+              .rebuilds = Rebuild::workers, .changesPicture = false},
+             o.queue},
+      Option{{.name = "strict",
+              .help = "anything that would be repaired and counted is an error",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+             o.strict});
+  // clang-format on
+}
+
+// Calls visit(spec, field) for each option.
 template <typename Options, typename Visitor>
 void forEachOption(Options& o, Visitor&& visit) {
-  visit("size", "WxH", "image size in pixels (default: the scene's, else 480x300)", o.size);
-  visit("camera", "NAME", "one of the scene's cameras (default: the first)", o.camera);
-  visit("eye", "x,y,z", "viewpoint", o.eye);
-  visit("at", "x,y,z", "point looked at", o.at);
-  visit("up", "x,y,z", "direction that is up in the image", o.up);
-  visit("fov", "DEG", "vertical field of view", o.fov);
-  visit("ortho", "HEIGHT", "parallel rays; height of the picture in the scene (0: perspective)",
-        o.ortho);
-  visit("crop", "x0,y0,x1,y1", "pixels traced; the EXR's data window", o.crop);
-  visit("spp", "N", "samples per pixel", o.spp);
-  visit("adaptive", "on|off",
-        "--spp samples only where neighbors differ in surface or contrast, elsewhere one",
-        o.adaptive);
-  visit("contrast", "N", "8-bit codes by which neighbors may differ before --adaptive acts",
-        o.contrast);
-  visit("depth", "N", "deepest impulse", o.depth);
-  visit("glossy", "N",
-        "rays that sample the reflection of a rough surface, one where it is seen by such a ray or "
-        "by an impulse; 0: rough surfaces reflect lights only",
-        o.glossy);
-  visit("cutoff", "X", "smallest contribution of an impulse that is still traced", o.cutoff);
-  visit("light-cutoff", "X",
-        "smallest contribution of a light to the pixel that is still added, and its shadow traced",
-        o.shading.lightCutoff);
-  visit("fresnel", "exact|schlick",
-        "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
-        o.shading.fresnel);
-  visit("texture-filter", "nearest|bilinear|trilinear",
-        "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
-        o.shading.textureFilter);
-  visit("offset", "bound|fixed|wachter-binder",
-        "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and more",
-        o.shading.offset);
-  visit("terminator", "on|off",
-        "shadow rays from above the facets of smooth surfaces: no staircase where the light ends",
-        o.shading.terminator);
-  visit("bend", "on|off",
-        "impulses that normal maps send to the wrong side of their surface are turned back",
-        o.shading.bend);
-  visit(
-      "reciprocal", "exact|refined|approximate",
-      "1/sqrt of the kernels' normalizations: divided, or estimated with or without a Newton step",
-      o.shading.reciprocal);
-  visit("threads", "N", "workers (default: what affinity and cgroup quota allow)", o.threads);
-  visit("packet", "auto|1|4|8|16", "rays per packet (auto: widest the CPU runs natively)",
-        o.packet);
-  visit("simd", "auto|avx3|avx2|sse4|sse2|neon|scalar", "kernel target, and the Embree ISA with it",
-        o.simd);
-  visit("mode", "packets|reference",
-        "vector pipeline in float, or the scalar recursive reference in double", o.mode);
-  visit("batch", "tile|frame", "stages run over a tile at a time, or over the whole frame",
-        o.batch);
-  visit("robust", "on|off", "Embree's watertight traversal", o.robust);
-  visit("retry", "on|off", "robust rays that find nothing in a closed scene are traced once more",
-        o.retry);
-  visit("bvh", "low|medium|high",
-        "Embree's build quality; high, for spatial splits, is ignored by Embree when robust",
-        o.bvh);
-  visit("effects", "auto|all", "kernels for what the scene calls for, or every effect", o.effects);
-  visit("quality", "draft|standard|fine|reference", "presets of the other options", o.quality);
-  visit("disable", "a,b", "effects left out (the names that whit info prints)", o.disable);
-  visit("exposure", "EV", "exposure of 8-bit output", o.exposure);
-  visit("tonemap", "none|filmic|reinhard", "tone curve of 8-bit output", o.toneCurve);
-  visit("film", "float|half|8bit",
-        "numbers that the picture is kept in before exposure; 8bit: sRGB codes", o.film);
-  visit("srgb", "exact|table", "how 8-bit codes are found", o.srgb);
-  visit("tile", "N", "side of a tile in pixels", o.tile);
-  visit("queue", "N", "rays a queue holds before the deeper one is drained (0: one tile)", o.queue);
-  visit("strict", "", "anything that would be repaired and counted is an error", o.strict);
+  withOptions(o, [&](const auto&... option) { (visit(option.spec, option.field), ...); });
 }
 
 }  // namespace whit

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
-#include "core/option_values.h"
+#include "core/option_table.h"
 #include "core/quality.h"
 #include "core/version.h"
 #include "io/image_file.h"
@@ -30,27 +29,6 @@ decltype(auto) guarded(Body&& body) {
     const Failure failure = failureOf(error);
     throw Error(static_cast<int>(failure.status), failure.what);
   }
-}
-
-[[noreturn]] void throwUnknownOption(const std::string& name) {
-  std::vector<std::string> names;
-  const RenderOptions options;
-  forEachOption(options, [&](const char* known, const char*, const char*, const auto&) {
-    names.emplace_back(known);
-  });
-  throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
-}
-
-// Calls visit(spec, field) for the option of this name.
-template <typename Options, typename Visitor>
-void visitOption(Options& options, const std::string& name, Visitor&& visit) {
-  bool found = false;
-  forEachOption(options, [&](const char* known, const char* placeholder, const char*, auto& field) {
-    if (name != known) return;
-    found = true;
-    visit(renderOptionSpec(name, placeholder), field);
-  });
-  if (!found) throwUnknownOption(name);
 }
 
 FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
@@ -220,8 +198,7 @@ Renderer::~Renderer() = default;
 
 Renderer& Renderer::set(const std::string& name, const std::string& value) {
   return guarded([&]() -> Renderer& {
-    visitOption(data_->options, name,
-                [&](const OptionSpec& spec, auto& field) { parseValue(spec, value, field); });
+    setOption(data_->options, name, value);
     data_->given.insert(name);
     data_->changed = true;
     return *this;
@@ -232,11 +209,7 @@ std::string Renderer::get(const std::string& name) const {
   return guarded([&] {
     RenderOptions settled = data_->options;
     applyQuality(settled, data_->given);
-    std::string text;
-    visitOption(settled, name, [&](const OptionSpec& spec, const auto& field) {
-      text = formatValue(spec, field);
-    });
-    return text;
+    return optionText(settled, name);
   });
 }
 

@@ -17,21 +17,9 @@
 namespace whit::reference {
 
 struct Settings {
-  int spp = 1;
-  // Several samples only where findEdges says so, in the picture of pixels' centers as it would be
-  // displayed, and all of them only where the probe samples do.
-  bool adaptive = false;
-  int contrast = kDefaultContrast;
-  float exposure = 0;
-  ToneCurve toneCurve = ToneCurve::none;
-  SrgbEncoding srgb = SrgbEncoding::exact;
-  FilmPrecision film = FilmPrecision::single;
-  int depth = 8;
-  int glossy = 0;
-  double cutoff = 3.0e-4;
-  ShadingChoices shading;
+  RenderOptions options;
   EffectSet effects = EffectSet::all();  // effects the scene has and that are not disabled
-  int threads = 1;
+  int threads = 1;                       // whatever the options say
 };
 
 struct RayCounts {
@@ -79,7 +67,8 @@ class Tracer {
 
   const Scene& scene_;
   const Intersector& intersector_;
-  Settings settings_;
+  RenderOptions options_;
+  EffectSet effects_;
   std::vector<Vec2f> samples_;
   std::optional<MipMaps> maps_;  // where lookups are trilinear
 };

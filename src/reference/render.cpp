@@ -43,7 +43,7 @@ RayCounts traceCenters(const Tracer& tracer, const CameraFrame& frame, const Set
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
       first.surfaces[image.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
-      image.at(x, y) = quantized(settings.film, Rgb(tracer.center(frame, x, y, rowCounts)));
+      image.at(x, y) = quantized(settings.options.film, Rgb(tracer.center(frame, x, y, rowCounts)));
     }
   });
 }
@@ -52,18 +52,19 @@ RayCounts traceCenters(const Tracer& tracer, const CameraFrame& frame, const Set
 RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                       const Crop& window, const std::vector<std::uint8_t>& edges,
                       FirstPicture& first, ProbeSamples& probes, Progress* progress) {
-  const double scale = std::exp2(static_cast<double>(settings.exposure));
-  const int samples = std::min(settings.spp, kProbeSamples);
+  const RenderOptions& options = settings.options;
+  const double scale = std::exp2(static_cast<double>(options.exposure));
+  const int samples = std::min(options.spp, kProbeSamples);
   const auto trace = [&](int x, int y, RayCounts& counts) {
     PixelProbes& own = probes.at(x, y);
     for (int s = 0; s < samples; ++s) {
       const auto number = static_cast<std::size_t>(s);
       const RgbD value = tracer.sample(frame, x, y, number, counts);
       own.total += (value - own.total) / (s + 1.0);
-      const auto codes = displayCodes(Rgb(value), scale, settings.toneCurve, settings.srgb);
+      const auto codes = displayCodes(Rgb(value), scale, options.toneCurve, options.srgb);
       own.codes[number] = codes[0] | std::uint32_t{codes[1]} << 8 | std::uint32_t{codes[2]} << 16;
     }
-    first.image.at(x, y) = quantized(settings.film, Rgb(own.total));
+    first.image.at(x, y) = quantized(options.film, Rgb(own.total));
   };
   return forEachRow(window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = window.x0; x < window.x1; ++x) {
@@ -72,10 +73,11 @@ RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Sett
   });
 }
 
-// The centers of all pixels first; where that picture has edges then the probe samples, and all
-// where these differ.
+// The centers of all pixels first; where that picture, as it would be displayed, has edges then the
+// probe samples, and all where these differ.
 RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                            Image& image, Progress* progress) {
+  const RenderOptions& options = settings.options;
   FirstPicture first;
   first.image =
       Image(image.width, image.height, grown(image.window, kPassReach, image.width, image.height));
@@ -83,24 +85,24 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   RayCounts counts = traceCenters(tracer, frame, settings, first, progress);
   std::vector<std::uint8_t> edges(first.image.pixels.size());
   const DisplayImage display =
-      toDisplay(first.image, settings.exposure, settings.toneCurve, settings.srgb);
-  findEdges(display, first.surfaces, settings.contrast, 0, first.image.windowHeight(), edges);
+      toDisplay(first.image, options.exposure, options.toneCurve, options.srgb);
+  findEdges(display, first.surfaces, options.contrast, 0, first.image.windowHeight(), edges);
   ProbeSamples probes(first.image.window, edges,
-                      samplePattern(std::max(settings.spp, kProbeSamples)));
+                      samplePattern(std::max(options.spp, kProbeSamples)));
   counts += traceProbes(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
                         edges, first, probes, progress);
   const auto refined = [&](int x, int y, RayCounts& rowCounts) {
     RgbD mean = probes.at(x, y).total;
-    for (int s = kProbeSamples; s < settings.spp; ++s) {
+    for (int s = kProbeSamples; s < options.spp; ++s) {
       const auto number = static_cast<std::size_t>(s);
       mean += (tracer.sample(frame, x, y, number, rowCounts) - mean) / (s + 1.0);
     }
-    return quantized(settings.film, Rgb(mean));
+    return quantized(options.film, Rgb(mean));
   };
   counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      const bool more = settings.spp > kProbeSamples && edges[first.image.index(x, y)] != 0 &&
-                        probes.differ(x, y, settings.contrast);
+      const bool more = options.spp > kProbeSamples && edges[first.image.index(x, y)] != 0 &&
+                        probes.differ(x, y, options.contrast);
       image.at(x, y) = more ? refined(x, y, rowCounts) : first.image.at(x, y);
     }
   });
@@ -114,10 +116,12 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   frame.media = initialMediumStack(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
-  if (settings.adaptive) return renderAdaptively(tracer, frame, settings, image, progress);
+  if (settings.options.adaptive && settings.options.spp > 1) {
+    return renderAdaptively(tracer, frame, settings, image, progress);
+  }
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
     for (int x = image.window.x0; x < image.window.x1; ++x) {
-      image.at(x, y) = quantized(settings.film, Rgb(tracer.pixel(frame, x, y, counts)));
+      image.at(x, y) = quantized(settings.options.film, Rgb(tracer.pixel(frame, x, y, counts)));
     }
   });
 }

@@ -34,44 +34,43 @@ PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
 Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
     : scene_(scene),
       intersector_(intersector),
-      settings_(settings),
-      samples_(samplePattern(settings.spp)) {
-  if (settings.shading.textureFilter == TextureFilter::trilinear) {
+      options_(settings.options),
+      effects_(settings.effects),
+      samples_(samplePattern(options_.spp)) {
+  if (options_.shading.textureFilter == TextureFilter::trilinear) {
     maps_.emplace(scene, settings.threads);
   }
 }
 
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                           RayCounts& counts, Path path) const {
-  const bool absorbs = settings_.effects.has(Effect::absorption) && media != 0;
+  const bool absorbs = effects_.has(Effect::absorption) && media != 0;
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) {
-    const RgbD sky = skyAlong(scene_, settings_.effects, ray.direction);
+    const RgbD sky = skyAlong(scene_, effects_, ray.direction);
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     return absorbs ? sky * transmittance(scene_, media, kForEver) : sky;
   }
 
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  const TextureLookup lookup{settings_.shading.textureFilter,
+  const TextureLookup lookup{options_.shading.textureFilter,
                              maps_ ? &*maps_ : nullptr,
                              {ray.cone.widthAt(hit.t), ray.cone.spread}};
-  const Surfel surfel =
-      makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction, lookup);
-  const Crossing crossing =
-      crossMedia(scene_, settings_.effects, surfel.material, surfel.entering, media);
+  const Surfel surfel = makeSurfel(scene_, effects_, candidate, hit, ray.direction, lookup);
+  const Crossing crossing = crossMedia(scene_, effects_, surfel.material, surfel.entering, media);
 
   const double left = throughput * maxComponent(arrives);
   RgbD radiance;
   if (!crossing.hidden) {
-    radiance = emittedAndAmbient(scene_, settings_.effects, surfel);
-    if (settings_.effects.has(Effect::lights)) {
+    radiance = emittedAndAmbient(scene_, effects_, surfel);
+    if (effects_.has(Effect::lights)) {
       radiance += radianceFromLights(surfel, left, counts);
     }
   }
-  if (depth < settings_.depth) {
+  if (depth < options_.depth) {
     const Impulses children =
-        findImpulses(scene_, settings_.effects, surfel, crossing, media, settings_.shading);
+        findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
     const float kept = crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare();
     const double counted = left * double{kept};
     RgbD reflected = follow(children.reflected, depth + 1, counted, counts.reflection, counts,
@@ -90,15 +89,15 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
 RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth,
                              double throughput, std::uint32_t media, RayCounts& counts,
                              Path path) const {
-  if (settings_.glossy == 0 || !settings_.effects.has(Effect::glossyReflection)) return {};
+  if (options_.glossy == 0 || !effects_.has(Effect::glossyReflection)) return {};
   if (crossing.hidden || !scene_.materials[surfel.material].hasGlossyReflection()) return {};
-  const LobeSampling sampling = lobeSampling(depth, settings_.glossy, path.sample);
+  const LobeSampling sampling = lobeSampling(depth, options_.glossy, path.sample);
   const int rays = lobeRays(surfel, sampling);
   RgbD sum;
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = lobePoint(path.number, sampling, k);
-    sum += follow(glossyImpulse(surfel, media, at, settings_.shading), depth + 1, throughput,
+    sum += follow(glossyImpulse(surfel, media, at, options_.shading), depth + 1, throughput,
                   counts.reflection, counts, childOf(path, kFirstGlossyBranch + k));
   }
   return sum / rays;
@@ -109,7 +108,7 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
                     RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
-  if (!(largest > 0 && contribution >= settings_.cutoff)) return {};
+  if (!(largest > 0 && contribution >= options_.cutoff)) return {};
   ++counter;
   return impulse.weight *
          traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
@@ -118,11 +117,10 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
 RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const {
   RgbD sum;
   for (const Light& light : scene_.lights) {
-    const LightArrival arrival =
-        radianceFromLight(settings_.effects, surfel, light, settings_.shading);
+    const LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading);
     const double largest = maxComponent(arrival.radiance);
-    if (!(largest > 0 && throughput * largest >= settings_.shading.lightCutoff)) continue;
-    if (settings_.effects.has(Effect::shadows)) {
+    if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
+    if (effects_.has(Effect::shadows)) {
       ++counts.shadow;
       if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;
     }
@@ -162,7 +160,7 @@ PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) co
   Candidate candidate;
   if (!intersector_.closest(ray, candidate)) return {};
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const Surfel s = makeSurfel(scene_, settings_.effects, candidate, hit, ray.direction);
+  const Surfel s = makeSurfel(scene_, effects_, candidate, hit, ray.direction);
   return surfaceOf(s, candidate);
 }
 

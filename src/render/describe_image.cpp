@@ -1,7 +1,7 @@
 #include "render/describe_image.h"
 
+#include "core/option_table.h"
 #include "core/option_values.h"
-#include "core/picture_options.h"
 #include "core/version.h"
 
 namespace whit {

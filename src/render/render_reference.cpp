@@ -21,21 +21,7 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
 }
 
 reference::Settings Renderer::referenceSettings() const {
-  reference::Settings settings;
-  settings.spp = options_.spp;
-  settings.adaptive = adaptive();
-  settings.contrast = options_.contrast;
-  settings.exposure = options_.exposure;
-  settings.toneCurve = options_.toneCurve;
-  settings.srgb = options_.srgb;
-  settings.film = options_.film;
-  settings.depth = options_.depth;
-  settings.glossy = options_.glossy;
-  settings.cutoff = static_cast<double>(options_.cutoff);
-  settings.shading = options_.shading;
-  settings.effects = plan_.effects;
-  settings.threads = machine_.threads;
-  return settings;
+  return {options_, plan_.effects, machine_.threads};
 }
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {

@@ -1,43 +1,12 @@
 // What may change from frame to frame: options, materials and lights.
 #include "core/error.h"
+#include "core/option_table.h"
 #include "render/build_tables.h"
 #include "render/renderer.h"
 
 namespace whit {
 
 namespace {
-
-// What Renderer::setOptions() takes over.
-void takeOver(const RenderOptions& from, RenderOptions& to) {
-  to.spp = from.spp;
-  to.adaptive = from.adaptive;
-  to.contrast = from.contrast;
-  to.depth = from.depth;
-  to.glossy = from.glossy;
-  to.cutoff = from.cutoff;
-  to.shading = from.shading;
-  to.exposure = from.exposure;
-  to.toneCurve = from.toneCurve;
-  to.film = from.film;
-  to.srgb = from.srgb;
-  to.effects = from.effects;
-  to.disable = from.disable;
-}
-
-// What is said to each frame anew, or means nothing to a renderer.
-void takeOverFrame(const RenderOptions& from, RenderOptions& to) {
-  to.size = from.size;
-  to.crop = from.crop;
-  to.camera = from.camera;
-  to.eye = from.eye;
-  to.at = from.at;
-  to.up = from.up;
-  to.fov = from.fov;
-  to.ortho = from.ortho;
-  to.mode = from.mode;
-  to.quality = from.quality;
-  to.strict = from.strict;
-}
 
 // What the acceleration structure has built in of a plan's effects.
 EffectSet builtIn(const Plan& plan) {
@@ -74,18 +43,17 @@ void Renderer::setOptions(const RenderOptions& options) {
         "anew");
   }
   const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
-  if (plan.effects != plan_.effects || lacksMips) {
+  if (rebuildNeeded(options_, options) >= Rebuild::tables &&
+      (plan.effects != plan_.effects || lacksMips)) {
     tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
   }
   replan(std::move(plan));
-  takeOver(options, options_);
+  takeOver(options, Rebuild::tables, options_);
 }
 
 bool Renderer::canSetOptions(const RenderOptions& options) const {
-  RenderOptions reached = options_;
-  takeOver(options, reached);
-  takeOverFrame(options, reached);
-  return reached == options && builtIn(makePlan(scene_, options)) == builtIn(plan_);
+  return rebuildNeeded(options_, options) <= Rebuild::tables &&
+         builtIn(makePlan(scene_, options)) == builtIn(plan_);
 }
 
 }  // namespace whit

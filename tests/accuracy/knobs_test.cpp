@@ -1,4 +1,4 @@
-// The table of knobs against the options of the command line.
+// The knobs against the options of the command line.
 #include "accuracy/knobs.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "accuracy/digest.h"
 #include "cli/parse_options.h"
 #include "core/error.h"
-#include "core/picture_options.h"
+#include "core/option_table.h"
 
 namespace whit::accuracy {
 namespace {

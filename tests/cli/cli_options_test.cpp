@@ -131,14 +131,13 @@ TEST(Options, EveryChoiceGoesBothWays) {
     options.effects = EffectChoice::all;
     options.toneCurve = ToneCurve::reinhard;
     options.packet = 4;
-    forEachOption(
-        options, [&](const char* name, const char* placeholder, const char*, const auto& field) {
-          roundTrip(std::decay_t<decltype(field)>{}, renderOptionSpec(name, placeholder), field);
-        });
+    forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+      roundTrip(std::decay_t<decltype(field)>{}, spec, field);
+    });
   }
 }
 
-// The words of a placeholder stand in the order of the enumeration.
+// The words of an option stand in the order of the enumeration.
 TEST(Options, ChoicesAreNamedRight) {
   EXPECT_EQ(parsed({"--mode", "reference"}).render.mode, Mode::reference);
   EXPECT_EQ(parsed({"--effects", "auto"}).render.effects, EffectChoice::automatic);

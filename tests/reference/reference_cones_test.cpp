@@ -46,7 +46,7 @@ Scene floorOf(Texture texture) {
 
 RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
   Settings settings = uncut(depth);
-  settings.shading.textureFilter = TextureFilter::trilinear;
+  settings.options.shading.textureFilter = TextureFilter::trilinear;
   const BruteForce bruteForce(scene);
   RayCounts counts;
   return Tracer(scene, bruteForce, settings).traceImpulse(ray, 0, 1, 0, counts);

@@ -100,7 +100,7 @@ TEST(Absorption, ShortensPathsThroughTheCutoff) {
   addSlab(builder, 0, -1, builder.add(dark));
   builder.sky(1);
   Settings settings = test::uncut();
-  settings.cutoff = 1e-3;
+  settings.options.cutoff = 1e-3f;
   RayCounts counts;
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
   EXPECT_EQ(counts.refraction, 1u) << "exp(-10) is below the cutoff: the way out is not traced";

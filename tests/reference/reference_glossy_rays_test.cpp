@@ -206,7 +206,7 @@ Material rough(float f0, float roughness) {
 
 Settings sampled(int glossy) {
   Settings settings = test::uncut();
-  settings.glossy = glossy;
+  settings.options.glossy = glossy;
   return settings;
 }
 
@@ -253,7 +253,7 @@ TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   const Scene scene = builder.build();
   for (const int depth : {1, 3}) {
     Settings settings = sampled(16);
-    settings.depth = depth;
+    settings.options.depth = depth;
     RayCounts counts;
     test::radianceAlong(scene, {0, 1, 0}, test::steep(20), settings, &counts);
     EXPECT_LE(counts.reflection, 16u * static_cast<unsigned>(depth));
@@ -283,7 +283,7 @@ TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
   builder.sky(1);
   const Scene scene = builder.build();
   Settings settings = sampled(64);
-  settings.cutoff = 0.01;  // between the weight of the lobe and that of one of its samples
+  settings.options.cutoff = 0.01f;  // between the weight of the lobe and that of one of its samples
   RayCounts counts;
   test::radianceAlong(scene, {0, 1, 0}, test::steep(5), settings, &counts);
   EXPECT_GT(counts.reflection, 32u);

@@ -85,7 +85,7 @@ TEST(Pixel, MeanOfEqualSamplesIsExact) {
   const CameraFrame frame = makeCameraFrame(up, 8, 8);
   for (const int spp : {1, 2, 3, 5, 16, 1000}) {
     Settings settings;
-    settings.spp = spp;
+    settings.options.spp = spp;
     RayCounts counts;
     EXPECT_EQ(Tracer(scene, bruteForce, settings).pixel(frame, 3, 4, counts), RgbD(Rgb(0.1f)));
     EXPECT_EQ(counts.primary, static_cast<std::uint64_t>(spp));
@@ -105,7 +105,7 @@ TEST(Pixel, IsTheMeanOverTheSamplePattern) {
   const CameraFrame frame = makeCameraFrame(Camera{}, 9, 9);
   for (const int spp : {4, 7, 64}) {
     Settings settings;
-    settings.spp = spp;
+    settings.options.spp = spp;
     int left = 0;
     for (const Vec2f& sample : samplePattern(spp)) left += sample.x <= 0.5f;
     RayCounts counts;
@@ -120,7 +120,7 @@ TEST(Render, DoesNotDependOnThreads) {
   const Scene scene = stillLife();
   const BruteForce bruteForce(scene);
   Settings settings;
-  settings.spp = 2;
+  settings.options.spp = 2;
   Image one(40, 25);
   const RayCounts counts = render(scene, bruteForce, scene.cameras[0], settings, one);
   EXPECT_EQ(counts.primary, 2000u);

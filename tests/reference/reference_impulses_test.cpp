@@ -176,16 +176,16 @@ TEST_F(HallOfMirrors, SumsTheSeries) {
 TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
   const Scene scene = hall(0.5f);
   Settings settings = test::uncut(64);
-  const auto seenWith = [&](double cutoff, std::uint64_t reflections) {
-    settings.cutoff = cutoff;
+  const auto seenWith = [&](float cutoff, std::uint64_t reflections) {
+    settings.options.cutoff = cutoff;
     RayCounts counts;
     const double seen = radianceAlong(scene, eye_, direction_, settings, &counts).x;
     EXPECT_EQ(counts.reflection, reflections) << cutoff;
     return seen;
   };
-  EXPECT_EQ(seenWith(0.1, 3), 1.875);
+  EXPECT_EQ(seenWith(0.1f, 3), 1.875);
   EXPECT_EQ(seenWith(0.125, 3), 1.875) << "what contributes just the cutoff is traced";
-  EXPECT_EQ(seenWith(0.126, 2), 1.75);
+  EXPECT_EQ(seenWith(0.126f, 2), 1.75);
   EXPECT_EQ(seenWith(2, 0), 1);
 }
 

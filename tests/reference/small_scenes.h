@@ -17,8 +17,8 @@ inline Vec3d steep(double degrees) {
 // Depth 8, no cutoff: contributions are all counted.
 inline reference::Settings uncut(int depth = 8) {
   reference::Settings settings;
-  settings.depth = depth;
-  settings.cutoff = 0;
+  settings.options.depth = depth;
+  settings.options.cutoff = 0;
   return settings;
 }
 

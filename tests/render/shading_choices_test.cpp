@@ -162,7 +162,7 @@ TEST(LightCutoff, DecidesByTheContributionToThePixel) {
   const Scene scene = builder.build();
   const auto seen = [&](double y, bool lookUp, double cutoff) {
     reference::Settings settings = uncut();
-    settings.shading.lightCutoff = static_cast<float>(cutoff);
+    settings.options.shading.lightCutoff = static_cast<float>(cutoff);
     reference::RayCounts counts;
     const RgbD light =
         radianceAlong(scene, {0, y, 0}, {0, lookUp ? 1.0 : -1.0, 0}, settings, &counts);

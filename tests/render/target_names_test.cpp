@@ -1,7 +1,7 @@
 // Whatever Highway's version makes of the kernels can be asked for by its name.
 #include <gtest/gtest.h>
 
-#include "core/option_values.h"
+#include "core/option_table.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -10,10 +10,7 @@ namespace {
 // As the command line would take it.
 std::string takenBySimd(const std::string& text) {
   RenderOptions options;
-  forEachOption(options,
-                [&](const std::string& name, const char* placeholder, const char*, auto& field) {
-                  if (name == "simd") parseValue(renderOptionSpec(name, placeholder), text, field);
-                });
+  setOption(options, "simd", text);
   return options.simd;
 }
 

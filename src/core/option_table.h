@@ -1,0 +1,26 @@
+// Questions to the table of options in core/options.h.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/options.h"
+
+namespace whit {
+
+// The option of this name, set to what the text says or as text. Throws Error(usage): for a name
+// that there is not it names the nearest one.
+void setOption(RenderOptions& options, const std::string& name, const std::string& text);
+std::string optionText(const RenderOptions& options, const std::string& name);
+
+// Name and value of every option that can change the picture and says anything, in the order of the
+// table.
+std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options);
+
+// What a renderer with options `a` has to make anew for frames with options `b`.
+Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b);
+// The options that need no more than `most` made anew.
+void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
+
+}  // namespace whit

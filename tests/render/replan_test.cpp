@@ -1,0 +1,37 @@
+// What a renderer makes anew when its options change.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/option_table.h"
+#include "render/plan.h"
+
+namespace whit {
+namespace {
+
+// Renderer::setOptions() keeps the shading tables after changes of options that are said not to
+// touch them.
+TEST(Replan, OnlyOptionsOfTheTablesChangeWhatTablesAreMadeFrom) {
+  Scene scene;
+  scene.effects = EffectSet::all();
+  for (const char* filter : {"bilinear", "trilinear"}) {
+    RenderOptions base;
+    base.glossy = 1;
+    setOption(base, "texture-filter", filter);
+    const Plan plan = makePlan(scene, base);
+    forEachOption(std::as_const(base), [&](const OptionSpec& spec, const auto&) {
+      if (!spec.knob || spec.rebuilds >= Rebuild::tables) return;
+      std::istringstream values{std::string(spec.knob->values)};
+      for (std::string value; values >> value;) {
+        RenderOptions options = base;
+        setOption(options, std::string(spec.name), value);
+        const Plan other = makePlan(scene, options);
+        EXPECT_EQ(other.effects, plan.effects) << spec.name << " " << value;
+        EXPECT_EQ(other.groups.cones, plan.groups.cones) << spec.name << " " << value;
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,116 @@
+// The table of options: what its entries say fits the options that they are about.
+#include "core/option_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/option_values.h"
+
+namespace whit {
+namespace {
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+TEST(OptionTable, EachEntryIsAboutAMemberOfItsOwn) {
+  const RenderOptions options;
+  const char* last = nullptr;
+  std::set<std::string_view> names;
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+    const char* const place = reinterpret_cast<const char*>(&field);
+    EXPECT_TRUE(!last || place > last) << spec.name;
+    last = place;
+    EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+  });
+}
+
+TEST(OptionTable, DefaultsAreWithinTheLimits) {
+  const RenderOptions options;
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+    auto read = field;
+    const std::string text = formatValue(spec, field);
+    if (!text.empty()) {
+      EXPECT_NO_THROW(parseValue(spec, text, read));
+    }
+    EXPECT_EQ(read, field) << spec.name;
+  });
+}
+
+TEST(OptionTable, WordsOfKnobsAreValues) {
+  const RenderOptions defaults;
+  forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
+    const std::string name(spec.name);
+    RenderOptions options;
+    if (!spec.cheapest.empty()) {
+      EXPECT_NO_THROW(setOption(options, name, std::string(spec.cheapest))) << name;
+    }
+    if (!spec.knob) return;
+    EXPECT_TRUE(spec.changesPicture) << name;
+    EXPECT_NO_THROW(setOption(options, name, std::string(spec.knob->exact))) << name;
+    const std::vector<std::string> values = wordsOf(spec.knob->values);
+    EXPECT_GE(values.size(), 2u) << name;
+    for (const std::string& word : values) {
+      EXPECT_NO_THROW(setOption(options, name, word)) << name << " " << word;
+    }
+    for (const std::string_view list : {spec.knob->crossed, spec.knob->spare}) {
+      for (const std::string& word : wordsOf(list)) {
+        EXPECT_NE(std::find(values.begin(), values.end(), word), values.end()) << name << word;
+      }
+    }
+    const std::vector<std::string> alongside = wordsOf(spec.knob->alongside);
+    for (std::size_t i = 0; i < alongside.size(); i += 2) {
+      ASSERT_LT(i + 1, alongside.size()) << name;
+      EXPECT_TRUE(alongside[i].starts_with("--")) << name;
+      EXPECT_NO_THROW(setOption(options, alongside[i].substr(2), alongside[i + 1])) << name;
+    }
+  });
+}
+
+TEST(OptionTable, SaysWhatHasToBeMadeAnew) {
+  const auto needed = [](const std::vector<std::string>& words) {
+    RenderOptions options;
+    for (std::size_t i = 0; i < words.size(); i += 2) setOption(options, words[i], words[i + 1]);
+    return rebuildNeeded(RenderOptions(), options);
+  };
+  EXPECT_EQ(needed({}), Rebuild::nothing);
+  EXPECT_EQ(needed({"size", "3x4", "fov", "30", "mode", "reference"}), Rebuild::nothing);
+  EXPECT_EQ(needed({"spp", "1"}), Rebuild::nothing);
+  EXPECT_EQ(needed({"spp", "2"}), Rebuild::frame);
+  EXPECT_EQ(needed({"bend", "off", "size", "3x4"}), Rebuild::frame);
+  EXPECT_EQ(needed({"disable", "shadows", "spp", "2"}), Rebuild::tables);
+  EXPECT_EQ(needed({"disable", "shadows", "tile", "8"}), Rebuild::workers);
+  EXPECT_EQ(needed({"robust", "off", "threads", "3"}), Rebuild::acceleration);
+}
+
+TEST(OptionTable, TakesOverNoMoreThanWasAskedFor) {
+  RenderOptions from, to;
+  from.camera = "front", from.shading.bend = false, from.glossy = 3, from.tile = 8;
+  takeOver(from, Rebuild::tables, to);
+  EXPECT_EQ(to.camera, "front");
+  EXPECT_FALSE(to.shading.bend);
+  EXPECT_EQ(to.glossy, 3);
+  EXPECT_EQ(to.tile, RenderOptions().tile);
+}
+
+TEST(OptionTable, UnknownNamesNameTheNearest) {
+  RenderOptions options;
+  EXPECT_EQ(optionText(options, "offset"), "bound");
+  try {
+    setOption(options, "dept", "3");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::usage);
+    EXPECT_NE(std::string(error.what()).find("nearest: 'depth'"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace whit
