@@ -18,6 +18,7 @@
 namespace whit {
 
 class Accel;
+struct Film;
 
 // A CameraFrame (scene/camera.h) in float.
 struct CameraRays {
@@ -27,8 +28,6 @@ struct CameraRays {
   bool orthographic = false;
   float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
 };
-struct CameraFrame;
-CameraRays cameraRays(const CameraFrame& camera);
 
 // The same for all chunks of a frame, and read-only while it is rendered.
 struct FrameConstants {
@@ -80,10 +79,13 @@ struct Chunk {
   // Impulses are appended behind the `childCount` that are there.
   RayColumns children;
   std::size_t childCount = 0;
+  std::array<Segment, kSegmentLimit> childSegments{};  // of them, in order
+  std::size_t childSegmentCount = 0;
   // Of the chunk whose children these rays are.
   RadianceColumns parentRadiance;
 
   std::uint32_t* codes = nullptr;  // display codes, a pixel each
+  Film* film = nullptr;            // where the pixels go
   TraceMeter* meter = nullptr;     // never null where rays are traced
 
   bool has(Feature feature) const { return frame->features.has(feature); }
