@@ -281,11 +281,9 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   // Looked up at the width that the step has found: what is left of it decides between mip levels.
   const TextureLookup lookup{chunk.options().shading.textureFilter, world.maps,
                              surfelOf(chunk, slot).cone};
-  const Surfel s =
-      makeSurfel(world.scene, world.effects, candidate, hit, ray.direction, lookup);
+  const Surfel s = makeSurfel(world.scene, world.effects, candidate, hit, ray.direction, lookup);
   const std::uint32_t media = mediaOf(chunk, slot);
-  const Crossing crossing =
-      crossMedia(world.scene, world.effects, s.material, s.entering, media);
+  const Crossing crossing = crossMedia(world.scene, world.effects, s.material, s.entering, media);
   const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);

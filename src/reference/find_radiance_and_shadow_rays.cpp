@@ -21,6 +21,11 @@ double shadowReach(const Light& light, double distance) {
   return std::max(0.0, 1 - (uncertainty + 4 * kUnitRoundOff));
 }
 
+LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
+  return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
+                           chunk.options().shading);
+}
+
 }  // namespace
 
 RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
@@ -76,9 +81,10 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   return arrival;
 }
 
-UnshadowedRow findRadiance(const World& world, const Chunk& chunk, std::size_t slot) {
-  const LightArrival arrival = radianceFromLight(world.effects, surfelOf(chunk, slot),
-                                                 *chunk.light, chunk.options().shading);
+std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,
+                                          std::size_t slot) {
+  const LightArrival arrival = arrivalAt(world, chunk, slot);
+  if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
   UnshadowedRow row;
   put(arrival.radiance, row.r, row.g, row.b);
   // Shadow rays have yet to find out.
@@ -86,10 +92,11 @@ UnshadowedRow findRadiance(const World& world, const Chunk& chunk, std::size_t s
   return row;
 }
 
-ShadowRow findShadowRay(const World& world, const Chunk& chunk, std::size_t shadowRay) {
+std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
+                                       std::size_t shadowRay) {
   const std::uint32_t slot = chunk.shadows.slot[shadowRay];
-  const LightArrival arrival = radianceFromLight(world.effects, surfelOf(chunk, slot),
-                                                 *chunk.light, chunk.options().shading);
+  const LightArrival arrival = arrivalAt(world, chunk, slot);
+  if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
   ShadowRow row;
   put(arrival.shadowRay.origin, row.orgX, row.orgY, row.orgZ);
   put(arrival.shadowRay.direction, row.dirX, row.dirY, row.dirZ);

@@ -1,6 +1,8 @@
-// findRadianceAndShadowRays: what a surfel sends to the viewer from one light, and the ray that asks
-// whether something is in between.
+// findRadianceAndShadowRays: what a surfel sends to the viewer from one light, and the ray that
+// asks whether something is in between.
 #pragma once
+
+#include <optional>
 
 #include "core/shading_choices.h"
 #include "reference/twin.h"
@@ -22,8 +24,10 @@ struct LightArrival {
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {});
 
-// The twins: of a slot that the light reaches, and of a shadow ray.
-UnshadowedRow findRadiance(const World& world, const Chunk& chunk, std::size_t slot);
-ShadowRow findShadowRay(const World& world, const Chunk& chunk, std::size_t shadowRay);
+// The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light
+// lies in the surface's plane, or behind it.
+std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk, std::size_t slot);
+std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
+                                       std::size_t shadowRay);
 
 }  // namespace whit::reference

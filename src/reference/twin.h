@@ -13,7 +13,7 @@ namespace whit::reference {
 // What twins know of the frame besides their chunk: what kernels have in float tables.
 struct World {
   const Scene& scene;
-  EffectSet effects;  // of the plan
+  EffectSet effects;              // of the plan
   const MipMaps* maps = nullptr;  // of the scene, where lookups are trilinear
   CameraFrame camera;
   const Intersector& intersector;  // for shadow rays

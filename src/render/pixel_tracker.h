@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/tile_tracer.h"
+#include "render/observer.h"
 
 namespace whit {
 
 class PixelTracker {
  public:
   // To be called with every stage that an observer sees.
-  void follow(Stage stage, const ChunkView& chunk) {
+  void follow(Stage stage, const Chunk& chunk) {
     if (stage == Stage::generateRays) {
       levels_.assign(1, {chunk.pixels.begin(), chunk.pixels.end()});
     } else if (stage == Stage::addImpulses) {
@@ -19,14 +19,14 @@ class PixelTracker {
       levels_.resize(depth + 2);
       std::vector<std::uint32_t>& next = levels_[depth + 1];
       next.clear();
-      for (std::size_t i = 0; i < chunk.reflections + chunk.refractions; ++i) {
+      for (std::size_t i = 0; i < chunk.childCount; ++i) {
         next.push_back(levels_[depth][chunk.first + chunk.children.parent[i]]);
       }
     }
   }
 
   // The packed pixel that slot i of the chunk is traced for.
-  std::uint32_t pixel(const ChunkView& chunk, std::size_t i) const {
+  std::uint32_t pixel(const Chunk& chunk, std::size_t i) const {
     return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
   }
 

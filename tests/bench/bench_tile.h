@@ -11,7 +11,7 @@
 
 #include "core/random_streams.h"
 #include "io/load_scene.h"
-#include "reference/generate_ray.h"
+#include "reference/generate_rays.h"
 #include "render/renderer.h"
 #include "render/renderer_parts.h"
 #include "render/tiles.h"
