@@ -72,6 +72,9 @@ double byOne(const Place<Row>&) {
   return 1;
 }
 
+// What twins are asked for is no question.
+inline double byNothing(const Place<ShadowRow>&) { return kNotHere; }
+
 inline double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.eye)); }
 
 // Near the critical angle the root amplifies rounding without bound; there the weight of the
@@ -152,6 +155,7 @@ inline std::vector<Quantity<RayRow>> quantitiesOf(const RayRow*) {
       {generateRays, "dir", {"dirX", "dirY", "dirZ"}, kDirectionLimit, byOne},
       {generateRays, "weight", {"weightR", "weightG", "weightB"}, kExact},
       {generateRays, "throughput", {"throughput"}, kExact},
+      {generateRays, "parent", {"parent"}, kExact},
       {generateRays, "media", {"media"}, kExact},
       {generateRays, "cone", {"cone"}, kConeLimit},
       {addImpulses, "weight", {"weightR", "weightG", "weightB"}, kWeightLimit, byOne},
@@ -212,6 +216,7 @@ inline std::vector<Quantity<ShadowRow>> quantitiesOf(const ShadowRow*) {
       {stage, "shadowOrigin", {"orgX", "orgY", "orgZ"}, kPositionLimit},
       {stage, "shadowDirection", {"dirX", "dirY", "dirZ"}, kPositionLimit, byBothEnds},
       {stage, "shadowEnd", {"tFar"}, kRoundedLimit, byOne},
+      {stage, "slot", {"slot"}, kExact, byNothing},
   };
 }
 
