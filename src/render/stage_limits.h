@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "reference/find_intersections.h"
@@ -20,7 +20,7 @@ namespace whit {
 inline constexpr double kRoundedLimit = 4;    // a few products and sums
 inline constexpr double kDirectionLimit = 4;  // a normalized sum of three products
 inline constexpr double kPositionLimit = 4;   // three products, against the largest corner
-inline constexpr double kOffsetLimit = 16;    // a sum of nine magnitudes, of instances twice
+inline constexpr double kOffsetLimit = 8;     // a sum of nine magnitudes, of instances twice
 inline constexpr double kLiftLimit = 8;       // three products of two positions' difference
 inline constexpr double kNormalLimit = 4;  // cross product by differences of products, normalized
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
@@ -61,8 +61,8 @@ inline constexpr double kNotHere = -1;
 template <typename Row>
 struct Quantity {
   Stage stage;
-  std::string_view name;
-  std::vector<std::string_view> columns;
+  std::string name;
+  std::vector<std::string> columns;
   double limit;
   double (*scale)(const Place<Row>&) = nullptr;  // null: 0 everywhere
 };
@@ -147,21 +147,24 @@ inline double byBothEnds(const Place<ShadowRow>& p) {
          maxComponent(abs(Vec3d{p.twin.orgX, p.twin.orgY, p.twin.orgZ}));
 }
 
+inline std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }
+inline std::vector<std::string> rgb(const std::string& s) { return {s + "R", s + "G", s + "B"}; }
+
 // Of the rows of each kind.
 inline std::vector<Quantity<RayRow>> quantitiesOf(const RayRow*) {
   using enum Stage;
+  // And what the cutoff counts of it.
+  const std::vector<std::string> weight{"weightR", "weightG", "weightB", "throughput"};
   return {
-      {generateRays, "origin", {"orgX", "orgY", "orgZ"}, kPositionLimit, byEye},
-      {generateRays, "dir", {"dirX", "dirY", "dirZ"}, kDirectionLimit, byOne},
-      {generateRays, "weight", {"weightR", "weightG", "weightB"}, kExact},
-      {generateRays, "throughput", {"throughput"}, kExact},
+      {generateRays, "origin", xyz("org"), kPositionLimit, byEye},
+      {generateRays, "dir", xyz("dir"), kDirectionLimit, byOne},
+      {generateRays, "weight", weight, kExact},
       {generateRays, "parent", {"parent"}, kExact},
       {generateRays, "media", {"media"}, kExact},
       {generateRays, "cone", {"cone"}, kConeLimit},
-      {addImpulses, "weight", {"weightR", "weightG", "weightB"}, kWeightLimit, byOne},
-      {addImpulses, "throughput", {"throughput"}, kWeightLimit, byOne},
-      {addImpulses, "direction", {"dirX", "dirY", "dirZ"}, kChildLimit, whereItCounts<byOne>},
-      {addImpulses, "origin", {"orgX", "orgY", "orgZ"}, kPositionLimit, whereItCounts<byItself>},
+      {addImpulses, "weight", weight, kWeightLimit, byOne},
+      {addImpulses, "direction", xyz("dir"), kChildLimit, whereItCounts<byOne>},
+      {addImpulses, "origin", xyz("org"), kPositionLimit, whereItCounts<byItself>},
       {addImpulses, "cone", {"cone"}, kExact, whereItCounts<byItself>},
       {addImpulses, "media", {"media"}, kExact, whereItCounts<byItself>},
   };
@@ -169,27 +172,15 @@ inline std::vector<Quantity<RayRow>> quantitiesOf(const RayRow*) {
 inline std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
   constexpr Stage stage = Stage::findIntersections;
   return {
-      {stage, "position", {"posX", "posY", "posZ"}, kPositionLimit, byMagnitude},
+      {stage, "position", xyz("pos"), kPositionLimit, byMagnitude},
       {stage, "offset", {"offset"}, kOffsetLimit},
-      {stage, "geometricNormal", {"ngX", "ngY", "ngZ"}, kNormalLimit, notEdgeOn<bySliver>},
-      {stage, "shadingNormal", {"nsX", "nsY", "nsZ"}, kNormalLimit, notEdgeOn<bySliverIfNotMapped>},
-      {stage, "shadingNormal", {"nsX", "nsY", "nsZ"}, kTexturedLimit, notEdgeOn<bySliverIfMapped>},
-      {stage,
-       "diffuse",
-       {"diffuseR", "diffuseG", "diffuseB"},
-       kTexturedLimit,
-       notEdgeOn<byFootprint>},
-      {stage,
-       "specular",
-       {"specularR", "specularG", "specularB"},
-       kTexturedLimit,
-       notEdgeOn<byFootprint>},
-      {stage,
-       "emission",
-       {"emissionR", "emissionG", "emissionB"},
-       kTexturedLimit,
-       notEdgeOn<byFootprint>},
-      {stage, "lift", {"liftX", "liftY", "liftZ"}, kLiftLimit, notEdgeOn<byMagnitude>},
+      {stage, "geometricNormal", xyz("ng"), kNormalLimit, notEdgeOn<bySliver>},
+      {stage, "shadingNormal", xyz("ns"), kNormalLimit, notEdgeOn<bySliverIfNotMapped>},
+      {stage, "shadingNormal", xyz("ns"), kTexturedLimit, notEdgeOn<bySliverIfMapped>},
+      {stage, "diffuse", rgb("diffuse"), kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "specular", rgb("specular"), kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "emission", rgb("emission"), kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "lift", xyz("lift"), kLiftLimit, notEdgeOn<byMagnitude>},
       {stage, "cone", {"cone"}, kConeLimit},
       {stage, "flags", {"flags"}, kExact, notEdgeOn<byItself>},
       {stage, "mediaBehind", {"mediaBehind"}, kExact, notEdgeOn<byItself>},
@@ -213,8 +204,8 @@ inline std::vector<Quantity<UnshadowedRow>> quantitiesOf(const UnshadowedRow*) {
 inline std::vector<Quantity<ShadowRow>> quantitiesOf(const ShadowRow*) {
   constexpr Stage stage = Stage::findRadianceAndShadowRays;
   return {
-      {stage, "shadowOrigin", {"orgX", "orgY", "orgZ"}, kPositionLimit},
-      {stage, "shadowDirection", {"dirX", "dirY", "dirZ"}, kPositionLimit, byBothEnds},
+      {stage, "shadowOrigin", xyz("org"), kPositionLimit},
+      {stage, "shadowDirection", xyz("dir"), kPositionLimit, byBothEnds},
       {stage, "shadowEnd", {"tFar"}, kRoundedLimit, byOne},
       {stage, "slot", {"slot"}, kExact, byNothing},
   };
