@@ -1,82 +1,227 @@
+// The surfels that send rays on, the children that these become, and the way back.
+#include <limits>
+
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/compact-inl.h"
+#include "simd/fresnel-inl.h"
 #include "simd/glossy-inl.h"
-#include "simd/impulse-inl.h"
+#include "simd/material-inl.h"
+#include "simd/media-inl.h"
+#include "simd/random_streams-inl.h"
+#include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-size_t AddReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                      const RayColumns& rays, const SurfelColumns& surfels, size_t n,
-                      const RayColumns& children, size_t first) {
+// A chunk as addImpulses sees it: what lies in the chunk itself would be read again after each
+// store to its columns.
+struct ImpulseJob {
+  const ShadingTables& tables;
+  ShadingChoices shading;
+  float cutoff;
+  RayColumns rays;
+  SurfelColumns surfels;
+  RayColumns children;
+  size_t n;
+  bool cones, streams, transmission;
+};
+
+HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
+  return {c.tables(),
+          c.options().shading,
+          c.options().cutoff,
+          c.rays,
+          c.surfels,
+          c.children,
+          c.n,
+          c.has(Feature::cones),
+          c.has(Feature::streams),
+          c.has(Feature::transmission)};
+}
+
+// What both kinds of impulse need of a vector of surfels.
+struct ImpulseLanes {
+  MF live;        // the surfel has an impulse of the kind in question
+  MF dielectric;  // and bounds a medium
+  MF hidden;      // and is not there, because a higher priority fills its place
+  V3 direction, ng, ns;
+  VF facing;  // cosine between viewer and geometric normal
+  VF cosine;  // between viewer and shading normal, in [0, 1]
+  VI material;
+};
+
+// The least sine over the surface that a child keeps, if `elevation` is what it would have without
+// bent normals.
+HWY_INLINE VF LeastElevation(const ImpulseJob& job, VF elevation) {
+  const FloatTag d;
+  if (!job.shading.bend) return hn::Set(d, -std::numeric_limits<float>::infinity());
+  return hn::Min(hn::Mul(hn::Set(d, 0.9f), elevation), hn::Set(d, 0.01f));
+}
+
+// Of the surfels at i, where the material's flags have `kWanted`.
+template <uint32_t kWanted>
+HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
+  const RayColumns& rays = job.rays;
+  const SurfelColumns& surfels = job.surfels;
+  ImpulseLanes lanes;
+  lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
+  lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
+  lanes.dielectric = lanes.hidden = hn::MaskFromVec(hn::Zero(d));
+  if (hn::AllFalse(d, lanes.live)) return lanes;
+  const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
+  lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
+  if (hn::AllFalse(d, lanes.live)) return lanes;
+  if (kWanted == kMaterialTransmits || job.transmission) {
+    lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
+    lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
+  }
+  lanes.direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+  lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+  lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
+  lanes.cosine = hn::Min(hn::Max(towards, zero), one);
+  lanes.facing = hn::Neg(Dot(lanes.direction, lanes.ng));
+  return lanes;
+}
+
+HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const UintTag du;
+  const VF before = IorOf(job.tables, hn::Load(du, job.rays.media + i));
+  const VF behind = IorOf(job.tables, hn::Load(du, job.surfels.mediaBehind + i));
+  return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
+}
+
+struct Child {
+  V3 origin, direction, weight;
+  VU media, path;
+  VF largest;  // of the weight, and the material's share of it, for the cutoff
+  VF cone;
+};
+
+// Appends the children of the lanes that are worth tracing; returns how many.
+HWY_INLINE size_t Append(const ImpulseJob& job, const Child& child, MF live, size_t i, size_t at) {
   const FloatTag d;
   const UintTag du;
-  const bool transmission = effects.has(Effect::transmission);
-  size_t count = first;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes =
-        LoadImpulseLanes(tables, transmission, kMaterialReflects, rays, surfels, i);
+  const RayColumns& children = job.children;
+  const VF largest = child.largest, cutoff = hn::Set(d, job.cutoff);
+  const VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), largest);
+  const MF traced =
+      hn::And(live, hn::And(hn::Ge(throughput, cutoff), hn::Gt(largest, hn::Zero(d))));
+  if (hn::AllFalse(d, traced)) return 0;
+  const Compactor compactor(traced);
+  compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
+  compactor.Store(child.direction, children.dirX, children.dirY, children.dirZ, at);
+  compactor.Store(child.weight, children.weightR, children.weightG, children.weightB, at);
+  compactor.Store(throughput, children.throughput + at);
+  if (job.transmission) compactor.Store(child.media, children.media + at);
+  if (job.streams) compactor.Store(child.path, children.path + at);
+  if (job.cones) compactor.Store(child.cone, children.cone + at);
+  compactor.Store(hn::Iota(du, static_cast<uint32_t>(i)), children.parent + at);
+  return compactor.Count();
+}
+
+// The media around a reflected child.
+HWY_INLINE VU MediaAt(const ImpulseJob& job, size_t i) {
+  const UintTag du;
+  return job.transmission ? hn::Load(du, job.rays.media + i) : hn::Zero(du);
+}
+
+// The number of the child's path.
+HWY_INLINE VU ChildStreamsAt(const ImpulseJob& job, size_t i, uint32_t branch) {
+  const UintTag du;
+  return job.streams ? ChildStream(hn::Load(du, job.rays.path + i), branch) : hn::Zero(du);
+}
+
+// The children's cones begin as wide as their parents' end.
+HWY_INLINE VF ConesAt(const ImpulseJob& job, size_t i) {
+  const FloatTag d;
+  return job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+}
+
+// A reflected direction, lifted where a bent normal would send it below the surface (hard case
+// H32).
+HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
+  const FloatTag d;
+  const VF height = Dot(r, ng);
+  const MF low = hn::Lt(height, lift);
+  if (HWY_LIKELY(hn::AllFalse(d, hn::And(low, live)))) return r;
+  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(lift, height), r), ng), r);
+}
+
+// `side`: RayOrigin's.
+HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i, float side) {
+  const SurfelColumns& surfels = job.surfels;
+  const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+  return RayOrigin(job.shading.offset, position, lanes.ng, lanes.direction,
+                   hn::Load(FloatTag(), surfels.offset + i), side);
+}
+
+void AddReflections(Chunk& c) noexcept {
+  const FloatTag d;
+  const ImpulseJob job = ImpulseJobOf(c);
+  size_t count = c.childCount;
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialReflects>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
-    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
-    const V4 mirror = reader.Columns4(16), grazing = reader.Columns4(20);
-    V3 weight = MulAdd3({grazing.x, grazing.y, grazing.z}, SchlickTerm(lanes.cosine),
-                        {mirror.x, mirror.y, mirror.z});
-    if (transmission && !hn::AllFalse(d, lanes.dielectric)) {
-      const VF f = hn::IfThenElseZero(lanes.dielectric,
-                                      InterfaceOf(tables, lanes, rays, surfels, i).reflectance);
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    const auto [mirror, impulseShare] = material.Mirror();
+    V3 weight = MulAdd3(material.GrazingMinusMirror(), SchlickTerm(lanes.cosine), mirror);
+    if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
+      const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
       weight = Add3(weight, {f, f, f});
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored =
-        Normalize3(MulAdd3(lanes.ns, twice, lanes.direction), tables.shading.reciprocal);
-    const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(tables, lanes.facing), lanes.live);
-    const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
-    const Child child{ChildOrigin(tables, surfels, lanes, i, 1.0f),
+        Normalize3(MulAdd3(lanes.ns, twice, lanes.direction), job.shading.reciprocal);
+    const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
+    const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
                       weight,
-                      media,
-                      ChildStreamsAt(rays, i, kMirroredBranch),
-                      hn::Mul(MaxComponent(weight), mirror.w),
-                      ConesAt(surfels, i)};
-    count += Append(child, lanes.live, cutoff, rays, i, children, count);
+                      MediaAt(job, i),
+                      ChildStreamsAt(job, i, kMirroredBranch),
+                      hn::Mul(MaxComponent(weight), impulseShare),
+                      ConesAt(job, i)};
+    count += Append(job, child, lanes.live, i, count);
   }
-  return count - first;
+  c.childCount = count;
 }
 
-size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                            const LobeSampling& sampling, const RayColumns& rays,
-                            const SurfelColumns& surfels, size_t n, const RayColumns& children,
-                            size_t first) {
+void AddGlossyReflections(Chunk& c) noexcept {
   const FloatTag d;
   const UintTag du;
-  const bool transmission = effects.has(Effect::transmission);
+  const ImpulseJob job = ImpulseJobOf(c);
+  const LobeSampling sampling = lobeSampling(c.depth, c.options().glossy, c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
-  size_t count = first;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes =
-        LoadImpulseLanes(tables, transmission, kMaterialScatters, rays, surfels, i);
+  size_t count = c.childCount;
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialScatters>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
-    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
-    const VF impulseShare = reader.Columns4(16).w;
-    const GlossyLobes lobes = LoadGlossyLobes(surfels, lanes.direction, lanes.ns, i);
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    const VF impulseShare = material.Mirror().impulseShare;
+    const GlossyLobes lobes = LoadGlossyLobes(job.surfels, lanes.direction, lanes.ns, i);
     const VF counts = hn::IfThenElse(lobes.rough, share, one);
-    const V3 origin = ChildOrigin(tables, surfels, lanes, i, 1.0f);
-    const VU media = transmission ? hn::Load(du, rays.media + i) : hn::Zero(du);
-    const VU path = StreamsAt(rays, i);
-    const VF cone = ConesAt(surfels, i);
+    const V3 origin = ChildOrigin(job, lanes, i, 1.0f);
+    const VU media = MediaAt(job, i);
+    const VU path = hn::Load(du, job.rays.path + i);
+    const VF cone = ConesAt(job, i);
     // A smooth lobe is one impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
       const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, lobes.rough);
       if (hn::AllFalse(d, sampled)) break;
       const LobeSample sample = SampleLobe(lobes, LobePoints(path, sampling, k));
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
-      const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(tables, sample.cosine), live);
+      const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(job, sample.cosine), live);
       const Child child{origin,
                         r,
                         Scale3(sample.weight, counts),
@@ -84,67 +229,67 @@ size_t AddGlossyReflections(const ShadingTables& tables, EffectSet effects, floa
                         ChildStream(path, kFirstGlossyBranch + k),
                         hn::Mul(MaxComponent(sample.weight), impulseShare),
                         cone};
-      count += Append(child, live, cutoff, rays, i, children, count);
+      count += Append(job, child, live, i, count);
     }
   }
-  return count - first;
+  c.childCount = count;
 }
 
-size_t AddRefractions(const ShadingTables& tables, EffectSet /*effects*/, float cutoff,
-                      const RayColumns& rays, const SurfelColumns& surfels, size_t n,
-                      const RayColumns& children, size_t first) {
+void AddRefractions(Chunk& c) noexcept {
   const FloatTag d;
   const UintTag du;
+  const ImpulseJob job = ImpulseJobOf(c);
   const VF one = hn::Set(d, 1.0f);
-  size_t count = first;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const ImpulseLanes lanes = LoadImpulseLanes(tables, true, kMaterialTransmits, rays, surfels, i);
+  size_t count = c.childCount;
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    const ImpulseLanes lanes = LoadImpulseLanes<kMaterialTransmits>(job, i);
     if (hn::AllFalse(d, lanes.live)) continue;
-    const Interface interface = InterfaceOf(tables, lanes, rays, surfels, i);
-    const TableReader reader(tables.materials.data(), kMaterialStride, lanes.material, lanes.live);
-    const V4 tint = reader.Columns4(24);
-    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, reader.Columns4(16).w);
+    const Interface interface = InterfaceOf(job, lanes, i);
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, material.Mirror().impulseShare);
     const VF through = hn::Sub(one, interface.reflectance);
     const V3 weight =
-        Select3(lanes.hidden, {one, one, one}, Scale3({tint.x, tint.y, tint.z}, through));
+        Select3(lanes.hidden, {one, one, one}, Scale3(material.Transmission(), through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,
-                       tables.shading.reciprocal);
+                       job.shading.reciprocal);
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
     const VF g2 = hn::MulAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
-    const VF lift = LeastElevation(tables, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
+    const VF lift = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
     const MF high = hn::Gt(height, hn::Neg(lift));
     const V3 pressed =
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
-    const Child child{ChildOrigin(tables, surfels, lanes, i, -1.0f),
+    const Child child{ChildOrigin(job, lanes, i, -1.0f),
                       r,
                       weight,
-                      hn::Load(du, surfels.mediaBehind + i),
-                      ChildStreamsAt(rays, i, kRefractedBranch),
+                      hn::Load(du, job.surfels.mediaBehind + i),
+                      ChildStreamsAt(job, i, kRefractedBranch),
                       hn::Mul(MaxComponent(weight), impulseShare),
-                      ConesAt(surfels, i)};
-    count += Append(child, lanes.live, cutoff, rays, i, children, count);
+                      ConesAt(job, i)};
+    count += Append(job, child, lanes.live, i, count);
   }
-  return count - first;
+  c.childCount = count;
 }
 
-void ReturnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, size_t n,
-                    const RadianceColumns& parentRadiance) {
+void ReturnImpulses(Chunk& c) noexcept {
   const FloatTag d;
+  const RayColumns rays = c.rays;
+  const RadianceColumns radiance = c.radiance, parentRadiance = c.parentRadiance;
+  const size_t n = c.n;
   HWY_ALIGN float r[16], g[16], b[16];
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const V3 weight = Load3(children.weightR, children.weightG, children.weightB, i);
-    const V3 light = Load3(childRadiance.r, childRadiance.g, childRadiance.b, i);
+    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+    const V3 light = Load3(radiance.r, radiance.g, radiance.b, i);
     Store3(Mul3(weight, light), r, g, b, 0);
     // A parent may occur twice, for its reflected and its refracted child: one after the other.
     const size_t live = HWY_MIN(hn::Lanes(d), n - i);
     for (size_t lane = 0; lane < live; ++lane) {
-      const uint32_t parent = children.parent[i + lane];
+      const uint32_t parent = rays.parent[i + lane];
       parentRadiance.r[parent] += r[lane];
       parentRadiance.g[parent] += g[lane];
       parentRadiance.b[parent] += b[lane];
@@ -152,38 +297,31 @@ void ReturnImpulses(const RayColumns& children, const RadianceColumns& childRadi
   }
 }
 
+StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
+StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddGlossyReflections; }
+StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
+StepFunction FindReturnImpulses(size_t /*index*/) { return ReturnImpulses; }
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(AddReflections);
-HWY_EXPORT(AddGlossyReflections);
-HWY_EXPORT(AddRefractions);
-HWY_EXPORT(ReturnImpulses);
-
-std::size_t addReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
-                           const RayColumns& children, std::size_t first) noexcept {
-  return HWY_DYNAMIC_DISPATCH(AddReflections)(tables, effects, cutoff, rays, surfels, n, children,
-                                              first);
+HWY_EXPORT(FindAddReflections);
+StepFunction findAddReflections(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindAddReflections)(index);
 }
-std::size_t addGlossyReflections(const ShadingTables& tables, EffectSet effects, float cutoff,
-                                 const LobeSampling& sampling, const RayColumns& rays,
-                                 const SurfelColumns& surfels, std::size_t n,
-                                 const RayColumns& children, std::size_t first) noexcept {
-  return HWY_DYNAMIC_DISPATCH(AddGlossyReflections)(tables, effects, cutoff, sampling, rays,
-                                                    surfels, n, children, first);
+HWY_EXPORT(FindAddGlossyReflections);
+StepFunction findAddGlossyReflections(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindAddGlossyReflections)(index);
 }
-std::size_t addRefractions(const ShadingTables& tables, EffectSet effects, float cutoff,
-                           const RayColumns& rays, const SurfelColumns& surfels, std::size_t n,
-                           const RayColumns& children, std::size_t first) noexcept {
-  return HWY_DYNAMIC_DISPATCH(AddRefractions)(tables, effects, cutoff, rays, surfels, n, children,
-                                              first);
+HWY_EXPORT(FindAddRefractions);
+StepFunction findAddRefractions(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindAddRefractions)(index);
 }
-void returnImpulses(const RayColumns& children, const RadianceColumns& childRadiance, std::size_t n,
-                    const RadianceColumns& parentRadiance) noexcept {
-  HWY_DYNAMIC_DISPATCH(ReturnImpulses)(children, childRadiance, n, parentRadiance);
+HWY_EXPORT(FindReturnImpulses);
+StepFunction findReturnImpulses(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindReturnImpulses)(index);
 }
 }  // namespace whit::simd
 #endif

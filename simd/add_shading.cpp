@@ -1,3 +1,4 @@
+// One light added to the radiance, where it is visible.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -8,8 +9,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void AddShading(const UnshadowedColumns& unshadowed, size_t n, const RadianceColumns& radiance) {
+void AddShading(Chunk& c) noexcept {
   const FloatTag d;
+  const UnshadowedColumns unshadowed = c.unshadowed;
+  const RadianceColumns radiance = c.radiance;
+  const size_t n = c.n;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const MF visible = hn::Gt(hn::Load(d, unshadowed.visible + i), hn::Zero(d));
     if (hn::AllFalse(d, visible)) continue;
@@ -20,15 +24,16 @@ void AddShading(const UnshadowedColumns& unshadowed, size_t n, const RadianceCol
   }
 }
 
+StepFunction FindAddShading(size_t /*index*/) { return AddShading; }
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(AddShading);
-void addShading(const UnshadowedColumns& unshadowed, std::size_t n,
-                const RadianceColumns& radiance) noexcept {
-  HWY_DYNAMIC_DISPATCH(AddShading)(unshadowed, n, radiance);
+HWY_EXPORT(FindAddShading);
+StepFunction findAddShading(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindAddShading)(index);
 }
 }  // namespace whit::simd
 #endif

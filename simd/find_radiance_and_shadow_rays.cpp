@@ -1,4 +1,4 @@
-#include "simd/kernel_variants.h"
+// One light at the surfels, as if nothing were in its way, and the rays that find out.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -37,15 +37,18 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
 }
 
 template <uint32_t kBits>
-HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choices,
-                                                     EffectSet effects, const Light& light,
-                                                     const RayColumns& rays,
-                                                     const SurfelColumns& surfels, size_t n,
-                                                     const UnshadowedColumns& unshadowed,
-                                                     const ShadowColumns& shadows) {
+void FindRadianceAndShadowRays(Chunk& c) noexcept {
   const FloatTag d;
   const UintTag du;
-  const bool traced = effects.has(Effect::shadows), hidden = effects.has(Effect::transmission);
+  const ShadingChoices choices = c.options().shading;
+  const Light& light = *c.light;
+  const RayColumns rays = c.rays;
+  const SurfelColumns surfels = c.surfels;
+  const UnshadowedColumns unshadowed = c.unshadowed;
+  const ShadowColumns shadows = c.shadows;
+  const size_t n = c.n;
+  const bool traced = c.has(Feature::shadows), hidden = c.has(Feature::transmission);
+  const bool lifted = c.has(Feature::lift);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const LightLanes<kBits> lanes(light);
   const V3 intensity = Broadcast3(light.intensity);
@@ -65,7 +68,7 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     const VF distanceSquared = Dot(toLight, toLight);
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
-    if (surfels.liftX) {
+    if (lifted) {
       // Above the facet, the smooth surface alone decides what lies behind the horizon.
       const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
       front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
@@ -118,17 +121,13 @@ HWY_NOINLINE size_t FindRadianceAndShadowRaysVariant(const ShadingChoices& choic
     lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
     count += lit.Count();
   }
-  return count;
+  c.shadowCount = count;
 }
 
-size_t FindRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects, const Light& light,
-                                 const RayColumns& rays, const SurfelColumns& surfels, size_t n,
-                                 const UnshadowedColumns& unshadowed,
-                                 const ShadowColumns& shadows) {
+StepFunction FindFindRadianceAndShadowRays(size_t index) {
   static constexpr auto kVariants = variantTable<kFindRadianceAndShadowRays>(
-      []<uint32_t kBits>() { return &FindRadianceAndShadowRaysVariant<kBits>; });
-  return kVariants[kFindRadianceAndShadowRays.variantFor(effects)](
-      tables.shading, effects, light, rays, surfels, n, unshadowed, shadows);
+      []<uint32_t kBits>() { return &FindRadianceAndShadowRays<kBits>; });
+  return kVariants[index];
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE
@@ -136,14 +135,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindRadianceAndShadowRays);
-std::size_t findRadianceAndShadowRays(const ShadingTables& tables, EffectSet effects,
-                                      const Light& light, const RayColumns& rays,
-                                      const SurfelColumns& surfels, std::size_t n,
-                                      const UnshadowedColumns& unshadowed,
-                                      const ShadowColumns& shadows) noexcept {
-  return HWY_DYNAMIC_DISPATCH(FindRadianceAndShadowRays)(tables, effects, light, rays, surfels, n,
-                                                         unshadowed, shadows);
+HWY_EXPORT(FindFindRadianceAndShadowRays);
+StepFunction findFindRadianceAndShadowRays(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindFindRadianceAndShadowRays)(index);
 }
 }  // namespace whit::simd
 #endif

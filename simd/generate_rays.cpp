@@ -1,3 +1,4 @@
+// The camera's rays through the pixels of a queue.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -8,15 +9,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
-                  const RayColumns& rays) {
+void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
+  const CameraRays camera = c.frame->camera;
+  const RayColumns rays = c.rays;
+  const uint32_t* const pixels = c.pixels.data() + c.first;
+  const size_t n = c.n;
+  const auto firstSlot = static_cast<uint32_t>(c.first);
+  const uint32_t sampleNumber = c.sampleNumber;
+  const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
+  const bool streams = c.has(Feature::streams);
   const V3 eye = Broadcast3(camera.eye), forward = Broadcast3(camera.forward);
   const V3 right = Broadcast3(camera.right), up = Broadcast3(camera.up);
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
-  const VF shiftX = hn::Set(d, camera.sampleX), shiftY = hn::Set(d, camera.sampleY);
+  const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
   const VF halfWidth = hn::Set(d, camera.halfWidth), halfHeight = hn::Set(d, camera.halfHeight);
   const VF one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
@@ -35,22 +43,23 @@ void GenerateRays(const CameraRays& camera, const uint32_t* pixels, size_t n,
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
     hn::Store(one, d, rays.throughput + i);
-    hn::Store(hn::Iota(du, static_cast<uint32_t>(i)), du, rays.parent + i);
-    if (rays.media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
-    if (rays.cone) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
-    if (rays.path) hn::Store(StreamOfPixel(packed, camera.sampleNumber), du, rays.path + i);
+    hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
+    if (media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
+    if (cones) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
+    if (streams) hn::Store(StreamOfPixel(packed, sampleNumber), du, rays.path + i);
   }
 }
+
+StepFunction FindGenerateRays(size_t /*index*/) { return GenerateRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(GenerateRays);
-void generateRays(const CameraRays& camera, const std::uint32_t* pixels, std::size_t n,
-                  const RayColumns& rays) noexcept {
-  HWY_DYNAMIC_DISPATCH(GenerateRays)(camera, pixels, n, rays);
+HWY_EXPORT(FindGenerateRays);
+StepFunction findGenerateRays(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindGenerateRays)(index);
 }
 }  // namespace whit::simd
 #endif

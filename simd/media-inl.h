@@ -1,6 +1,7 @@
-// The stack of nested dielectrics that a ray travels in: four bytes of an integer, each a medium's
-// number, the one entered last in the low byte, 0 for none. Overlaps are settled by priority
-// (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
+// Media along rays and at the surfaces that they meet. A ray travels in a stack of nested
+// dielectrics: four bytes of an integer, each a medium's number, the one entered last in the low
+// byte, 0 for none. Overlaps are settled by priority (Schmidt and Budge 2002, "Simple Nested
+// Dielectrics in Ray Traced Images").
 #if defined(WHIT_SIMD_MEDIA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_MEDIA_INL_H_
 #undef WHIT_SIMD_MEDIA_INL_H_
@@ -8,7 +9,9 @@
 #define WHIT_SIMD_MEDIA_INL_H_
 #endif
 
+#include "hwy/contrib/math/math-inl.h"
 #include "simd/records-inl.h"
+#include "stages/columns.h"
 #include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,10 +37,8 @@ HWY_INLINE VU RemoveMedium(VU stack, VU medium) {
 }
 
 HWY_INLINE VF PriorityOf(const ShadingTables& tables, VU medium) {
-  const IntTag di;
-  const VI index =
-      hn::Add(hn::Mul(hn::BitCast(di, medium), hn::Set(di, kMediumStride)), hn::Set(di, 4));
-  return hn::GatherIndex(FloatTag(), reinterpret_cast<const float*>(tables.media.data()), index);
+  return GatherMember<offsetof(MediumRecord, priority)>(tables.media.data(),
+                                                        hn::BitCast(IntTag(), medium));
 }
 
 // The medium that counts: highest priority, entered last among equals; 0 outside everything.
@@ -59,6 +60,55 @@ HWY_INLINE VU CurrentMedium(const ShadingTables& tables, VU stack) {
   consider(hn::And(hn::ShiftRight<16>(stack), byte));
   consider(hn::ShiftRight<24>(stack));
   return best;
+}
+
+// Of the medium that counts.
+HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
+  return GatherMember<offsetof(MediumRecord, ior)>(
+      tables.media.data(), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
+}
+
+// Media on both sides of the surface, and whether it is there at all.
+HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VU medium,
+                           MF entering, size_t i, const SurfelColumns& surfels) {
+  const UintTag du;
+  const VU stack = hn::Load(du, rays.media + i);
+  const auto dielectric = hn::Ne(medium, hn::Zero(du));
+  const auto enters = hn::RebindMask(du, entering);
+  VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+  behind = hn::IfThenElse(dielectric, behind, stack);
+  const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
+  const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
+  hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,
+            surfels.flags + i);
+  hn::Store(behind, du, surfels.mediaBehind + i);
+}
+
+// exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.
+HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, const HitColumns& hits,
+                       MF valid, size_t i) {
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
+  const VU stack = hn::Load(du, rays.media + i);
+  if (hn::AllTrue(du, hn::Eq(stack, hn::Zero(du)))) return;
+  const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
+  const Records<MediumRecord> records(tables.media.data(), medium);
+  const V4 record =
+      records.Load4<offsetof(MediumRecord, ior), offsetof(MediumRecord, absorption[2])>();
+  const VF t = hn::Load(d, hits.t + i);
+  const auto transmittance = [&](VF sigma) HWY_ATTR {
+    // 88 is past where exp underflows to zero; the limit keeps infinity out of the polynomial.
+    const VF depth = hn::Min(hn::Mul(sigma, t), hn::Set(d, 104.0f));
+    const VF hit = hn::IfThenElseZero(hn::Lt(depth, hn::Set(d, 87.0f)), hn::Exp(d, hn::Neg(depth)));
+    const VF through = hn::IfThenElseZero(valid, hit);
+    return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
+  };
+  const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
+  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
+  const VF throughput = hn::Load(d, rays.throughput + i);
+  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

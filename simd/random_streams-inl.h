@@ -1,12 +1,12 @@
-// Random numbers of paths (the scalar twin: src/core/random_streams.h; the bits are the same).
-#if defined(WHIT_SIMD_PATH_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef WHIT_SIMD_PATH_NUMBERS_INL_H_
-#undef WHIT_SIMD_PATH_NUMBERS_INL_H_
+// Random numbers of paths (the scalar twin: src/sampling/random_streams.h; the bits are the same).
+#if defined(WHIT_SIMD_RANDOM_STREAMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_RANDOM_STREAMS_INL_H_
+#undef WHIT_SIMD_RANDOM_STREAMS_INL_H_
 #else
-#define WHIT_SIMD_PATH_NUMBERS_INL_H_
+#define WHIT_SIMD_RANDOM_STREAMS_INL_H_
 #endif
 
-#include "core/random_streams.h"
+#include "sampling/random_streams.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,5 +1,6 @@
-// Records of floats fetched for every lane at once, four columns at a time: one 16-byte load a lane
-// and a transposition instead of four gathers, which cost several times as much on AVX2.
+// Records fetched for every lane at once, four floats at a time: one 16-byte load a lane and a
+// transposition instead of four gathers, which cost several times as much on AVX2. Which four is
+// said by the offsets of the record's members.
 #if defined(WHIT_SIMD_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_RECORDS_INL_H_
 #undef WHIT_SIMD_RECORDS_INL_H_
@@ -16,26 +17,31 @@ struct V4 {
   VF x, y, z, w;
 };
 
-// Which record each lane reads, as addresses; dead lanes must name a valid record.
-struct Records {
+template <class Record>
+constexpr size_t kFloatsOf = sizeof(Record) / sizeof(float);
+
+// The place of a member in a record of floats, counted in these. The four floats from there on are
+// the record's, and the last of them is the member at `kLast`.
+template <class Record, size_t kFirst, size_t kLast>
+constexpr size_t FourFloatsAt() {
+  static_assert(kFirst % sizeof(float) == 0 && kFirst + 4 * sizeof(float) <= sizeof(Record));
+  static_assert(kLast == kFirst + 3 * sizeof(float));
+  return kFirst / sizeof(float);
+}
+
+HWY_INLINE const float* RecordAt(const void* base, size_t floats, int32_t index) {
+  return static_cast<const float*>(base) +
+         static_cast<size_t>(static_cast<uint32_t>(index)) * floats;
+}
+
+// Which record each lane reads, as addresses.
+struct LaneAddresses {
   const float* lane[16];
 };
 
-HWY_INLINE Records RecordsAt(const void* base, size_t strideInFloats, VI index) {
-  const IntTag di;
-  HWY_ALIGN int32_t indices[16];
-  hn::Store(index, di, indices);
-  Records records;
-  for (size_t i = 0; i < hn::Lanes(di); ++i) {
-    records.lane[i] = static_cast<const float*>(base) +
-                      static_cast<size_t>(static_cast<uint32_t>(indices[i])) * strideInFloats;
-  }
-  return records;
-}
-
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
+HWY_INLINE V4 LoadFourFloats(const LaneAddresses& records, size_t column) {
   const FloatTag d;
   const float* p = records.lane[0] + column;
   return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
@@ -78,8 +84,8 @@ HWY_INLINE V4 LoadTransposed(const LoadBlock& loadBlock) {
           hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23))};
 }
 
-// Columns `column` to `column` + 3 of every lane's record.
-HWY_INLINE V4 LoadColumns4(const Records& records, size_t column) {
+// Floats `column` to `column` + 3 of every lane's record.
+HWY_INLINE V4 LoadFourFloats(const LaneAddresses& records, size_t column) {
   return LoadTransposed([&](auto d, size_t lane)
                             HWY_ATTR { return hn::LoadU(d, records.lane[lane] + column); });
 }
@@ -96,11 +102,37 @@ HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* inde
 
 #endif
 
-// A table read by an index that is often the same in all lanes (a packet on one surface): then one
-// scalar load and a broadcast serve instead of a fetch for each lane.
-class TableReader {
+// A record a lane of a table; dead lanes must name one as well.
+template <class Record>
+class Records {
  public:
-  HWY_INLINE TableReader(const void* base, size_t strideInFloats, VI index, MF live) {
+  HWY_INLINE Records(const Record* table, VI index) : Records(table, kFloatsOf<Record>, index) {}
+  // Records so many floats apart. 0: all lanes read the first one.
+  HWY_INLINE Records(const Record* table, size_t stride, VI index) {
+    const IntTag di;
+    HWY_ALIGN int32_t indices[16];
+    hn::Store(index, di, indices);
+    for (size_t i = 0; i < hn::Lanes(di); ++i) {
+      addresses_.lane[i] = RecordAt(table, stride, indices[i]);
+    }
+  }
+
+  // The float at `kFirst` bytes and the three behind it.
+  template <size_t kFirst, size_t kLast = kFirst + 3 * sizeof(float)>
+  HWY_INLINE V4 Load4() const {
+    return LoadFourFloats(addresses_, FourFloatsAt<Record, kFirst, kLast>());
+  }
+
+ private:
+  LaneAddresses addresses_;
+};
+
+// The same where lanes often read the same record (a packet on one surface): then one scalar load
+// and a broadcast serve instead of a fetch for each lane. What dead lanes get is some record's.
+template <class Record>
+class SharedRecords {
+ public:
+  HWY_INLINE SharedRecords(const Record* table, VI index, MF live) {
     const FloatTag d;
     const IntTag di;
     HWY_ALIGN int32_t indices[16];
@@ -110,25 +142,40 @@ class TableReader {
     const MF same = hn::RebindMask(d, hn::Eq(index, hn::Set(di, first)));
     uniform_ = hn::AllFalse(d, hn::AndNot(same, live));
     if (uniform_) {
-      records_.lane[0] = static_cast<const float*>(base) +
-                         static_cast<size_t>(static_cast<uint32_t>(first)) * strideInFloats;
+      addresses_.lane[0] = RecordAt(table, kFloatsOf<Record>, first);
     } else {
-      records_ =
-          RecordsAt(base, strideInFloats, hn::IfThenElseZero(hn::RebindMask(di, live), index));
+      hn::Store(hn::IfThenElseZero(hn::RebindMask(di, live), index), di, indices);
+      for (size_t i = 0; i < hn::Lanes(di); ++i) {
+        addresses_.lane[i] = RecordAt(table, kFloatsOf<Record>, indices[i]);
+      }
     }
   }
 
-  HWY_INLINE V4 Columns4(size_t column) const {
-    if (!uniform_) return LoadColumns4(records_, column);
+  template <size_t kFirst, size_t kLast = kFirst + 3 * sizeof(float)>
+  HWY_INLINE V4 Load4() const {
+    constexpr size_t kColumn = FourFloatsAt<Record, kFirst, kLast>();
+    if (!uniform_) return LoadFourFloats(addresses_, kColumn);
     const FloatTag d;
-    const float* p = records_.lane[0] + column;
+    const float* p = addresses_.lane[0] + kColumn;
     return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
   }
 
  private:
-  Records records_;
+  LaneAddresses addresses_;
   bool uniform_;
 };
+
+// One float of a record a lane, by a gather.
+template <size_t kMember, class Record>
+HWY_INLINE VF GatherMember(const Record* table, VI index) {
+  static_assert(kMember % sizeof(float) == 0 && kMember + sizeof(float) <= sizeof(Record));
+  const IntTag di;
+  VI at = hn::Mul(index, hn::Set(di, static_cast<int32_t>(kFloatsOf<Record>)));
+  if constexpr (kMember != 0) {
+    at = hn::Add(at, hn::Set(di, static_cast<int32_t>(kMember / sizeof(float))));
+  }
+  return hn::GatherIndex(FloatTag(), reinterpret_cast<const float*>(table), at);
+}
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,5 +1,5 @@
-// The surface at hits: interpolated between the corners of their triangles, and carried from the
-// space of an instance to the world.
+// The surface at hits: what follows from the records of triangles, interpolated between their
+// corners, and carried from the space of an instance to the world.
 #if defined(WHIT_SIMD_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_SURFACE_INL_H_
 #undef WHIT_SIMD_SURFACE_INL_H_
@@ -7,10 +7,165 @@
 #define WHIT_SIMD_SURFACE_INL_H_
 #endif
 
-#include "simd/triangle-inl.h"
+#include "simd/records-inl.h"
+#include "stages/columns.h"
+#include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
+
+// Texture coordinates of the corners of each lane's triangle.
+struct UvLanes {
+  VF u0, v0, u1, v1, u2, v2;
+};
+
+struct TriangleLanes {
+  V3 p0, p1, p2;
+  UvLanes uv;
+  VI material;
+};
+
+HWY_INLINE TriangleLanes LoadTriangles(const ShadingTables& tables, VI triangle) {
+  using R = TriangleRecord;
+  const Records<R> records(tables.triangles, triangle);
+  const V4 a = records.Load4<offsetof(R, position[0]), offsetof(R, position[3])>();
+  const V4 b = records.Load4<offsetof(R, position[4]), offsetof(R, position[7])>();
+  const V4 c = records.Load4<offsetof(R, position[8]), offsetof(R, uv[2])>();
+  const V4 e = records.Load4<offsetof(R, uv[3]), offsetof(R, material)>();
+  return {{a.x, a.y, a.z},
+          {a.w, b.x, b.y},
+          {b.z, b.w, c.x},
+          {c.y, c.z, c.w, e.x, e.y, e.z},
+          hn::BitCast(IntTag(), e.w)};
+}
+
+HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
+  const Records<UvRecord> records(tables.secondUvs, triangle);
+  // The last load starts at 2, not 4: a record ends after six floats.
+  const V4 a = records.Load4<offsetof(UvRecord, uv[0])>();
+  const V4 b = records.Load4<offsetof(UvRecord, uv[2])>();
+  return {a.x, a.y, a.z, a.w, b.z, b.w};
+}
+
+// What the hits are of.
+struct HitLanes {
+  MF valid;
+  VI triangle;  // some triangle where nothing was hit
+};
+
+HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t i) {
+  const UintTag du;
+  const IntTag di;
+  const VU hit = hn::Load(du, hits.triangle + i);
+  const MF valid = hn::RebindMask(FloatTag(), hn::Ne(hit, hn::Set(du, kMiss)));
+  return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), hn::BitCast(di, hit))};
+}
+
+// Barycentric weights of the corners.
+struct Weights {
+  VF w0, w1, w2;
+};
+
+HWY_INLINE Weights LoadWeights(const HitColumns& hits, size_t i) {
+  const FloatTag d;
+  const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
+  return {hn::Sub(hn::Sub(hn::Set(d, 1.0f), u), v), u, v};
+}
+
+HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
+  return hn::MulAdd(a, w.w0, hn::MulAdd(b, w.w1, hn::Mul(c, w.w2)));
+}
+HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
+  return {Interpolate(w, a.x, b.x, c.x), Interpolate(w, a.y, b.y, c.y),
+          Interpolate(w, a.z, b.z, c.z)};
+}
+
+// Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
+// products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
+HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
+  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF scale = InverseExponent(largest);
+  const V3 unit{hn::Zero(FloatTag()), hn::Zero(FloatTag()), hn::Set(FloatTag(), 1.0f)};
+  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit, how);
+}
+
+// A vector for each corner.
+struct Corners {
+  V3 c0, c1, c2;
+};
+
+// A record begins with nine floats, three a corner.
+template <class Record>
+HWY_INLINE Corners LoadCorners(const Record* table, int stride, VI triangle) {
+  const Records<Record> records(table, static_cast<size_t>(stride), triangle);
+  // The last load starts at 5, not 8: a record ends after nine floats.
+  const V4 a = records.template Load4<0>(), b = records.template Load4<4 * sizeof(float)>();
+  const V4 c = records.template Load4<5 * sizeof(float)>();
+  return {{a.x, a.y, a.z}, {a.w, b.x, b.y}, {b.z, b.w, c.w}};
+}
+
+HWY_INLINE Corners LoadNormals(const ShadingTables& tables, VI triangle) {
+  static_assert(sizeof(NormalRecord) == 9 * sizeof(float));
+  return LoadCorners(tables.normals, tables.normalStride, triangle);
+}
+
+// Of the vertices: the first corner's and what the others add to it, so that one color at all
+// corners is that color exactly.
+HWY_INLINE V3 VertexColor(const ShadingTables& tables, VI triangle, VF u, VF v) {
+  static_assert(sizeof(ColorRecord) == 9 * sizeof(float));
+  const auto [c0, c1, c2] = LoadCorners(tables.colors, tables.colorStride, triangle);
+  const V3 there = MulAdd3(Sub3(c2, c0), v, MulAdd3(Sub3(c1, c0), u, c0));
+  const VF zero = hn::Zero(FloatTag());
+  return {hn::Max(there.x, zero), hn::Max(there.y, zero), hn::Max(there.z, zero)};
+}
+
+HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w, const V3& ng,
+                           Reciprocal how) {
+  const Corners n = LoadNormals(tables, triangle);
+  return NormalizeOr(Interpolate3(w, n.c0, n.c1, n.c2), ng, how);
+}
+
+// A matrix a lane, its rows.
+struct MatrixLanes {
+  V4 row0, row1, row2;
+};
+
+HWY_INLINE V3 TransformVector(const MatrixLanes& m, const V3& v) {
+  return {Dot({m.row0.x, m.row0.y, m.row0.z}, v), Dot({m.row1.x, m.row1.y, m.row1.z}, v),
+          Dot({m.row2.x, m.row2.y, m.row2.z}, v)};
+}
+
+// From the space of an instance to the world.
+struct PlacementLanes {
+  MatrixLanes toWorld, normal;
+  V3 origin;  // of the instance's space
+  VF handedness;
+};
+
+HWY_INLINE PlacementLanes LoadPlacements(const ShadingTables& tables, VI instance, MF placed) {
+  using R = InstanceTransform;
+  const SharedRecords<R> records(tables.instances.data(), instance, placed);
+  PlacementLanes p;
+  p.toWorld = {records.Load4<offsetof(R, toWorld[0])>(), records.Load4<offsetof(R, toWorld[4])>(),
+               records.Load4<offsetof(R, toWorld[8])>()};
+  p.normal = {records.Load4<offsetof(R, normal[0])>(), records.Load4<offsetof(R, normal[4])>(),
+              records.Load4<offsetof(R, normal[8])>()};
+  p.origin = {p.toWorld.row0.w, p.toWorld.row1.w, p.toWorld.row2.w};
+  p.handedness = records.Load4<offsetof(R, handedness)>().x;
+  return p;
+}
+
+// What the hits are on, where that is an instance.
+struct InstanceHits {
+  MF placed;
+  VI instance;
+};
+
+HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, MF valid, size_t i) {
+  const IntTag di;
+  const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
+  return {hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(instance))), instance};
+}
 
 struct Surface {
   V3 position, edge1, edge2;
@@ -21,13 +176,13 @@ struct Surface {
 
 template <bool kSmoothNormals>
 HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const TriangleLanes& t,
-                                      VI triangle, const Weights& w) {
+                                      VI triangle, const Weights& w, Reciprocal how) {
   Surface s;
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
   s.position = Interpolate3(w, t.p0, t.p1, t.p2);
-  s.ng = GeometricNormal(s.edge1, s.edge2, tables.shading.reciprocal);
+  s.ng = GeometricNormal(s.edge1, s.edge2, how);
   s.ns = s.ng;
-  if constexpr (kSmoothNormals) s.ns = SmoothNormal(tables, triangle, w, s.ng);
+  if constexpr (kSmoothNormals) s.ns = SmoothNormal(tables, triangle, w, s.ng, how);
   const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
   s.magnitude = Interpolate3(absolute, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
   s.handedness = hn::Set(FloatTag(), 1.0f);
@@ -45,25 +200,22 @@ HWY_INLINE VF OriginOffset(const Surface& s) {
 HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              size_t i, Surface& s) {
   const FloatTag d;
-  const IntTag di;
-  const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
-  const MF placed = hn::And(valid, hn::RebindMask(d, NonNegative(instance)));
+  const auto [placed, instance] = LoadInstances(hits, valid, i);
   if (hn::AllFalse(d, placed)) return;
   const VF one = hn::Set(d, 1.0f);
-  const TableReader reader(tables.instances.data(), kInstanceStride, instance, placed);
-  const InstanceLanes m{reader.Columns4(0), reader.Columns4(4), reader.Columns4(8)};
-  const InstanceLanes normal{reader.Columns4(12), reader.Columns4(16), reader.Columns4(20)};
-  const V3 origin{m.row0.w, m.row1.w, m.row2.w};
-  const InstanceLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
-                          {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},
-                          {hn::Abs(m.row2.x), hn::Abs(m.row2.y), hn::Abs(m.row2.z), one}};
-  s.magnitude = Select3(placed, Add3(TransformVector(abs, s.magnitude), Abs3(origin)), s.magnitude);
-  s.position = Select3(placed, Add3(TransformVector(m, s.position), origin), s.position);
+  const PlacementLanes p = LoadPlacements(tables, instance, placed);
+  const MatrixLanes &m = p.toWorld, &normal = p.normal;
+  const MatrixLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
+                        {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},
+                        {hn::Abs(m.row2.x), hn::Abs(m.row2.y), hn::Abs(m.row2.z), one}};
+  s.magnitude =
+      Select3(placed, Add3(TransformVector(abs, s.magnitude), Abs3(p.origin)), s.magnitude);
+  s.position = Select3(placed, Add3(TransformVector(m, s.position), p.origin), s.position);
   s.edge1 = Select3(placed, TransformVector(m, s.edge1), s.edge1);
   s.edge2 = Select3(placed, TransformVector(m, s.edge2), s.edge2);
   s.ng = Select3(placed, NormalizeOr(TransformVector(normal, s.ng), s.ng), s.ng);
   s.ns = Select3(placed, NormalizeOr(TransformVector(normal, s.ns), s.ns), s.ns);
-  s.handedness = hn::IfThenElse(placed, reader.Columns4(24).x, one);
+  s.handedness = hn::IfThenElse(placed, p.handedness, one);
 }
 
 // The sign that turns normals towards the viewer.

@@ -6,12 +6,49 @@
 #define WHIT_SIMD_SURFACE_MAPS_INL_H_
 #endif
 
+#include "core/effects.h"
 #include "hwy/contrib/math/math-inl.h"
+#include "simd/material-inl.h"
+#include "simd/surface-inl.h"
 #include "simd/texture-inl.h"
-#include "simd/triangle-inl.h"
+#include "stages/chunk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
+
+// What variants of interpolateSurfels are compiled for.
+constexpr uint32_t kSmooth = EffectSet::bit(Effect::smoothNormals);
+constexpr uint32_t kTextured = EffectSet::bit(Effect::textures);
+constexpr uint32_t kNormalMapped = EffectSet::bit(Effect::normalMaps);
+
+// A chunk as interpolateSurfels sees it: what lies in the chunk itself would be read again after
+// each store to its columns.
+struct SurfelJob {
+  const ShadingTables& tables;
+  ShadingChoices shading;
+  float coneSpread;
+  RayColumns rays;
+  HitColumns hits;
+  SurfelColumns surfels;
+  bool absorption, cones, emissionFactors, glossy, instances, secondUvs, transmission, vertexColors;
+};
+
+HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
+  return {c.tables(),
+          c.options().shading,
+          c.frame->camera.coneSpread,
+          c.rays,
+          c.hits,
+          c.surfels,
+          c.has(Feature::absorption),
+          c.has(Feature::cones),
+          c.has(Feature::emissionFactors),
+          c.has(Feature::glossy),
+          c.has(Feature::instances),
+          c.has(Feature::secondUvs),
+          c.has(Feature::transmission),
+          c.has(Feature::vertexColors)};
+}
 
 // The frame that the texture coordinates span about `ns`: T along u, B along v. False where they
 // span none.
@@ -94,17 +131,15 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   const IntTag di;
   queue.level.any[slot] = !hn::AllFalse(d, live);
   if (!queue.level.any[slot]) return;
-  const void* records = tables.mipLevels.data();
+  const TextureRecord* levels = tables.mipLevels.data();
   const VI full =
       hn::IfThenElseZero(hn::RebindMask(di, live), hn::Mul(map, hn::Set(di, kMipStride)));
-  const V4 record = TableReader(records, kTextureStride, full, live).Columns4(0);
-  const VF width = hn::ConvertTo(d, hn::BitCast(di, record.y));
-  const VF height = hn::ConvertTo(d, hn::BitCast(di, record.z));
+  const auto [first, width, height, wrap] = LoadTextures(levels, full, live);
   const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), height));
   const VF whole = hn::Floor(level);
   const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
-    QueueTexels(TextureFilter::bilinear, records, tables.texels.data(), index, live, at.u, at.v,
+    QueueTexels(TextureFilter::bilinear, levels, tables.texels.data(), index, live, at.u, at.v,
                 slot, to);
   };
   queueAt(lower, queue.level);
@@ -112,28 +147,28 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   hn::Store(hn::Sub(level, whole), d, queue.between + slot);
 }
 
-HWY_INLINE MF MappedLanes(VF map, MF valid) {
-  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(hn::BitCast(IntTag(), map))));
+HWY_INLINE MF MappedLanes(VI map, MF valid) {
+  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(map)));
 }
 
-HWY_INLINE void QueueMap(const ShadingTables& tables, VF mapBits, MF live, const TexturePoints& at,
+HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoints& at,
                          size_t slot, MapQueue& queue) {
-  const VI map = hn::BitCast(IntTag(), mapBits);
-  const MF mapped = MappedLanes(mapBits, live);
-  if (HWY_UNLIKELY(tables.shading.textureFilter == TextureFilter::trilinear)) {
+  const ShadingTables& tables = job.tables;
+  const MF mapped = MappedLanes(map, live);
+  if (HWY_UNLIKELY(job.shading.textureFilter == TextureFilter::trilinear)) {
     QueueLevels(tables, map, mapped, at, slot, queue);
     return;
   }
-  QueueTexels(tables.shading.textureFilter, tables.textures.data(), tables.texels.data(), map,
-              mapped, at.u, at.v, slot, queue.level);
+  QueueTexels(job.shading.textureFilter, tables.textures.data(), tables.texels.data(), map, mapped,
+              at.u, at.v, slot, queue.level);
 }
 
 // What waits at `slot`, filtered: `filter` makes a value of a footprint.
 template <class Filter>
-HWY_INLINE V3 FilterMap(const ShadingTables& tables, const MapQueue& queue, size_t slot,
+HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot,
                         const Filter& filter) {
-  const TextureFilter choice = tables.shading.textureFilter;
-  const uint32_t* texels = tables.texels.data();
+  const TextureFilter choice = job.shading.textureFilter;
+  const uint32_t* texels = job.tables.texels.data();
   const V3 value = filter(FetchTexels(choice, texels, queue.level, slot));
   if (HWY_LIKELY(choice != TextureFilter::trilinear)) return value;
   const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));
@@ -141,22 +176,23 @@ HWY_INLINE V3 FilterMap(const ShadingTables& tables, const MapQueue& queue, size
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColor(const ShadingTables& tables, const MapQueue& queue, size_t slot,
-                           float* r, float* g, float* b, size_t i) {
+HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot, float* r,
+                           float* g, float* b, size_t i) {
   if (!queue.level.any[slot]) return;
   const V3 color = Load3(r, g, b, i);
   const V3 texture =
-      FilterMap(tables, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
+      FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
   Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.
-HWY_INLINE void ApplyNormalMap(const ShadingTables& tables, const BlockTextures& block, size_t slot,
-                               const SurfelColumns& surfels, size_t i) {
+HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block, size_t slot,
+                               size_t i) {
   if (!block.normal.level.any[slot]) return;
   const FloatTag d;
   const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
-  const V3 code = FilterMap(tables, block.normal, slot,
+  const SurfelColumns& surfels = job.surfels;
+  const V3 code = FilterMap(job, block.normal, slot,
                             [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
   const V3 m{hn::MulSub(code.x, two, one), hn::MulSub(code.y, two, one),
              hn::MulSub(code.z, two, one)};
@@ -166,6 +202,93 @@ HWY_INLINE void ApplyNormalMap(const ShadingTables& tables, const BlockTextures&
   const V3 bent = MulAdd3(tangent, m.x, MulAdd3(bitangent, m.y, Scale3(ns, m.z)));
   Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
          surfels.nsY, surfels.nsZ, i);
+}
+
+// What it takes to look maps up by either set of coordinates, of scenes that have two.
+struct MapHits {
+  UvLanes first;
+  VI triangle, material;
+  MF live;
+  Weights weights;
+  V3 edge1, edge2;
+  VF coneWidth, cosine;
+};
+
+// The second coordinates where the flags of the lane's material have `bySecond`.
+inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits,
+                                     uint32_t bySecond) {
+  const MaterialLanes material(tables, hits.material, hits.live);
+  const MF second = hn::And(hits.live, HasFlags(material.Lobe().flags, bySecond));
+  const UvLanes& a = hits.first;
+  if (hn::AllFalse(FloatTag(), second)) return a;
+  const UvLanes b = LoadSecondUvs(tables, hits.triangle);
+  const auto select = [&](VF yes, VF no) HWY_ATTR { return hn::IfThenElse(second, yes, no); };
+  return {select(b.u0, a.u0), select(b.v0, a.v0), select(b.u1, a.u1),
+          select(b.v1, a.v1), select(b.u2, a.u2), select(b.v2, a.v2)};
+}
+
+HWY_INLINE TexturePoints PointsAt(const SurfelJob& job, const MapHits& hits, const UvLanes& uv) {
+  const Weights& w = hits.weights;
+  TexturePoints at{Interpolate(w, uv.u0, uv.u1, uv.u2), Interpolate(w, uv.v0, uv.v1, uv.v2),
+                   hn::Zero(FloatTag())};
+  if (job.cones) {
+    at.footprint = TextureFootprint(uv, hits.edge1, hits.edge2, hits.coneWidth, hits.cosine);
+  }
+  return at;
+}
+
+inline HWY_NOINLINE void QueueEmissionByOwnUvs(const SurfelJob& job, const MapHits& hits, VI map,
+                                               size_t slot, BlockTextures& block) {
+  const UvLanes uv = UvsOfMap(job.tables, hits, kMaterialEmissionBySecondUvs);
+  QueueMap(job, map, hits.live, PointsAt(job, hits, uv), slot, block.emission);
+}
+
+// As modelled, and the sign that turns it towards the viewer.
+struct NormalSpace {
+  V3 ns;
+  VF handedness, flip;
+};
+
+inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits& hits, VI map,
+                                             const NormalSpace& space, size_t slot,
+                                             BlockTextures& block) {
+  const UvLanes uv = UvsOfMap(job.tables, hits, kMaterialNormalBySecondUvs);
+  const TangentFrame frame =
+      FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);
+  QueueMap(job, map, hn::And(hits.live, frame.good), PointsAt(job, hits, uv), slot, block.normal);
+  StoreFrame(frame, space.flip, slot, block);
+}
+
+// Of scenes with second texture coordinates: what has been queued by the first ones, where the
+// material asks for its own, once more. Not inlined, and from the start: other frames shall not
+// carry it along.
+template <uint32_t kBits>
+HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
+  const FloatTag d;
+  const ShadingTables& tables = job.tables;
+  const auto [valid, triangle] = LoadHits(job.hits, i);
+  if (hn::AllFalse(d, valid)) return;
+  const TriangleLanes t = LoadTriangles(tables, triangle);
+  const Weights w = LoadWeights(job.hits, i);
+  Surface s =
+      InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
+  const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
+  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+  const MapHits map{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
+  const MaterialLanes material(tables, t.material, valid);
+  if constexpr ((kBits & kNormalMapped) != 0) {
+    const VI normalMap = material.Emission().normalMap;
+    if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
+      const VF flip = TurnToViewer(hn::Lt(cosine, hn::Zero(d)));
+      QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
+    }
+  }
+  if constexpr ((kBits & kTextured) != 0) {
+    if (job.emissionFactors) {
+      QueueEmissionByOwnUvs(job, map, material.Lobe().emissionMap, slot, block);
+    }
+  }
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -2,7 +2,6 @@
 #include <cstdint>
 
 #include "hwy/targets.h"
-#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 namespace whit::simd {

@@ -96,20 +96,33 @@ HWY_INLINE VI TexelOf(VF footprintX, VF footprintY, VF width) {
   return hn::Add(rowOfTiles, IndexOf(inRow));
 }
 
+struct TextureLanes {
+  VI firstTexel;
+  VF width, height;
+  VI wrap;
+};
+
+HWY_INLINE TextureLanes LoadTextures(const TextureRecord* table, VI texture, MF live) {
+  using R = TextureRecord;
+  static_assert(offsetof(R, width) == 4 && offsetof(R, height) == 8);
+  const FloatTag d;
+  const IntTag di;
+  const SharedRecords<R> records(table, texture, live);
+  const V4 r = records.Load4<offsetof(R, firstTexel), offsetof(R, wrap)>();
+  return {hn::BitCast(di, r.x), hn::ConvertTo(d, hn::BitCast(di, r.y)),
+          hn::ConvertTo(d, hn::BitCast(di, r.z)), hn::BitCast(di, r.w)};
+}
+
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
-// into `records`.
-HWY_INLINE void QueueTexels(TextureFilter filter, const void* records, const uint32_t* texels,
-                            VI texture, MF live, VF u, VF v, size_t slot, TexelQueue& queue) {
+// into `table`.
+HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
+                            const uint32_t* texels, VI texture, MF live, VF u, VF v, size_t slot,
+                            TexelQueue& queue) {
   const FloatTag d;
   const IntTag di;
   queue.any[slot] = !hn::AllFalse(d, live);
   if (!queue.any[slot]) return;
-  const TableReader reader(records, kTextureStride, texture, live);
-  const V4 record = reader.Columns4(0);
-  const VI first = hn::BitCast(di, record.x);
-  const VF width = hn::ConvertTo(d, hn::BitCast(di, record.y));
-  const VF height = hn::ConvertTo(d, hn::BitCast(di, record.z));
-  const VI wrap = hn::BitCast(di, record.w);
+  const auto [first, width, height, wrap] = LoadTextures(table, texture, live);
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
   const VI wrapV = hn::ShiftRight<8>(wrap);
   // Image rows run downwards, v upwards.

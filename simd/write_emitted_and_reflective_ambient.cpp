@@ -1,22 +1,28 @@
+// What surfels send to the viewer without any light's help, and the sky where rays left the scene.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/write_emitted_and_reflective_ambient.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/records-inl.h"
+#include "simd/material-inl.h"
 #include "simd/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void WriteEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
-                                      const RayColumns& rays, const SurfelColumns& surfels,
-                                      size_t n, const RadianceColumns& radiance) {
+void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
-  const bool emission = effects.has(Effect::emission), ambient = effects.has(Effect::ambient);
-  const bool sky = effects.has(Effect::sky), hidden = effects.has(Effect::transmission);
+  const ShadingTables& tables = c.tables();
+  const RayColumns rays = c.rays;
+  const SurfelColumns surfels = c.surfels;
+  const RadianceColumns radiance = c.radiance;
+  const size_t n = c.n;
+  // Of a chunk in which nothing emits, no surfel needs its material.
+  const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
+  const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
+  const bool sky = c.has(Feature::sky), hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
   // down + (up - down) * (1 + n.y) / 2 as middle + half * n.y
   const Vec3f up = tables.ambient.up, down = tables.ambient.down;
@@ -31,11 +37,8 @@ void WriteEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet eff
       result = Mul3(albedo, MulAdd3(half, ny, middle));
     }
     if (emission && !hn::AllFalse(d, hit)) {
-      const TableReader reader(tables.materials.data(), kMaterialStride, hn::BitCast(di, material),
-                               hit);
-      const V4 emitted = reader.Columns4(8);
-      V3 own{emitted.x, emitted.y, emitted.z};
-      if (surfels.emissionR) {
+      V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission().emission;
+      if (factors) {
         own = Mul3(own, Load3(surfels.emissionR, surfels.emissionG, surfels.emissionB, i));
       }
       result = Add3(result, own);
@@ -58,17 +61,18 @@ void WriteEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet eff
   }
 }
 
+StepFunction FindWriteEmittedAndReflectiveAmbient(size_t /*index*/) {
+  return WriteEmittedAndReflectiveAmbient;
+}
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(WriteEmittedAndReflectiveAmbient);
-void writeEmittedAndReflectiveAmbient(const ShadingTables& tables, EffectSet effects,
-                                      const RayColumns& rays, const SurfelColumns& surfels,
-                                      std::size_t n, const RadianceColumns& radiance) noexcept {
-  HWY_DYNAMIC_DISPATCH(WriteEmittedAndReflectiveAmbient)
-  (tables, effects, rays, surfels, n, radiance);
+HWY_EXPORT(FindWriteEmittedAndReflectiveAmbient);
+StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindWriteEmittedAndReflectiveAmbient)(index);
 }
 }  // namespace whit::simd
 #endif

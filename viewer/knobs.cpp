@@ -157,7 +157,7 @@ void drawLastChange(const KnobCosts& costs) {
   row("frame, ms", change.before.frameMs, change.after.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     const auto thousands = [&](const FrameStats& s) {
-      return static_cast<double>(s.tally[i].rays) / 1e3;
+      return static_cast<double>(s.meter.tally[i].rays) / 1e3;
     };
     row((std::string(kRayKindNames[i]) + ", k").c_str(), thousands(change.before),
         thousands(change.after));

@@ -39,7 +39,7 @@ void drawRays(const FrameStats& stats) {
   }
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    const RayTally& tally = stats.tally[i];
+    const RayTally& tally = stats.meter.tally[i];
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(kRayKindNames[i].data());
     ImGui::TableNextColumn();

@@ -11,8 +11,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "scene/scene.h"
-#include "stages/columns.h"
-#include "stages/ray_tally.h"
+#include "stages/chunk.h"
 
 namespace whit {
 
@@ -26,8 +25,8 @@ struct AccelOptions {
   std::string isa;         // "avx512", "avx2", "avx", "sse4.2"; empty: the CPU's best
 };
 
-// Rays of one tile as they went to Embree, for measuring the floor. Rays of one kind of call lie
-// together, in the order in which they were traced.
+// Rays as they went to Embree, for measuring the floor. Rays of one kind of call lie together, in
+// the order in which they were traced.
 class RayLog {
  public:
   struct Stream {
@@ -36,37 +35,42 @@ class RayLog {
     // Origin, direction, tFar; filled up to whole blocks.
     std::array<std::vector<float>, 7> columns;
   };
-  void append(bool occlusion, bool coherent, const float* const columns[7], std::size_t n);
+  void append(const RayColumns& rays, std::size_t n, bool coherent);
+  void append(const ShadowColumns& shadows, std::size_t n, bool coherent);
   const std::vector<Stream>& streams() const { return streams_; }
 
  private:
+  Stream& streamOf(bool occlusion, bool coherent);
+  // The last column is null where rays have no end.
+  static void append(Stream& stream, const std::array<const float*, 7>& from, std::size_t n);
+
   std::vector<Stream> streams_;
 };
 
-// What tracing adds up to, for one worker.
-struct TraceMeter {
-  RayTally* tally = nullptr;  // of the kind of ray that is being traced; never null
-  double embreeMs = 0;        // inside Embree's calls alone
-  RayLog* log = nullptr;      // when rays are being captured
+// What a single ray meets; the numbers are those of HitColumns.
+struct Hit {
+  std::uint32_t triangle = kMiss, instance = kMiss;
+  float t = 0, u = 0, v = 0;
+  bool found() const { return triangle != kMiss; }
 };
 
 class Accel {
  public:
-  // `scene` must outlive the structure. Throws Error(limit) when memory runs out, Error(usage) when
-  // the packet width or ISA is not there.
+  // `scene` must outlive the structure. Rays are packed by kernels of the SIMD target that is
+  // chosen now (simd/kernels.h). Throws Error(limit) when memory runs out, Error(usage) when the
+  // packet width or ISA is not there.
   Accel(const Scene& scene, const AccelOptions& options, Progress* progress = nullptr);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // The nearest hit of rays [0, n). Up to 15 slots behind them may be overwritten. A ray's hit does
-  // not depend on the rays beside it, but where two surfaces lie in each other's place or cross at
-  // its very distance (to the last bit): which of them it meets is then left to Embree.
-  void findHits(const RayColumns& rays, std::size_t n, bool coherent, const HitColumns& hits,
-                TraceMeter& meter) const noexcept;
-  // visible[slot] = 1 for each of the n shadow rays that meets nothing before tFar.
-  void checkShadows(const ShadowColumns& shadows, std::size_t n, bool coherent, float* visible,
-                    TraceMeter& meter) const noexcept;
+  // The nearest hits of the chunk's rays, segment by segment; those behind the last are misses, up
+  // to a whole block. A ray's hit does not depend on the rays beside it, but where two surfaces lie
+  // in each other's place or cross at its very distance (to the last bit): which of them it meets
+  // is then left to Embree.
+  void findHits(Chunk& c) const noexcept;
+  // visible[slot] = 1 for each of the chunk's shadow rays that meets nothing before tFar, else 0.
+  void checkShadows(Chunk& c) const noexcept;
 
   // Robust traversal lets no ray through an edge, but about one in a thousand through a corner that
   // it meets exactly (hard case H14). In a scene that is closed around its cameras rays that find
@@ -76,8 +80,7 @@ class Accel {
   bool enclosed() const { return enclosed_; }
 
   // Single rays, for the reference's candidates.
-  bool closest(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
-               std::uint32_t& instance, float& t, float& u, float& v) const noexcept;
+  Hit closest(const Vec3f& origin, const Vec3f& direction) const noexcept;
   bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
 
   // Milliseconds that Embree needs for the rays of a log, in full packets.
@@ -87,15 +90,15 @@ class Accel {
   std::string description() const;  // "3.13.5 avx2"
   std::uint64_t memoryBytes() const;
 
- private:
-  bool findHit(const Vec3f& origin, const Vec3f& direction, std::uint32_t& triangle,
-               std::uint32_t& instance, float& t, float& u, float& v) const noexcept;
-  void settleEdges(const RayColumns& rays, std::size_t n, const HitColumns& hits) const noexcept;
-  void retryMisses(const RayColumns& rays, std::size_t n, const HitColumns& hits) const noexcept;
+  struct Parts;  // accel/accel_parts.h
 
-  struct Parts;
+ private:
   std::unique_ptr<Parts> parts_;
   bool enclosed_ = false;
 };
+
+// Steps of a plan, by the frame's Accel.
+void findHits(Chunk& c);
+void checkShadows(Chunk& c);
 
 }  // namespace whit

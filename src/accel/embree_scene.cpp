@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/instance_reach.h"
+#include "scene/instance_bounds.h"
 
 namespace whit {
 

@@ -46,6 +46,14 @@ class EmbreeScene {
   const std::uint32_t* triangleBase(std::size_t placed) const {
     return &triangleBase_[placed * kTriangleClasses];
   }
+  // Of a hit, as Embree tells it: the instance's id, which is RTC_INVALID_GEOMETRY_ID in the world.
+  std::uint32_t instanceOf(unsigned id) const {
+    return id == RTC_INVALID_GEOMETRY_ID ? kMiss : id - kFirstInstanceId;
+  }
+  std::uint32_t triangleOf(unsigned id, unsigned geometry, unsigned primitive) const {
+    const std::size_t placed = id == RTC_INVALID_GEOMETRY_ID ? 0 : 1 + (id - kFirstInstanceId);
+    return triangleBase(placed)[geometry] + primitive;
+  }
   // Rays with an origin or a direction beyond this are left out (see instanceReach).
   float reach() const { return reach_; }
   // The width of packets that Embree leads through its BVH several at a time when their rays are

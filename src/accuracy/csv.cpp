@@ -1,7 +1,11 @@
 #include "accuracy/csv.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 
+#include "core/error.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {
@@ -68,7 +72,7 @@ void writeTiming(CsvWriter& csv, const Point& point) {
   csv.number("x_baseline", t.ratio);
   csv.number("settled_ms", t.settledMs);
   for (std::size_t k = 0; k < kRayKindCount; ++k) {
-    csv.text(std::string(kRayKindNames[k]) + "_rays", std::to_string(point.stats.tally[k].rays));
+    csv.text(std::string(kRayKindNames[k]) + "_rays", std::to_string(point.stats.meter.tally[k].rays));
   }
 }
 
@@ -113,6 +117,82 @@ void writeRun(CsvWriter& csv, const SceneSweep& sweep, const Point& point, const
   csv.text("commit", facts.commit);
 }
 
+// Splits one line that may hold quoted fields; `at` moves behind its end.
+std::vector<std::string> readLine(const std::string& text, std::size_t& at) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quoted) {
+      if (c != '"') {
+        fields.back() += c;
+      } else if (at + 1 < text.size() && text[at + 1] == '"') {
+        fields.back() += '"';
+        ++at;
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',') {
+      fields.emplace_back();
+    } else if (c == '\n') {
+      ++at;
+      break;
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+std::string field(const CsvRow& row, const std::string& name) {
+  const auto found = row.find(name);
+  return found == row.end() ? std::string() : found->second;
+}
+
+// What must agree for two rows to be about the same point, measured alike.
+std::string keyOf(const CsvRow& row) {
+  std::string key;
+  for (const char* name : {"scene", "width", "height", "kind", "knob", "value"}) {
+    key += field(row, name) + (std::string(name) == "width" ? "x" : " ");
+  }
+  return key + "(reference of " + field(row, "reference_samples") + " samples, cutoff " +
+         field(row, "reference_cutoff") + ")";
+}
+
+std::optional<double> numberIn(const CsvRow& row, const std::string& name) {
+  const std::string text = field(row, name);
+  if (text.empty()) return {};
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (*end != '\0') throwBadScene(keyOf(row), name + ": expected a number, found '" + text + "'");
+  return value;
+}
+
+void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance& tolerance,
+                 std::vector<std::string>& grown) {
+  const double pixels = numberIn(now, "width").value_or(1) * numberIn(now, "height").value_or(1);
+  const double share = 100 * tolerance.pixels / pixels;
+  const auto compare = [&](const std::string& name, double slack) {
+    const std::optional<double> old = numberIn(before, name), fresh = numberIn(now, name);
+    if (!old) return;
+    const double limit = *old * (1 + tolerance.relative) + slack;
+    if (fresh && *fresh <= limit) return;  // written so that a NaN has grown
+    grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
+                    (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
+  };
+  for (const char* group : {"total", "same_samples", "sampling", "algorithm", "arithmetic"}) {
+    const std::string prefix = group;
+    compare(prefix + "_rmse", tolerance.rmse);
+    compare(prefix + "_flip", tolerance.flip);
+    compare(prefix + "_ge1_pct", share);
+    compare(prefix + "_ge2_pct", share);
+  }
+  compare("path_flips", tolerance.pixels);
+  compare("nonfinite", 0);
+}
+
 }  // namespace
 
 std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
@@ -133,6 +213,54 @@ std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& fact
     }
   }
   return csv.all();
+}
+
+std::vector<CsvRow> parseCsv(const std::string& text, const std::string& name) {
+  std::size_t at = 0;
+  const std::vector<std::string> header = readLine(text, at);
+  std::vector<CsvRow> rows;
+  for (int line = 2; at < text.size(); ++line) {
+    const std::vector<std::string> fields = readLine(text, at);
+    if (fields.size() == 1 && fields[0].empty()) continue;
+    if (fields.size() != header.size()) {
+      throwBadScene(name + ":" + std::to_string(line), "expected " + std::to_string(header.size()) +
+                                                           " fields as in the header, found " +
+                                                           std::to_string(fields.size()));
+    }
+    CsvRow row;
+    for (std::size_t i = 0; i < fields.size(); ++i) row[header[i]] = fields[i];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::string> grownErrors(const std::vector<CsvRow>& before,
+                                     const std::vector<CsvRow>& now,
+                                     const std::vector<std::string>& knobs,
+                                     const GrowthTolerance& tolerance) {
+  std::map<std::string, const CsvRow*> fresh;
+  std::vector<std::string> scenes;
+  for (const CsvRow& row : now) {
+    fresh[keyOf(row)] = &row;
+    scenes.push_back(field(row, "scene"));
+  }
+  std::vector<std::string> grown;
+  std::size_t compared = 0;
+  for (const CsvRow& row : before) {
+    if (std::find(scenes.begin(), scenes.end(), field(row, "scene")) == scenes.end()) continue;
+    const bool knob = field(row, "kind") == "knob";
+    const bool chosen = std::find(knobs.begin(), knobs.end(), field(row, "knob")) != knobs.end();
+    if (knob && !knobs.empty() && !chosen) continue;
+    const auto found = fresh.find(keyOf(row));
+    if (found == fresh.end()) {
+      grown.push_back(keyOf(row) + ": was not measured");
+      continue;
+    }
+    ++compared;
+    compareRows(row, *found->second, tolerance, grown);
+  }
+  if (compared == 0) grown.push_back("no row is about a point of this sweep: nothing to compare");
+  return grown;
 }
 
 }  // namespace whit::accuracy

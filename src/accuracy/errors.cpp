@@ -1,12 +1,13 @@
 #include "accuracy/errors.h"
 
 #include <cmath>
-#include <future>
+#include <functional>
 #include <limits>
 
 #include "accuracy/digest.h"
 #include "core/display.h"
 #include "core/quantile.h"
+#include "core/worker_pool.h"
 #include "io/image_file.h"
 
 namespace whit::accuracy {
@@ -19,6 +20,11 @@ double ulpsApart(const Rgb& a, const Rgb& b) {
   if (!std::isfinite(largest)) return 0;
   const float next = std::nextafter(largest, std::numeric_limits<float>::max());
   return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
+}
+
+void runTogether(const std::vector<std::function<void()>>& tasks) {
+  parallelFor(static_cast<int>(tasks.size()), tasks.size(),
+              [&](std::size_t i, int) { tasks[i](); });
 }
 
 }  // namespace
@@ -71,25 +77,22 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   point.stats = frames.stats;
   const Image& image = frames.film.image;
   const auto against = [&](const Image& a, const Image& b) {
-    return std::async(std::launch::async, [&a, &b, &image, &point, this] {
-      const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
-      return compareImages(a, b, base_.exposure, base_.toneCurve, encoding);
-    });
+    const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
+    return compareImages(a, b, base_.exposure, base_.toneCurve, encoding);
   };
-  auto hdrFlip = std::async(std::launch::async, [&] { return hdrFlip_.mean(image); });
-  auto total = against(image, reference_->image);
+  std::vector<std::function<void()>> comparisons;
+  comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
+  comparisons.emplace_back([&] { point.total = against(image, reference_->image); });
   // The sampling of the point is the baseline's where the exact options are.
   if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
       digestOf(exactAtSameSamples(base_, exactness_))) {
-    point.sameSamples = against(image, exact_->image).get();
+    comparisons.emplace_back([&] { point.sameSamples = against(image, exact_->image); });
   }
-  point.total = total.get();
-  point.totalHdrFlip = hdrFlip.get();
+  runTogether(comparisons);
   if (point.cause != Cause::arithmetic) {
     const Image& unapproximated = withoutApproximations(point, image);
-    auto sampling = against(unapproximated, reference_->image);
-    point.algorithm = against(image, unapproximated).get();
-    point.sampling = sampling.get();
+    runTogether({[&] { point.sampling = against(unapproximated, reference_->image); },
+                 [&] { point.algorithm = against(image, unapproximated); }});
   }
   if (!arithmetic) return;
   point.arithmetic =

@@ -9,6 +9,7 @@
 #include "accuracy/knobs.h"
 #include "metrics/metrics.h"
 #include "render/renderer.h"
+#include "render/stage_comparison.h"
 
 namespace whit::accuracy {
 

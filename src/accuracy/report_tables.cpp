@@ -50,7 +50,7 @@ std::string rowOf(const Point& point, const LogRange& times, const LogRange& err
   html += formatted("<td%s>%.1f%s</td>", t.noisy() ? " class=\"noisy\"" : "", t.iqrPct,
                     t.noisy() ? " noisy" : "");
   html += cell("%d", t.frames) + cell("%.2f", t.ratio);
-  for (const RayTally& tally : point.stats.tally)
+  for (const RayTally& tally : point.stats.meter.tally)
     html += cell(tally.rays ? formatted("%.1f", static_cast<double>(tally.rays) / 1e3) : "");
   const ImageDifference& d = point.total;
   html += barCell(formatted("%.5f", d.flipMean), errors.share(d.flipMean));

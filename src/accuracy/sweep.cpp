@@ -200,7 +200,7 @@ class SceneSweeper {
 
   bool isBaseline(const FrameSource& frames) const {
     for (std::size_t k = 0; k < kRayKindCount; ++k) {
-      if (frames.stats.tally[k].rays != baseline_->stats.tally[k].rays) return false;
+      if (frames.stats.meter.tally[k].rays != baseline_->stats.meter.tally[k].rays) return false;
     }
     return frames.film.image.pixels == baseline_->film.image.pixels;
   }

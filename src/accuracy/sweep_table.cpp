@@ -17,7 +17,7 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
   std::string row =
       formatted("%-*s %s%9.2f %5.1f%s %8.2f", static_cast<int>(labelWidth), point.label().c_str(),
                 point.onFront ? "*" : " ", t.settledMs, t.iqrPct, t.noisy() ? "~" : " ", t.ratio);
-  for (const RayTally& tally : point.stats.tally)
+  for (const RayTally& tally : point.stats.meter.tally)
     row += formatted(" %8s", thousands(tally.rays).c_str());
   const ImageDifference& d = point.total;
   row += formatted("  %9.2e %9.2e %6.1f %7.2f %4d %8.5f %8.5f", d.rmse, d.relmse, d.psnrDb,

@@ -17,7 +17,7 @@
 #include "cli/machine_facts.h"
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
-#include "cli/stress_run.h"
+#include "cli/stress_report.h"
 #include "core/error.h"
 #include "core/picture_options.h"
 #include "core/version.h"

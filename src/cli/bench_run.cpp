@@ -2,6 +2,7 @@
 
 #include "accuracy/digest.h"
 #include "cli/info_rows.h"
+#include "render/floor.h"
 
 namespace whit::cli {
 
@@ -26,7 +27,7 @@ void BenchRun::measure(bool floor) {
   summary_.frames.push_back(frame());
   summary_.imageHash = accuracy::digestOf(film_.image);
   if (farm_ && farm_->ranks() > 1) summary_.shares.push_back(farm_->lastFrame());
-  if (floor) summary_.floorMs.push_back(renderer_.measureFloor(camera_, film_, 1).floorMs);
+  if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_, 1).floorMs);
 }
 
 double BenchRun::memoryMb() const { return cli::memoryMb(open_->scene, renderer_); }

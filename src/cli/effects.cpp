@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/load_scene.h"
-#include "scene/effect_steps.h"
 #include "scene/leave_out.h"
 
 namespace whit::cli {

@@ -134,7 +134,7 @@ std::string effectsCsv(const std::vector<EffectStep>& steps) {
     const EffectCost& c = costs[i];
     text +=
         formatted("%s,%.4f,%.4f,%.4f", steps[i].added.c_str(), c.frameMs, c.addedMs, c.outsideMs);
-    for (const RayTally& tally : medianFrame(steps[i].run).tally) {
+    for (const RayTally& tally : medianFrame(steps[i].run).meter.tally) {
       text += "," + std::to_string(tally.rays);
     }
     text += formatted(",%.0f,%.3f,%.3f\n", c.addedRays, steps[i].memoryMb, c.addedMb);

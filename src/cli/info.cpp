@@ -9,7 +9,6 @@
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
-#include "simd/kernel_variants.h"
 
 namespace whit::cli {
 
@@ -60,7 +59,7 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
     std::printf("  %-18s%-5s%s\n", row.name.c_str(), row.on ? "on" : "-", row.because.c_str());
   }
   std::printf("\nstages\n");
-  for (const Stage stage : renderer.plan().stages) {
+  for (const Stage stage : renderer.plan().stages()) {
     std::printf("  %s\n", kStageNames[static_cast<std::size_t>(stage)].data());
   }
   std::printf("\nkernels\n");

@@ -9,7 +9,6 @@
 #include "cli/machine_facts.h"
 #include "core/option_values.h"
 #include "io/atomic_file.h"
-#include "simd/kernel_variants.h"
 
 namespace whit::cli {
 
@@ -76,11 +75,11 @@ void addFrames(const RunSummary& run, Json& json) {
   json["embree_ms"] = frame.embreeMs();
   json["outside_embree_ms"] = outsideEmbreeMs(run);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    json["rays"][std::string(kRayKindNames[i])] = frame.tally[i].rays;
+    json["rays"][std::string(kRayKindNames[i])] = frame.meter.tally[i].rays;
   }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.tally[i]);
+    json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.meter.tally[i]);
   }
   json["nonfinite"] = frame.nonFinitePixels;
   json["image_hash"] = run.imageHash;
@@ -172,7 +171,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
     json["effects"][row.name] = {{"on", row.on}, {"because", row.because}};
   }
   json["stages"] = Json::array();
-  for (const Stage stage : renderer.plan().stages) {
+  for (const Stage stage : renderer.plan().stages()) {
     json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
   }
   json["kernels"] = Json::array();

@@ -10,6 +10,7 @@
 #include "cli/frame_summary.h"
 #include "core/warnings.h"
 #include "metrics/metrics.h"
+#include "render/stage_comparison.h"
 
 namespace whit::cli {
 

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "cli/interrupt.h"
-#include "core/failure.h"
+#include "core/error.h"
 
 namespace whit::cli {
 

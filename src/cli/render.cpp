@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "accuracy/digest.h"
 #include "cli/commands.h"
@@ -10,14 +11,55 @@
 #include "cli/json_report.h"
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
-#include "cli/resume.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
+#include "core/image.h"
+#include "core/options.h"
+#include "io/image_file.h"
 #include "render/describe_image.h"
 
 namespace whit::cli {
 
 namespace {
+
+constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that might be whole
+
+// The pixels are read as well: a file that was cut off still has its head.
+ImageMetadata readThrough(const std::string& path, const Image& image) {
+  if (extensionOf(path) == ".png") return readPngMetadata(path);
+  Warnings warnings;
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
+  readImage(path, limits, warnings);
+  return readExrMetadata(path);
+}
+
+// In an order that does not depend on the format; without what says nothing or may differ.
+ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
+  std::erase_if(metadata, [&](const auto& entry) {
+    return entry.second.empty() || (entry.first == "simd" && options.simd == "auto") ||
+           (entry.first == "packet" && options.packet == 0);
+  });
+  std::sort(metadata.begin(), metadata.end());
+  return metadata;
+}
+
+// Whether `path` (.exr or .png) is what a render into `image` would write: there, readable to its
+// last byte, and made with the same options of a scene with the same contents, as far as `expected`
+// tells of them. What the options leave to the machine (--simd auto, --packet auto) may differ.
+// Throws Error(io) when it is there but cannot be read.
+bool isWhole(const std::string& path, const Image& image, const ImageMetadata& expected,
+             const RenderOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  try {
+    return comparable(readThrough(path, image), options) == comparable(expected, options);
+  } catch (const Error& broken) {
+    if (broken.status() == ExitStatus::io) throw;
+    return false;
+  }
+}
 
 constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
 constexpr const char* kRenderSummary =

@@ -60,7 +60,7 @@ void appendStages(std::string& text, const FrameStats& frame) {
 void appendRays(std::string& text, const FrameStats& frame) {
   append(text, "  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    const RayTally& tally = frame.tally[i];
+    const RayTally& tally = frame.meter.tally[i];
     append(text, "  %-14s%12llu%10.2f", kRayKindNames[i].data(),
            static_cast<unsigned long long>(tally.rays), mraysPerSecond(tally.rays, frame.frameMs));
     if (tally.lanes > 0) {

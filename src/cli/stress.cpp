@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/image_output.h"
@@ -10,15 +12,60 @@
 #include "cli/parse_options.h"
 #include "cli/progress_bar.h"
 #include "cli/stress_report.h"
-#include "cli/stress_run.h"
-#include "cli/stress_sheet.h"
+#include "core/display.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "core/progress.h"
 #include "io/atomic_file.h"
+#include "io/image_file.h"
+#include "io/load_scene.h"
+#include "io/paths.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 
 namespace {
+
+constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kSheetGap = 4;
+
+Image pictureOf(const std::string& scene) {
+  Warnings warnings;
+  const Scene loaded = Scene::finalize(loadScene(scene, LoadOptions{}, warnings), warnings);
+  RenderOptions options;
+  options.size = ImageSize{kWidth, kHeight};
+  options.depth = 16;
+  options.spp = 1;
+  Renderer renderer(loaded, options);
+  Film film = makeFilm(loaded, options);
+  renderer.render(loaded.cameras.front(), film);
+  return film.image;
+}
+
+// Renders each scene of scenes/hard at 320x240 and puts them side by side, four a row, in order of
+// their names, which are returned. Throws Error: io when there is none or the file cannot be
+// written.
+std::vector<std::string> writeStressSheet(const std::string& path, Progress* progress) {
+  const std::vector<std::filesystem::path> scenes = hardScenes();
+  if (scenes.empty()) throwIo("no scenes of hard cases found; is $WHIT_SCENES set?");
+  const int count = static_cast<int>(scenes.size());
+  const int columns = std::min(count, kColumns), rows = (count + kColumns - 1) / kColumns;
+  Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) {
+    const std::filesystem::path& scene = scenes[static_cast<std::size_t>(i)];
+    reportProgress(progress, scene.stem().string(), static_cast<double>(i) / count);
+    const Image picture = pictureOf(scene.string());
+    const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
+    const int top = kSheetGap + i / kColumns * (kHeight + kSheetGap);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
+    }
+    names.push_back(scene.stem().string());
+  }
+  const WriteScope scope;
+  writePng(path, toDisplay(sheet, 0, ToneCurve::none), {});
+  return names;
+}
 
 constexpr const char* kStressUsage = "whit stress [options]";
 constexpr const char* kStressSummary =

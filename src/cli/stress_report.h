@@ -1,10 +1,12 @@
-// What `whit stress` tells: for people, for machines, and as a page.
+// The catalogue of hard cases as `whit stress` runs it and tells of it: for people, for machines,
+// and as a page.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "cli/json_report.h"
+#include "core/progress.h"
 #include "stress/case.h"
 
 namespace whit::cli {
@@ -15,6 +17,10 @@ struct StressRow {
   stress::Setup setup;
   stress::Finding finding;
 };
+
+// Every case of these names, or all for none, in each of the setups of this machine that it asks
+// for. Changes the kernels' SIMD target.
+std::vector<StressRow> runCatalogue(const std::vector<std::string>& only, Progress* progress);
 
 // Of each case the row of the setup that came closest to its bound, in order.
 std::vector<StressRow> worstRows(const std::vector<StressRow>& rows);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/srgb.h"
-
 namespace whit {
 
 namespace {
@@ -33,25 +31,6 @@ double applyToneCurve(ToneCurve curve, double x) {
       return hable(std::min(x, kCurveEnd)) / hable(kHableWhite);
   }
   return x;
-}
-
-int srgbCode(double linear) {
-  if (!(linear > 0)) return 0;  // NaN too
-  if (linear >= 1) return 255;
-  return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
-}
-
-int srgbCodeByTable(float linear) {
-  static const std::vector<std::uint8_t> codes = [] {
-    std::vector<std::uint8_t> table;
-    for (int i = 0; i <= kSrgbSteps; ++i) {
-      table.push_back(static_cast<std::uint8_t>(srgbCode(static_cast<double>(i) / kSrgbSteps)));
-    }
-    return table;
-  }();
-  if (!(linear > 0)) return 0;  // NaN too
-  const float step = std::min(linear, 1.0f) * static_cast<float>(kSrgbSteps) + 0.5f;
-  return codes[static_cast<std::size_t>(step)];
 }
 
 std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve,

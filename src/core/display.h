@@ -6,19 +6,13 @@
 
 #include "core/image.h"
 #include "core/options.h"
+#include "core/srgb.h"
 
 namespace whit {
 
 // Tone curve on linear values at or above 0. `none` is the identity, reinhard x / (1 + x), filmic
 // Hable's curve as published by J. Hable, "Filmic Tonemapping Operators" (2010), white point 11.2.
 double applyToneCurve(ToneCurve curve, double x);
-
-// round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0 (IEC 61966-2-1).
-int srgbCode(double linear);
-
-// The cheaper encoding: the code of the nearest of kSrgbSteps + 1 equally spaced values.
-inline constexpr int kSrgbSteps = 4095;
-int srgbCodeByTable(float linear);
 
 // One pixel's codes, with exposure given as a factor.
 std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve,

@@ -1,6 +1,8 @@
-// The one exception type. Its status is the exit status of the programs (see `whit --help`).
+// The one exception type, whose status is the exit status of the programs (see `whit --help`), and
+// what other exceptions amount to.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -28,5 +30,14 @@ class Error : public std::runtime_error {
 [[noreturn]] inline void throwLimit(const std::string& what) {
   throw Error(ExitStatus::limit, what);
 }
+
+// Any exception as an exit status and a line for people.
+struct Failure {
+  ExitStatus status = ExitStatus::checkFailed;
+  std::string what;
+};
+
+// An Error as it is; memory and threads that ran out are limits; all else is checkFailed.
+Failure failureOf(const std::exception& error);
 
 }  // namespace whit

@@ -1,11 +1,9 @@
 #include "core/film.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "core/display.h"
 #include "core/srgb.h"
 
 namespace whit {
@@ -14,14 +12,6 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f, kLeastNormalHalf = 0x1p-14f, kHalfStep = 0x1p-24f;
 constexpr int kDroppedBits = 23 - 10;  // of the significand
-
-std::array<float, 256> makeLinearOfCode() {
-  std::array<float, 256> table{};
-  for (int code = 0; code < 256; ++code) {
-    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
-  }
-  return table;
-}
 
 }  // namespace
 
@@ -34,11 +24,6 @@ float roundedToHalf(float x) {
   const std::uint32_t odd = bits >> kDroppedBits & 1u;
   bits += (1u << (kDroppedBits - 1)) - 1 + odd;
   return std::bit_cast<float>(bits >> kDroppedBits << kDroppedBits);
-}
-
-float linearOfCode(int code) {
-  static const std::array<float, 256> table = makeLinearOfCode();
-  return table[static_cast<std::size_t>(code)];
 }
 
 Rgb quantized(FilmPrecision precision, const Rgb& pixel) {

@@ -10,9 +10,6 @@ namespace whit {
 // most 65504.
 float roundedToHalf(float x);
 
-// Linear light of an 8-bit sRGB code.
-float linearOfCode(int code);
-
 // A pixel as the film keeps it. 8-bit film holds nothing outside [0, 1], and no NaN.
 Rgb quantized(FilmPrecision precision, const Rgb& pixel);
 

@@ -1,8 +1,45 @@
 #include "core/srgb.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace whit {
+
+namespace {
+
+std::array<float, 256> makeLinearOfCode() {
+  std::array<float, 256> table{};
+  for (int code = 0; code < 256; ++code) {
+    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
+  }
+  return table;
+}
+
+// The least float in [0, 1] whose code is at least `code`, by bisection over the bits.
+float leastWithCode(int code) {
+  float low = 0.0f, high = 1.0f;
+  if (code == 0) return low;
+  while (std::nextafter(low, 2.0f) < high) {
+    const float middle = low + (high - low) / 2;
+    (srgbCode(static_cast<double>(middle)) >= code ? high : low) = middle;
+  }
+  return high;
+}
+
+SrgbTables makeSrgbTables() {
+  SrgbTables tables;
+  for (int code = 0; code < 256; ++code) {
+    tables.least[static_cast<std::size_t>(code)] = leastWithCode(code);
+  }
+  tables.least[256] = std::numeric_limits<float>::infinity();
+  for (int i = 0; i <= kSrgbSteps; ++i) {
+    tables.codeOfStep[static_cast<std::size_t>(i)] = srgbCode(static_cast<double>(i) / kSrgbSteps);
+  }
+  return tables;
+}
+
+}  // namespace
 
 double srgbToLinear(double code) {
   return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
@@ -10,6 +47,28 @@ double srgbToLinear(double code) {
 
 double linearToSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+float linearOfCode(int code) {
+  static const std::array<float, 256> table = makeLinearOfCode();
+  return table[static_cast<std::size_t>(code)];
+}
+
+int srgbCode(double linear) {
+  if (!(linear > 0)) return 0;  // NaN too
+  if (linear >= 1) return 255;
+  return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
+}
+
+int srgbCodeByTable(float linear) {
+  if (!(linear > 0)) return 0;  // NaN too
+  const float step = std::min(linear, 1.0f) * static_cast<float>(kSrgbSteps) + 0.5f;
+  return srgbTables().codeOfStep[static_cast<std::size_t>(step)];
+}
+
+const SrgbTables& srgbTables() {
+  static const SrgbTables tables = makeSrgbTables();
+  return tables;
 }
 
 }  // namespace whit

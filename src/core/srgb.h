@@ -1,5 +1,8 @@
-// The transfer function of sRGB (IEC 61966-2-1), with its exact branches.
+// The transfer function of sRGB (IEC 61966-2-1) with its exact branches, and its 8-bit codes.
 #pragma once
+
+#include <array>
+#include <cstdint>
 
 namespace whit {
 
@@ -7,5 +10,22 @@ namespace whit {
 double srgbToLinear(double code);
 // And back; `linear` in [0, 1].
 double linearToSrgb(double linear);
+
+// Linear light of an 8-bit code, rounded to float.
+float linearOfCode(int code);
+
+// round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.
+int srgbCode(double linear);
+
+// The cheaper encoding: the code of the nearest of kSrgbSteps + 1 equally spaced values.
+inline constexpr int kSrgbSteps = 4095;
+int srgbCodeByTable(float linear);
+
+// What vector encoders look up.
+struct SrgbTables {
+  std::array<float, 257> least;  // the least float of each code; least[256] is out of reach
+  std::array<std::int32_t, kSrgbSteps + 1> codeOfStep;  // of the cheaper encoding
+};
+const SrgbTables& srgbTables();
 
 }  // namespace whit

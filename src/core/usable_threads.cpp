@@ -1,18 +1,56 @@
+#include "core/usable_threads.h"
+
 #include <sched.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
-
-#include "core/cgroup_quota.h"
-#include "core/worker_pool.h"
 
 namespace whit {
 
+namespace fs = std::filesystem;
+
 namespace {
+
+// What one group grants itself; 0 for no limit.
+double quotaOfGroup(const fs::path& group) {
+  double period = 0;
+  std::string quota;
+  std::ifstream v2(group / "cpu.max");
+  if (!(v2 >> quota >> period)) {
+    std::ifstream v1Quota(group / "cpu.cfs_quota_us"), v1Period(group / "cpu.cfs_period_us");
+    if (!(v1Quota >> quota) || !(v1Period >> period)) return 0;
+  }
+  const double granted = std::strtod(quota.c_str(), nullptr);  // 0 for "max", -1 for none
+  return granted > 0 && period > 0 ? granted / period : 0;
+}
+
+// The least of a group and all above it, up to the mount point.
+double quotaUpTo(const fs::path& mount, const fs::path& group) {
+  double least = quotaOfGroup(mount);
+  fs::path at = mount;
+  for (const fs::path& part : group.relative_path()) {
+    at /= part;
+    const double quota = quotaOfGroup(at);
+    if (quota > 0 && (least == 0 || quota < least)) least = quota;
+  }
+  return least;
+}
+
+bool listsCpu(std::string_view controllers) {
+  for (std::size_t begin = 0; begin <= controllers.size();) {
+    const std::size_t end = std::min(controllers.find(',', begin), controllers.size());
+    if (controllers.substr(begin, end - begin) == "cpu") return true;
+    begin = end + 1;
+  }
+  return false;
+}
 
 int affinityThreads() {
   cpu_set_t set;
@@ -27,6 +65,21 @@ std::string readWhole(const char* file) {
 }
 
 }  // namespace
+
+double cgroupQuota(const std::string& membership, const fs::path& root) {
+  std::istringstream lines(membership);
+  fs::path v2Group, v1Group;
+  for (std::string line; std::getline(lines, line);) {  // "4:cpu,cpuacct:/group", "0::/group"
+    const std::size_t first = line.find(':');
+    const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    if (controllers.empty()) v2Group = line.substr(second + 1);
+    if (listsCpu(controllers)) v1Group = line.substr(second + 1);
+  }
+  const double v2 = quotaUpTo(root, v2Group);
+  return v2 > 0 ? v2 : quotaUpTo(root / "cpu", v1Group);
+}
 
 int usableThreads() {
   const int threads = std::max(1, affinityThreads());

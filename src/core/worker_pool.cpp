@@ -1,5 +1,8 @@
 #include "core/worker_pool.h"
 
+#include <algorithm>
+#include <atomic>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -11,7 +14,8 @@
 
 namespace whit {
 
-WorkerPool::WorkerPool(int workers) : workers_(workers), start_(workers), finish_(workers) {
+WorkerPool::WorkerPool(int workers, Denormals denormals)
+    : workers_(workers), denormals_(denormals), start_(workers), finish_(workers) {
   const auto turnBack = [&] {
     // Those who have come go home; the others are not waited for.
     for (int i = static_cast<int>(threads_.size()) + 1; i < workers; ++i) start_.arrive_and_drop();
@@ -38,9 +42,17 @@ void WorkerPool::sendHome() {
 }
 
 void WorkerPool::run(const std::function<void(int)>& job) {
+  begin(job);
+  finish();
+}
+
+void WorkerPool::begin(const std::function<void(int)>& job) {
   job_ = &job;
   error_ = nullptr;
   start_.arrive_and_wait();
+}
+
+void WorkerPool::finish() {
   call(0);
   finish_.arrive_and_wait();
   if (error_) std::rethrow_exception(error_);
@@ -57,12 +69,28 @@ void WorkerPool::work(int worker) {
 
 void WorkerPool::call(int worker) noexcept {
   try {
-    const FlushDenormals flush;
+    std::optional<FlushDenormals> flush;
+    if (denormals_ == Denormals::flushed) flush.emplace();
     (*job_)(worker);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     if (!error_) error_ = std::current_exception();
   }
+}
+
+void parallelFor(int threads, std::size_t count,
+                 const std::function<void(std::size_t i, int worker)>& task) {
+  std::atomic<std::size_t> next{0};
+  const auto most = static_cast<std::size_t>(std::max(threads, 1));
+  WorkerPool pool(static_cast<int>(std::clamp<std::size_t>(count, 1, most)), Denormals::kept);
+  pool.run([&](int worker) {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) task(i, worker);
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  });
 }
 
 #if defined(__x86_64__)

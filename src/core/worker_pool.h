@@ -1,8 +1,9 @@
-// A fixed crew of threads that run one function together. Two barriers a run; nobody spins for
-// ever, so a stolen core costs its share and no more.
+// Work shared among threads: a fixed crew that runs one function together, and loops shared out one
+// index at a time.
 #pragma once
 
 #include <barrier>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -11,11 +12,15 @@
 
 namespace whit {
 
+// Whether the workers set denormals to zero.
+enum class Denormals { kept, flushed };
+
+// Two barriers a run; nobody spins for ever, so a stolen core costs its share and no more.
 class WorkerPool {
  public:
   // `workers` including the calling thread; at least 1. Throws Error(limit) where the system has no
   // room for so many.
-  explicit WorkerPool(int workers);
+  explicit WorkerPool(int workers, Denormals denormals = Denormals::flushed);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
@@ -23,9 +28,15 @@ class WorkerPool {
   int workers() const { return workers_; }
 
   // Calls job(0) .. job(workers() - 1), each on a thread of its own (0 on the caller's), and
-  // returns when all are done. Rethrows the first exception. While it runs, every worker flushes
-  // denormals to zero. Not reentrant.
+  // returns when all are done. Rethrows the first exception. Not reentrant.
   void run(const std::function<void(int)>& job);
+
+  // The two halves of run(), for a caller that has something else to do in between: begin() lets
+  // workers 1 and up go, finish() calls job(0), waits for them and rethrows. `job` must live until
+  // then; between the two the pool must not be destroyed.
+  void begin(const std::function<void(int)>& job);
+  void begin(const std::function<void(int)>&& job) = delete;
+  void finish();
 
  private:
   void work(int worker);
@@ -33,12 +44,19 @@ class WorkerPool {
   void sendHome();
 
   int workers_;
+  Denormals denormals_;
   std::barrier<> start_, finish_;
   const std::function<void(int)>* job_ = nullptr;  // null: the crew goes home
   std::mutex mutex_;
   std::exception_ptr error_;
   std::vector<std::thread> threads_;
 };
+
+// Calls task(i, worker) once for every i below `count`, in this order as workers become free, on
+// up to `threads` threads; worker is below that. What is thrown for one of them ends the loop, and
+// the first of it reaches the caller. Denormals are kept. Throws as WorkerPool does.
+void parallelFor(int threads, std::size_t count,
+                 const std::function<void(std::size_t i, int worker)>& task);
 
 // Sets flush-to-zero and denormals-are-zero for the current thread while it lives.
 class FlushDenormals {
@@ -51,8 +69,5 @@ class FlushDenormals {
  private:
   unsigned long long saved_;
 };
-
-// Threads that this process may use at once: its affinity mask, bounded by the cgroup's CPU quota.
-int usableThreads();
 
 }  // namespace whit

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <thread>
 
-#include "core/failure.h"
+#include "core/error.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "farm/farm.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/worker_pool.h"
+#include "core/usable_threads.h"
 
 namespace whit {
 
@@ -29,33 +29,36 @@ Outcome outcomeOf(const std::function<void()>& task) {
 }  // namespace
 
 DecodeQueue::DecodeQueue(int threads, Progress* progress, std::string phase)
-    : progress_(progress), phase_(std::move(phase)) {
-  const int count = threads > 0 ? threads : usableThreads();
-  workerLimit_ = static_cast<std::size_t>(std::max(count, 1) - 1);
-}
+    : progress_(progress),
+      phase_(std::move(phase)),
+      threads_(std::max(threads > 0 ? threads : usableThreads(), 1)) {}
 
 DecodeQueue::~DecodeQueue() {
   {
     const std::lock_guard lock(mutex_);
-    closing_ = true;
     begun_ = tasks_.size();
   }
-  wake_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
+  try {
+    close();
+  } catch (...) {  // an observer's: what becomes of the tasks matters to nobody any more
+    return;
+  }
 }
 
 void DecodeQueue::add(std::function<void()> task) {
+  if (!pool_) {
+    pool_.emplace(threads_, Denormals::kept).begin(job_);
+    running_ = true;
+  }
   {
     const std::lock_guard lock(mutex_);
     tasks_.push_back(std::move(task));
     failures_.emplace_back();
   }
-  if (workers_.size() < workerLimit_) workers_.emplace_back([this] { work(); });
   wake_.notify_one();
 }
 
-bool DecodeQueue::runOne(std::unique_lock<std::mutex>& lock) {
-  if (begun_ >= tasks_.size()) return false;
+void DecodeQueue::runOne(std::unique_lock<std::mutex>& lock) {
   const std::size_t index = begun_++;
   std::function<void()> task = std::move(tasks_[index]);
   lock.unlock();
@@ -64,18 +67,15 @@ bool DecodeQueue::runOne(std::unique_lock<std::mutex>& lock) {
   if (outcome.limit) {
     tasks_[index] = std::move(task);
     postponed_.push_back(index);
-    done_.notify_all();
   } else {
     end(index, outcome.failure, lock);
   }
-  return true;
 }
 
 void DecodeQueue::end(std::size_t index, std::exception_ptr failure,
                       std::unique_lock<std::mutex>& lock) {
   failures_[index] = std::move(failure);
   const double fraction = static_cast<double>(++ended_) / static_cast<double>(tasks_.size());
-  done_.notify_all();
   lock.unlock();
   reportProgress(progress_, phase_, fraction);
   lock.lock();
@@ -96,15 +96,31 @@ void DecodeQueue::runAgain(std::unique_lock<std::mutex>& lock) {
 
 void DecodeQueue::work() {
   std::unique_lock lock(mutex_);
-  while (!closing_) {
-    if (!runOne(lock)) wake_.wait(lock, [&] { return closing_ || begun_ < tasks_.size(); });
+  try {
+    for (;;) {
+      wake_.wait(lock, [&] { return closing_ || begun_ < tasks_.size(); });
+      if (begun_ == tasks_.size()) return;
+      runOne(lock);
+    }
+  } catch (...) {  // an observer's, who ends the work
+    if (!lock.owns_lock()) lock.lock();
+    begun_ = tasks_.size();
+    throw;
   }
 }
 
+void DecodeQueue::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  wake_.notify_all();
+  if (std::exchange(running_, false)) pool_->finish();
+}
+
 void DecodeQueue::finish() {
+  close();
   std::unique_lock lock(mutex_);
-  while (runOne(lock)) continue;
-  done_.wait(lock, [&] { return ended_ + postponed_.size() == tasks_.size(); });
   runAgain(lock);
   for (const std::exception_ptr& failure : failures_) {
     if (failure) std::rethrow_exception(failure);

@@ -1,4 +1,4 @@
-// Work that runs beside the reading of a scene.
+// Tasks that run beside the reading of a scene: textures that are decoded and made.
 #pragma once
 
 #include <condition_variable>
@@ -6,11 +6,12 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/progress.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -25,6 +26,7 @@ class DecodeQueue {
   DecodeQueue(const DecodeQueue&) = delete;
   DecodeQueue& operator=(const DecodeQueue&) = delete;
 
+  // Before finish(). Throws as WorkerPool does.
   void add(std::function<void()> task);
   // Returns when every task has ended. Rethrows the exception of the task that was added first,
   // whatever the order in which they failed.
@@ -32,21 +34,24 @@ class DecodeQueue {
 
  private:
   void work();
-  bool runOne(std::unique_lock<std::mutex>& lock);
+  void close();
+  void runOne(std::unique_lock<std::mutex>& lock);
   void runAgain(std::unique_lock<std::mutex>& lock);
   void end(std::size_t index, std::exception_ptr failure, std::unique_lock<std::mutex>& lock);
 
   Progress* progress_;
   std::string phase_;
-  std::size_t workerLimit_;
+  int threads_;
   std::mutex mutex_;
-  std::condition_variable wake_, done_;
+  std::condition_variable wake_;
   std::vector<std::function<void()>> tasks_;
   std::vector<std::exception_ptr> failures_;
   std::vector<std::size_t> postponed_;
   std::size_t begun_ = 0, ended_ = 0;
-  bool closing_ = false;
-  std::vector<std::thread> workers_;
+  bool closing_ = false;  // no more tasks come
+  const std::function<void(int)> job_ = [this](int) { work(); };
+  std::optional<WorkerPool> pool_;  // from the first task on
+  bool running_ = false;            // the pool, between its begin() and finish()
 };
 
 }  // namespace whit

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/srgb.h"
 #include "io/image_decoders.h"
-#include "io/raw_channels.h"
+#include "io/texture_from_image.h"
 
 namespace whit {
 namespace {
@@ -34,7 +35,7 @@ class Stretched {
       texel.code[c] = raw_->linear ? raw_->values[at] : static_cast<float>(raw_->codes[at]) / 255;
       if (color) {
         texel.color[static_cast<int>(c)] =
-            raw_->linear ? raw_->values[at] : linearOfCode()[raw_->codes[at]];
+            raw_->linear ? raw_->values[at] : linearOfCode(raw_->codes[at]);
       }
     }
     return texel;

@@ -28,10 +28,11 @@ struct GltfImageSource {
 
 class GltfDocument {
  public:
-  // Throws Error as readGltfFile() and checkGltf() do; badScene for a required extension that is
-  // not supported, for URIs that leave the folder of the file (PathRules), and for buffers, views
-  // of them or images that reach beyond their ends. Other extensions that are not supported are
-  // warnings, once each.
+  // Throws Error: io where the file cannot be read, limit where it does not fit into `budget`,
+  // badScene with "file", "file:line" or "file#/pointer" where it is not well-formed, where
+  // checkGltf() refuses it, for a required extension that is not supported, for URIs that leave the
+  // folder of the file (PathRules), and for buffers, views of them or images that reach beyond
+  // their ends. Other extensions that are not supported are warnings, once each.
   GltfDocument(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
                Warnings& warnings);
   GltfDocument(const GltfDocument&) = delete;
@@ -63,5 +64,16 @@ class GltfDocument {
   std::vector<GltfImageSource> images_;
   tinygltf::Model model_;
 };
+
+// Null where there is none of this name.
+inline const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions,
+                                            const char* name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+
+inline double numberOf(const tinygltf::Value& object, const char* key, double fallback) {
+  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+}
 
 }  // namespace whit

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "io/gltf_baker.h"
 #include "io/image_decoders.h"
-#include "io/image_file.h"
+#include "io/texture_from_image.h"
 
 namespace whit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/gltf_extensions.h"
+#include "io/gltf_document.h"
 #include "scene/material.h"
 
 namespace whit {

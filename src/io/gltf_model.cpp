@@ -1,15 +1,44 @@
-#include "io/gltf_model.h"
-
+// glTF files as models.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <utility>
+#include <vector>
 
+#include "io/gltf_document.h"
+#include "io/gltf_maps.h"
+#include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
+#include "io/gltf_nodes.h"
 #include "io/gltf_shading.h"
+#include "io/model.h"
 
 namespace whit {
+
 namespace {
+
+class GltfModel : public Model {
+ public:
+  GltfModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+            Warnings& warnings);
+
+  const std::vector<Material>& materials() const override { return materials_; }
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
+                            TextureLoader& textures) override;
+  // A body for each mesh of the file, which nodes share.
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
+  // The picture takes the first camera's aspect ratio.
+  void addView(SceneDescription& scene) override;
+
+ private:
+  GltfDocument document_;
+  std::vector<GltfMaterial> sources_;
+  std::vector<Material> materials_;  // of sources_
+  GltfMapMaker maps_;
+  GltfStage stage_;
+};
 
 // What is not `given` becomes what `fresh` has: what a scene file has changed stays.
 void renew(Material& to, const Material& fresh, const GivenMembers& given) {
@@ -29,8 +58,6 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   member("vertexTint", &Material::vertexTint);
   member("castsShadow", &Material::castsShadow);
 }
-
-}  // namespace
 
 GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
                      MemoryBudget& budget, Warnings& warnings)
@@ -78,6 +105,13 @@ void GltfModel::addView(SceneDescription& scene) {
   }
   scene.cameras = stage_.cameras;
   scene.lights = stage_.lights;
+}
+
+}  // namespace
+
+std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
+                                MemoryBudget& budget, Warnings& warnings) {
+  return std::make_unique<GltfModel>(path, rules, budget, warnings);
 }
 
 }  // namespace whit

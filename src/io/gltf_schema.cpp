@@ -1,13 +1,194 @@
 #include "io/gltf_schema.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <string_view>
 
 #include "core/error.h"
-#include "io/gltf_rules.h"
 
 namespace whit {
+
 namespace {
+
+// The table of what glTF's schemas say of each property that is read here.
+
+enum class GltfKind { object, list, number, text, flag, whole, index, indices, vector };
+
+struct GltfRule {
+  const char* path;  // from the root; * is every element of a list or every member of an object
+  GltfKind kind;
+  std::uint64_t limit = 0;     // whole: the largest; vector: how many numbers
+  const char* list = nullptr;  // index, indices: the path of the list they refer to
+};
+
+using Kind = GltfKind;
+
+constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 53;  // what JSON numbers hold exactly
+
+constexpr char kLightsPath[] = "extensions/KHR_lights_punctual/lights";
+
+constexpr GltfRule kRules[] = {
+    {"+asset", Kind::object},
+    {"asset/+version", Kind::text},
+    {"extensionsUsed", Kind::list},
+    {"extensionsUsed/*", Kind::text},
+    {"extensionsRequired", Kind::list},
+    {"extensionsRequired/*", Kind::text},
+    {"extensions", Kind::object},
+    {"extensions/KHR_lights_punctual", Kind::object},
+    {kLightsPath, Kind::list},
+    {"extensions/KHR_lights_punctual/lights/*", Kind::object},
+    {"extensions/KHR_lights_punctual/lights/*/+type", Kind::text},
+    {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
+    {"extensions/KHR_lights_punctual/lights/*/color", Kind::vector, 3},
+    {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/*/range", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
+    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
+    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
+
+    {"buffers", Kind::list},
+    {"buffers/*", Kind::object},
+    {"buffers/*/uri", Kind::text},
+    {"buffers/*/+byteLength", Kind::whole, kMostBytes},
+    {"bufferViews", Kind::list},
+    {"bufferViews/*", Kind::object},
+    {"bufferViews/*/+buffer", Kind::index, 0, "buffers"},
+    {"bufferViews/*/byteOffset", Kind::whole, kMostBytes},
+    {"bufferViews/*/+byteLength", Kind::whole, kMostBytes},
+    {"bufferViews/*/byteStride", Kind::whole, 252},
+    {"accessors", Kind::list},
+    {"accessors/*", Kind::object},
+    {"accessors/*/bufferView", Kind::index, 0, "bufferViews"},
+    {"accessors/*/byteOffset", Kind::whole, kMostBytes},
+    {"accessors/*/+componentType", Kind::whole, 5126},
+    {"accessors/*/normalized", Kind::flag},
+    {"accessors/*/+count", Kind::whole, kMostBytes},
+    {"accessors/*/+type", Kind::text},
+    {"accessors/*/sparse", Kind::object},
+    {"accessors/*/sparse/+count", Kind::whole, kMost},
+    {"accessors/*/sparse/+indices", Kind::object},
+    {"accessors/*/sparse/indices/+bufferView", Kind::index, 0, "bufferViews"},
+    {"accessors/*/sparse/indices/byteOffset", Kind::whole, kMost},
+    {"accessors/*/sparse/indices/+componentType", Kind::whole, 5126},
+    {"accessors/*/sparse/+values", Kind::object},
+    {"accessors/*/sparse/values/+bufferView", Kind::index, 0, "bufferViews"},
+    {"accessors/*/sparse/values/byteOffset", Kind::whole, kMost},
+
+    {"images", Kind::list},
+    {"images/*", Kind::object},
+    {"images/*/uri", Kind::text},
+    {"images/*/bufferView", Kind::index, 0, "bufferViews"},
+    {"images/*/name", Kind::text},
+    {"samplers", Kind::list},
+    {"samplers/*", Kind::object},
+    {"samplers/*/magFilter", Kind::whole, kMost},
+    {"samplers/*/wrapS", Kind::whole, kMost},
+    {"samplers/*/wrapT", Kind::whole, kMost},
+    {"textures", Kind::list},
+    {"textures/*", Kind::object},
+    {"textures/*/source", Kind::index, 0, "images"},
+    {"textures/*/sampler", Kind::index, 0, "samplers"},
+
+    {"materials", Kind::list},
+    {"materials/*", Kind::object},
+    {"materials/*/name", Kind::text},
+    {"materials/*/emissiveFactor", Kind::vector, 3},
+    {"materials/*/alphaMode", Kind::text},
+    {"materials/*/alphaCutoff", Kind::number},
+    {"materials/*/pbrMetallicRoughness", Kind::object},
+    {"materials/*/pbrMetallicRoughness/baseColorFactor", Kind::vector, 4},
+    {"materials/*/pbrMetallicRoughness/metallicFactor", Kind::number},
+    {"materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number},
+    {"materials/*/extensions", Kind::object},
+    {"materials/*/extensions/*", Kind::object},
+    {"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
+    {"materials/*/extensions/KHR_materials_ior/ior", Kind::number},
+    {"materials/*/extensions/KHR_materials_transmission/transmissionFactor", Kind::number},
+    {"materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
+    {"materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::vector, 3},
+    {"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number},
+    {"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::vector, 3},
+    {"materials/*/extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::number},
+    {"materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::number},
+
+    {"meshes", Kind::list},
+    {"meshes/*", Kind::object},
+    {"meshes/*/name", Kind::text},
+    {"meshes/*/+primitives", Kind::list},
+    {"meshes/*/primitives/*", Kind::object},
+    {"meshes/*/primitives/*/+attributes", Kind::object},
+    {"meshes/*/primitives/*/attributes/*", Kind::index, 0, "accessors"},
+    {"meshes/*/primitives/*/indices", Kind::index, 0, "accessors"},
+    {"meshes/*/primitives/*/material", Kind::index, 0, "materials"},
+    {"meshes/*/primitives/*/mode", Kind::whole, 6},
+    {"meshes/*/primitives/*/extensions", Kind::object},
+    {"meshes/*/primitives/*/targets", Kind::list},
+    {"cameras", Kind::list},
+    {"cameras/*", Kind::object},
+    {"cameras/*/+type", Kind::text},
+    {"cameras/*/name", Kind::text},
+    {"cameras/*/orthographic", Kind::object},
+    {"cameras/*/orthographic/+xmag", Kind::number},
+    {"cameras/*/orthographic/+ymag", Kind::number},
+    {"cameras/*/orthographic/+zfar", Kind::number},
+    {"cameras/*/orthographic/+znear", Kind::number},
+    {"cameras/*/perspective", Kind::object},
+    {"cameras/*/perspective/aspectRatio", Kind::number},
+    {"cameras/*/perspective/+yfov", Kind::number},
+    {"cameras/*/perspective/+znear", Kind::number},
+    {"nodes", Kind::list},
+    {"nodes/*", Kind::object},
+    {"nodes/*/name", Kind::text},
+    {"nodes/*/children", Kind::indices, 0, "nodes"},
+    {"nodes/*/mesh", Kind::index, 0, "meshes"},
+    {"nodes/*/skin", Kind::index, 0, "skins"},
+    {"nodes/*/camera", Kind::index, 0, "cameras"},
+    {"nodes/*/matrix", Kind::vector, 16},
+    {"nodes/*/translation", Kind::vector, 3},
+    {"nodes/*/rotation", Kind::vector, 4},
+    {"nodes/*/scale", Kind::vector, 3},
+    {"nodes/*/extensions", Kind::object},
+    {"nodes/*/extensions/KHR_lights_punctual", Kind::object},
+    {"nodes/*/extensions/KHR_lights_punctual/+light", Kind::index, 0, kLightsPath},
+    {"scenes", Kind::list},
+    {"scenes/*", Kind::object},
+    {"scenes/*/nodes", Kind::indices, 0, "nodes"},
+    {"scene", Kind::index, 0, "scenes"},
+};
+
+constexpr const char* kTextureSlots[] = {
+    "pbrMetallicRoughness/baseColorTexture",
+    "pbrMetallicRoughness/metallicRoughnessTexture",
+    "normalTexture",
+    "emissiveTexture",
+    "extensions/KHR_materials_transmission/transmissionTexture",
+    "extensions/KHR_materials_specular/specularTexture",
+    "extensions/KHR_materials_specular/specularColorTexture",
+    "extensions/KHR_materials_clearcoat/clearcoatTexture",
+    "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+};
+constexpr GltfRule kTextureRules[] = {
+    {"", Kind::object},
+    {"/+index", Kind::index, 0, "textures"},
+    {"/texCoord", Kind::whole, 1000},
+    {"/scale", Kind::number},
+    {"/extensions", Kind::object},
+    {"/extensions/KHR_texture_transform", Kind::object},
+    {"/extensions/KHR_texture_transform/offset", Kind::vector, 2},
+    {"/extensions/KHR_texture_transform/scale", Kind::vector, 2},
+    {"/extensions/KHR_texture_transform/rotation", Kind::number},
+    {"/extensions/KHR_texture_transform/texCoord", Kind::whole, 1000},
+};
+
+// Containers before what they contain. A + before the last name: the property is required.
+std::span<const GltfRule> gltfRules() { return kRules; }
+// Wherever a material names a texture, and what it says of it there: paths from the place on.
+std::span<const char* const> gltfTextureSlots() { return kTextureSlots; }
+std::span<const GltfRule> gltfTextureRules() { return kTextureRules; }
 
 const Json* find(const Json& object, std::string_view name) {
   if (!object.is_object()) return nullptr;

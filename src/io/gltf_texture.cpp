@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/gltf_extensions.h"
+#include "io/gltf_document.h"
 
 namespace whit {
 namespace {

@@ -1,7 +1,6 @@
 // The decoders behind image_file.h; private to this folder.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,9 +18,6 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 // The same, and then holds so much of the limits' budget.
 [[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
                                    std::uint64_t bytesPerPixel, const ImageLimits& limits);
-
-// Linear light of every 8-bit sRGB code.
-const std::array<float, 256>& linearOfCode();
 
 // Throws as readRawImage does. Refuses CMYK.
 bool isJpeg(const std::vector<std::uint8_t>& file);

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "io/image_decoders.h"
 
 namespace whit {
@@ -152,7 +153,7 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings&) {
     source = {raw.width, raw.height, {0, 0, raw.width, raw.height}, raw.channels, {}, {}};
     source.values = std::move(raw.values);
     source.values.reserve(raw.codes.size());
-    for (const std::uint8_t code : raw.codes) source.values.push_back(linearOfCode()[code]);
+    for (const std::uint8_t code : raw.codes) source.values.push_back(linearOfCode(code));
   }
   Image image(source.width, source.height, source.window);
   const auto channels = static_cast<std::size_t>(source.channels);

@@ -10,7 +10,6 @@
 #include "core/image.h"
 #include "core/warnings.h"
 #include "io/memory_budget.h"
-#include "scene/texture.h"
 
 namespace whit {
 
@@ -60,12 +59,5 @@ void writePng(const std::string& path, const DisplayImage& image, const ImageMet
 ImageMetadata readPngMetadata(const std::string& path);
 // The bytes of such a file without metadata.
 std::string encodePng(const DisplayImage& image);
-
-// A texture of the given format. Color textures decode sRGB from 8-bit codes; data textures take
-// codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
-// alpha is 1.
-Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
-// Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
-EnvironmentImage makeEnvironment(const RawImage& raw);
 
 }  // namespace whit

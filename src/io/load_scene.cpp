@@ -4,10 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "core/box.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
@@ -93,37 +93,27 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   return std::move(context.scene);
 }
 
-struct Bounds {
-  Vec3f lower{std::numeric_limits<float>::infinity()};
-  Vec3f upper{-std::numeric_limits<float>::infinity()};
-
-  void add(const Vec3f& p) {
-    if (!isFinite(p)) return;
-    lower = min(lower, p);
-    upper = max(upper, p);
-  }
-  bool empty() const { return !(lower.x <= upper.x); }
-};
-
-// Of the objects' boxes where their instances stand.
-Bounds boundsOf(const SceneDescription& scene) {
-  std::vector<Bounds> objects(scene.objects.size());
+// Of the objects' boxes where their instances stand. The description is not validated yet: points
+// that are not finite count for nothing.
+Box boundsOf(const SceneDescription& scene) {
+  const auto add = [](const Vec3f& p, Box& box) {
+    if (isFinite(p)) box.add(p);
+  };
+  std::vector<Box> objects(scene.objects.size());
   for (std::size_t i = 0; i < objects.size(); ++i) {
     for (const Mesh& mesh : scene.objects[i].meshes) {
-      for (const Vec3f& p : mesh.positions) objects[i].add(p);
+      for (const Vec3f& p : mesh.positions) add(p, objects[i]);
     }
   }
-  Bounds all;
+  Box all;
   for (const Instance& instance : scene.instances) {
-    const Bounds& own = objects[instance.object];
+    const Box& own = objects[instance.object];
     if (own.empty()) continue;
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3f p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
-                    corner & 4 ? own.upper.z : own.lower.z};
-      all.add(Vec3f(instance.toWorld.point(Vec3d(p))));
+      add(Vec3f(instance.toWorld.point(Vec3d(own.corner(corner)))), all);
     }
   }
-  return all.empty() ? Bounds{Vec3f(), Vec3f()} : all;
+  return all.empty() ? Box{Vec3f(), Vec3f()} : all;
 }
 
 // A light above, beside and in front of the model, and light from all around.

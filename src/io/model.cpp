@@ -6,27 +6,16 @@
 #include <string>
 
 #include "core/error.h"
-#include "io/gltf_model.h"
-#include "io/obj_model.h"
-#include "io/ply_model.h"
 
 namespace whit {
 namespace {
-
-template <typename Kind>
-std::unique_ptr<Model> open(const std::filesystem::path& path, const PathRules& rules,
-                            MemoryBudget& budget, Warnings& warnings) {
-  return std::make_unique<Kind>(path, rules, budget, warnings);
-}
 
 using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const PathRules&,
                                           MemoryBudget&, Warnings&);
 
 const std::map<std::string, Opener>& openers() {
-  static const std::map<std::string, Opener> all = {{".glb", open<GltfModel>},
-                                                    {".gltf", open<GltfModel>},
-                                                    {".obj", open<ObjModel>},
-                                                    {".ply", open<PlyModel>}};
+  static const std::map<std::string, Opener> all = {
+      {".glb", openGltf}, {".gltf", openGltf}, {".obj", openObj}, {".ply", openPly}};
   return all;
 }
 

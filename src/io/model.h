@@ -55,6 +55,14 @@ std::string modelExtensions();  // ".gltf, .obj"
 std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
                                  MemoryBudget& budget, Warnings& warnings);
 
+// Those that it chooses from, each in the file of its format.
+std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
+                                MemoryBudget& budget, Warnings& warnings);
+std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
+                               MemoryBudget& budget, Warnings& warnings);
+std::unique_ptr<Model> openPly(const std::filesystem::path& path, const PathRules& rules,
+                               MemoryBudget& budget, Warnings& warnings);
+
 // Copies of `meshes` as parts, their materials replaced by the scene's.
 void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& materials,
               const std::string& file, MemoryBudget& budget, Body& to);

@@ -1,15 +1,21 @@
-#include "io/obj_model.h"
-
+// OBJ files with their materials as models.
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "io/model.h"
+#include "io/mtl_reader.h"
 #include "io/mtl_text.h"
 #include "io/obj_geometry.h"
+#include "io/obj_text.h"
 
 namespace whit {
+
 namespace {
 
 MtlMaterial grayMaterial(const std::string& name, const std::string& where) {
@@ -31,7 +37,32 @@ std::vector<std::string> libraryNames(const std::string& line, const std::filesy
   return names;
 }
 
-}  // namespace
+class ObjModel : public Model {
+ public:
+  // Reads the text and the material libraries. A library or a material that is not there is a
+  // warning; such materials are gray.
+  ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+           Warnings& warnings);
+
+  // One for each material that faces use, and a gray one last for faces without any.
+  const std::vector<Material>& materials() const override { return materials_; }
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
+                            TextureLoader& textures) override;
+  // Parses the faces at the first call.
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
+
+ private:
+  void readMaterials();
+
+  std::filesystem::path path_;
+  const PathRules& rules_;
+  MemoryBudget& budget_;
+  Warnings& warnings_;
+  std::optional<ObjText> text_;  // until it is parsed
+  std::vector<MtlMaterial> sources_;
+  std::vector<Material> materials_;  // of sources_
+  std::vector<Mesh> meshes_;
+};
 
 ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
                    Warnings& warnings)
@@ -100,6 +131,13 @@ Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials
   Body body;
   addParts(meshes_, materials, path_.string(), budget_, body);
   return body;
+}
+
+}  // namespace
+
+std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
+                               MemoryBudget& budget, Warnings& warnings) {
+  return std::make_unique<ObjModel>(path, rules, budget, warnings);
 }
 
 }  // namespace whit

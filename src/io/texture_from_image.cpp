@@ -1,24 +1,27 @@
-// From decoded images to what shading reads.
+#include "io/texture_from_image.h"
+
+#include <algorithm>
 #include <array>
 
 #include "core/srgb.h"
-#include "io/image_decoders.h"
-#include "io/image_file.h"
-#include "scene/texture.h"
 
 namespace whit {
 
-const std::array<float, 256>& linearOfCode() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> linear{};
-    for (int code = 0; code < 256; ++code)
-      linear[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
-    return linear;
-  }();
-  return table;
+namespace {
+
+std::size_t texelCount(const RawImage& raw) {
+  return static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
 }
 
-namespace {
+// Channel `c` of texel `i`, as stored.
+float channel(const RawImage& raw, std::size_t i, int c) {
+  const std::size_t at = i * static_cast<std::size_t>(raw.channels) + static_cast<std::size_t>(c);
+  return raw.linear ? raw.values[at] : static_cast<float>(raw.codes[at]) / 255.0f;
+}
+
+int wrapped(int i, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
+}
 
 // The channels of pixel `i` as r, g, b, a; `one` is what a missing alpha is.
 template <typename Value>
@@ -42,8 +45,9 @@ std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, 
 const std::array<std::uint32_t, 256>& colorBitsOfCode() {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> bits{};
-    for (std::size_t code = 0; code < 256; ++code)
-      bits[code] = encodeColorTexel({linearOfCode()[code], 0, 0}) & 1023u;
+    for (int code = 0; code < 256; ++code) {
+      bits[static_cast<std::size_t>(code)] = encodeColorTexel({linearOfCode(code), 0, 0}) & 1023u;
+    }
     return bits;
   }();
   return table;
@@ -71,8 +75,7 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
   texture.format = format;
   texture.width = raw.width;
   texture.height = raw.height;
-  const std::size_t count =
-      static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
+  const std::size_t count = texelCount(raw);
   texture.texels.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     texture.texels.push_back(
@@ -87,8 +90,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   EnvironmentImage environment;
   environment.width = raw.width;
   environment.height = raw.height;
-  const std::size_t count =
-      static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
+  const std::size_t count = texelCount(raw);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     std::array<float, 4> value{};
@@ -96,13 +98,80 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
       value = channelsOf(raw.values, raw.channels, i, 1.0f);
     } else {
       const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
-      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode()[codes[c]];
+      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode(codes[c]);
     }
     environment.r[i] = value[0];
     environment.g[i] = value[1];
     environment.b[i] = value[2];
   }
   return environment;
+}
+
+bool hasTranslucentAlpha(const RawImage& raw) {
+  if (raw.channels != 2 && raw.channels != 4) return false;
+  const std::size_t count = texelCount(raw);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (channel(raw, i, raw.channels - 1) < 1.0f) return true;
+  }
+  return false;
+}
+
+RawImage alphaOf(const RawImage& raw) {
+  RawImage alpha;
+  alpha.width = raw.width;
+  alpha.height = raw.height;
+  alpha.channels = 1;
+  alpha.linear = raw.linear;
+  const std::size_t stride = static_cast<std::size_t>(raw.channels), count = texelCount(raw);
+  if (raw.linear) {
+    alpha.values.resize(count);
+    for (std::size_t i = 0; i < count; ++i) alpha.values[i] = raw.values[i * stride + stride - 1];
+  } else {
+    alpha.codes.resize(count);
+    for (std::size_t i = 0; i < count; ++i) alpha.codes[i] = raw.codes[i * stride + stride - 1];
+  }
+  return alpha;
+}
+
+bool looksLikeHeights(const RawImage& raw) {
+  if (raw.channels < 3) return true;
+  constexpr float kChromaNoise = 16.0f / 255.0f;  // of a gray picture stored as JPEG
+  const std::size_t count = texelCount(raw);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);
+    if (std::max({r, g, b}) - std::min({r, g, b}) > kChromaNoise) return false;
+  }
+  return true;
+}
+
+Texture normalsFromHeights(const std::string& name, const RawImage& raw, float bumpScale,
+                           Wrap wrapU, Wrap wrapV) {
+  Texture texture;
+  texture.name = name;
+  texture.format = TexelFormat::data;
+  texture.width = raw.width;
+  texture.height = raw.height;
+  texture.texels.resize(texelCount(raw));
+  const auto height = [&](int x, int y) {
+    const std::size_t row = static_cast<std::size_t>(wrapped(y, raw.height, wrapV));
+    const std::size_t column = static_cast<std::size_t>(wrapped(x, raw.width, wrapU));
+    return channel(raw, row * static_cast<std::size_t>(raw.width) + column, 0);
+  };
+  // Slopes per tile width, so that the relief does not depend on the resolution.
+  const float scaleX = bumpScale / kTileHeights * static_cast<float>(raw.width) / 2;
+  const float scaleY = bumpScale / kTileHeights * static_cast<float>(raw.height) / 2;
+  std::size_t i = 0;
+  for (int y = 0; y < raw.height; ++y) {
+    for (int x = 0; x < raw.width; ++x, ++i) {
+      // Row 0 is the top: v grows as y falls.
+      const float slopeU = (height(x + 1, y) - height(x - 1, y)) * scaleX;
+      const float slopeV = (height(x, y - 1) - height(x, y + 1)) * scaleY;
+      const Vec3f n = normalized(Vec3f{-slopeU, -slopeV, 1.0f}, Vec3f{0, 0, 1});
+      texture.texels[i] =
+          encodeDataTexel(n.x * 0.5f + 0.5f, n.y * 0.5f + 0.5f, n.z * 0.5f + 0.5f, 1.0f);
+    }
+  }
+  return texture;
 }
 
 }  // namespace whit

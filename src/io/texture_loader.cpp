@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/raw_channels.h"
+#include "io/texture_from_image.h"
 
 namespace whit {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/failure.h"
 #include "core/nearest_name.h"
 #include "core/option_values.h"
 #include "core/quality.h"
@@ -63,7 +62,7 @@ FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
     said.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
   }
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    said.rays.push_back({kRayKindNames[i], frame.tally[i].rays});
+    said.rays.push_back({kRayKindNames[i], frame.meter.tally[i].rays});
   }
   return said;
 }

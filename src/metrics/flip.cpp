@@ -1,20 +1,72 @@
 // LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D.
 // Fairchild, "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. Section numbers are
 // the paper's.
+#include "metrics/flip.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "core/srgb.h"
 #include "core/vec3.h"
-#include "metrics/codes.h"
-#include "metrics/filter.h"
-#include "metrics/flip_side.h"
 
 namespace whit {
 
 namespace {
+
+struct Plane {
+  int width = 0, height = 0;
+  std::vector<float> values;  // row by row
+
+  Plane() = default;
+  Plane(int w, int h)
+      : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  float* row(int y) {
+    return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+  }
+  const float* row(int y) const {
+    return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+  }
+};
+
+// Weights at -radius .. radius, so always an odd number of them.
+using Taps = std::vector<float>;
+
+// Innermost along x in both directions, which is what compilers turn into vector code.
+void addScaled(float* sum, const float* values, float weight, int count) {
+  for (int x = 0; x < count; ++x) sum[x] += weight * values[x];
+}
+
+// Each value is the sum of taps[i] * neighbor i; beyond the border the nearest value is repeated.
+Plane filterAlongX(const Plane& plane, const Taps& taps) {
+  const int radius = static_cast<int>(taps.size() / 2);
+  Plane out(plane.width, plane.height);
+  std::vector<float> padded(static_cast<std::size_t>(plane.width) + 2 * taps.size());
+  for (int y = 0; y < plane.height; ++y) {
+    const float* row = plane.row(y);
+    std::fill_n(padded.begin(), radius, row[0]);
+    std::copy(row, row + plane.width, padded.begin() + radius);
+    std::fill_n(padded.begin() + radius + plane.width, radius, row[plane.width - 1]);
+    for (std::size_t i = 0; i < taps.size(); ++i)
+      addScaled(out.row(y), padded.data() + i, taps[i], plane.width);
+  }
+  return out;
+}
+
+Plane filterAlongY(const Plane& plane, const Taps& taps) {
+  const int radius = static_cast<int>(taps.size() / 2);
+  Plane out(plane.width, plane.height);
+  for (int y = 0; y < plane.height; ++y) {
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+      const int from = y - radius + static_cast<int>(i);
+      addScaled(out.row(y), plane.row(std::clamp(from, 0, plane.height - 1)), taps[i], plane.width);
+    }
+  }
+  return out;
+}
 
 constexpr double kPixelsPerDegree = 67;           // a 0.7 m wide 3840 pixel display seen from 0.7 m
 constexpr double kColorExponent = 0.7;            // q_c
@@ -70,13 +122,10 @@ Vec3f xyzOfOpponent(const Vec3f& o) {
 using Planes = std::array<Plane, 3>;
 
 std::vector<Rgb> linearOf(const DisplayImage& image) {
-  std::array<float, 256> linear{};
-  for (std::size_t code = 0; code < 256; ++code)
-    linear[code] = static_cast<float>(srgbToLinear(static_cast<double>(code) / 255));
   std::vector<Rgb> pixels(image.rgba.size() / 4);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::uint8_t* code = image.rgba.data() + 4 * i;
-    pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    pixels[i] = {linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])};
   }
   return pixels;
 }

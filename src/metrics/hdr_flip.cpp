@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/quantile.h"
-#include "metrics/codes.h"
-#include "metrics/flip_side.h"
+#include "metrics/flip.h"
+#include "metrics/metrics.h"
 
 namespace whit {
 

@@ -4,8 +4,6 @@
 #include <string>
 
 #include "core/display.h"
-#include "metrics/codes.h"
-#include "metrics/heat_color.h"
 #include "metrics/metrics.h"
 
 namespace whit {

@@ -1,6 +1,7 @@
 // How far two images are apart.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,11 +29,20 @@ ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0
                               ToneCurve curve = ToneCurve::none,
                               SrgbEncoding encodingOfA = SrgbEncoding::exact);
 
+// Throws Error(usage) unless sizes and windows match and there are pixels.
+void checkComparable(const Image& a, const Image& b);
+
+// Per pixel, the largest difference of a channel of the encoded images, in codes.
+std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b);
+
 // FLIP per pixel, in [0, 1], of the encoded images.
 std::vector<float> flipMap(const Image& a, const Image& b);
 
 // Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic) with its
 // scale drawn beneath.
 DisplayImage heatMap(const Image& a, const Image& b);
+// Its colors: from black over violet and orange to a light yellow, lightness growing all the way.
+// `t` in [0, 1]; 8-bit sRGB.
+std::array<std::uint8_t, 3> heatColor(double t);
 
 }  // namespace whit

@@ -2,10 +2,10 @@
 // illumination model for shaded display"), and samples of the GGX lobe of a rough one.
 #pragma once
 
-#include "core/random_streams.h"
 #include "core/shading_choices.h"
 #include "reference/media.h"
 #include "reference/twin.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

@@ -1,7 +1,7 @@
 #include "reference/generate_rays.h"
 
 #include "core/pixel.h"
-#include "core/random_streams.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

@@ -10,8 +10,8 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
+#include "sampling/pixel_edges.h"
 #include "scene/mip_maps.h"
-#include "scene/pixel_edges.h"
 #include "scene/scene.h"
 
 namespace whit::reference {

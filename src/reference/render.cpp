@@ -1,23 +1,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <functional>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
 #include "core/display.h"
 #include "core/film.h"
 #include "core/pixel.h"
-#include "core/random_streams.h"
+#include "core/worker_pool.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
 #include "reference/update_image.h"
-#include "scene/probe_samples.h"
+#include "sampling/probe_samples.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 
@@ -34,32 +31,15 @@ PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
 
 using RowTask = std::function<void(int y, RayCounts& counts)>;
 
-// Every row of the window once, shared among threads. What is thrown for one of them ends all, and
-// the first of it reaches the caller.
+// Every row of the window once, shared among threads.
 RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const RowTask& task) {
-  std::atomic<int> nextRow{window.y0}, rowsDone{0};
-  std::exception_ptr failure;
-  std::once_flag failed;
-  const auto work = [&](RayCounts& counts) {
-    try {
-      for (int y = nextRow++; y < window.y1; y = nextRow++) {
-        task(y, counts);
-        const double fraction = static_cast<double>(++rowsDone) / (window.y1 - window.y0);
-        reportProgress(progress, "tracing the reference", fraction);
-      }
-    } catch (...) {
-      std::call_once(failed, [&] { failure = std::current_exception(); });
-      nextRow = window.y1;
-    }
-  };
-  const auto workers = static_cast<std::size_t>(std::max(1, threads));
-  std::vector<RayCounts> counts(workers);
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < workers; ++i) helpers.emplace_back(work, std::ref(counts[i]));
-    work(counts[0]);
-  }
-  if (failure) std::rethrow_exception(failure);
+  std::vector<RayCounts> counts(static_cast<std::size_t>(std::max(1, threads)));
+  const int rows = window.y1 - window.y0;
+  std::atomic<int> rowsDone{0};
+  parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
+    task(window.y0 + static_cast<int>(row), counts[static_cast<std::size_t>(worker)]);
+    reportProgress(progress, "tracing the reference", static_cast<double>(++rowsDone) / rows);
+  });
   RayCounts sum;
   for (const RayCounts& c : counts) sum += c;
   return sum;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/random_streams.h"
 #include "reference/add_impulses.h"
 #include "reference/check_shadows.h"
 #include "reference/find_intersections.h"
@@ -9,7 +8,8 @@
 #include "reference/media.h"
 #include "reference/reference.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
-#include "scene/sample_pattern.h"
+#include "sampling/random_streams.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit::reference {
 

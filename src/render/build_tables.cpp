@@ -122,9 +122,8 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   tables.colors = scene.colors.empty() ? &white : scene.colors.data();
   tables.colorStride = scene.colors.empty() ? 0 : sizeof(ColorRecord) / sizeof(float);
   tables.secondUvs = scene.secondUvs.empty() ? nullptr : scene.secondUvs.data();
-  tables.shading = shading;
   addMaterials(scene, effects, tables);
-  addTextures(scene, effects, threads, tables);
+  addTextures(scene, effects, shading.textureFilter, threads, tables);
   addInstances(scene, tables);
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
@@ -133,7 +132,8 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   return tables;
 }
 
-void refreshShading(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
+void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
+                    int threads, ShadingTables& tables) {
   const std::vector<MaterialRecord> before = tables.materials;
   addMaterials(scene, effects, tables);
   const bool sameTextures =
@@ -143,7 +143,7 @@ void refreshShading(const Scene& scene, EffectSet effects, int threads, ShadingT
                           a.emissionMap == b.emissionMap && a.normalMap == b.normalMap;
                  });
   if (!sameTextures) {
-    tables = buildTables(scene, effects, tables.shading, threads);
+    tables = buildTables(scene, effects, shading, threads);
     return;
   }
   addMedia(scene, tables);

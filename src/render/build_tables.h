@@ -1,6 +1,7 @@
 // The kernels' tables, from a frozen scene.
 #pragma once
 
+#include "core/shading_choices.h"
 #include "stages/shading_tables.h"
 
 namespace whit {
@@ -13,6 +14,7 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
 
 // After materials or lights of the scene have changed, effects and choices being the same: texels
 // and geometry, which take long to copy, stay where they are, unless other textures are needed now.
-void refreshShading(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables);
+void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
+                    int threads, ShadingTables& tables);
 
 }  // namespace whit

@@ -6,7 +6,6 @@
 #include "core/pixel.h"
 #include "render/false_colors.h"
 #include "render/pixel_tracker.h"
-#include "render/renderer_parts.h"
 
 namespace whit {
 
@@ -44,18 +43,17 @@ Rgb colorOf(EffectSet effects) {
 // Sums, a pixel of the window each, of whatever the view shows.
 class Watcher : public StageObserver {
  public:
-  Watcher(const Renderer::Parts& parts, const Crop& window, DebugView view)
-      : parts_(parts), window_(window), view_(view), last_(Clock::now()) {
+  Watcher(const Renderer& renderer, const Crop& window, DebugView view)
+      : renderer_(renderer), window_(window), view_(view), last_(Clock::now()) {
     const auto width = static_cast<std::size_t>(window.x1 - window.x0);
     pixels_.resize(width * static_cast<std::size_t>(window.y1 - window.y0));
   }
 
   const std::vector<WatchedPixel>& pixels() const { return pixels_; }
 
-  void after(Stage stage, const ChunkView& chunk) override {
+  void after(Stage stage, const Chunk& chunk) override {
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
     tracker_.follow(stage, chunk);
-    followQueues(stage, chunk);
     const bool hits = stage == Stage::findIntersections;
     if (view_ == DebugView::cost) {
       for (std::size_t i = 0; i < chunk.n; ++i) {
@@ -71,7 +69,7 @@ class Watcher : public StageObserver {
   }
 
  private:
-  void add(const ChunkView& chunk, std::size_t slot, const Rgb& value, double count) {
+  void add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
     const auto x = static_cast<std::size_t>(pixelX(at) - window_.x0);
     const auto y = static_cast<std::size_t>(pixelY(at) - window_.y0);
@@ -80,49 +78,40 @@ class Watcher : public StageObserver {
     pixel.count += count;
   }
 
-  // Of each depth's queue the first so many are reflections, which travel in packets of their own.
-  void followQueues(Stage stage, const ChunkView& chunk) {
-    if (stage != Stage::addImpulses) return;
-    const auto next = static_cast<std::size_t>(chunk.depth) + 1;
-    if (reflections_.size() <= next) reflections_.resize(next + 1);
-    reflections_[next] = chunk.reflections;
-  }
-
   // Ray i of n that go to Embree together.
-  void countRay(const ChunkView& chunk, std::size_t slot, std::size_t i, std::size_t n) {
+  void countRay(const Chunk& chunk, std::size_t slot, std::size_t i, std::size_t n) {
     if (view_ == DebugView::rays) {
       add(chunk, slot, {1, 0, 0}, 0);
       return;
     }
-    const auto width = static_cast<std::size_t>(parts_.machine.packet);
+    const auto width = static_cast<std::size_t>(renderer_.machine().packet);
     const std::size_t live = std::min(width, n - i / width * width);
     add(chunk, slot, {static_cast<float>(live) / static_cast<float>(width), 0, 0}, 1);
   }
 
-  void countRays(const ChunkView& chunk) {
-    std::size_t split = chunk.n;
-    if (chunk.depth > 0) {
-      const std::size_t reflections = reflections_[static_cast<std::size_t>(chunk.depth)];
-      split = std::clamp(reflections, chunk.first, chunk.first + chunk.n) - chunk.first;
+  void countRays(const Chunk& chunk) {
+    for (std::size_t s = 0; s < chunk.segmentCount; ++s) {
+      const Segment& part = chunk.segments[s];
+      for (std::size_t i = part.begin; i < part.end; ++i) {
+        countRay(chunk, i, i - part.begin, part.end - part.begin);
+      }
     }
-    for (std::size_t i = 0; i < split; ++i) countRay(chunk, i, i, split);
-    for (std::size_t i = split; i < chunk.n; ++i) countRay(chunk, i, i - split, chunk.n - split);
   }
 
-  void countShadowRays(const ChunkView& chunk) {
+  void countShadowRays(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.shadowCount; ++i) {
       countRay(chunk, chunk.shadows.slot[i], i, chunk.shadowCount);
     }
   }
 
-  void lookAtSurfels(const ChunkView& chunk) {
+  void lookAtSurfels(const Chunk& chunk) {
     const SurfelColumns& s = chunk.surfels;
     for (std::size_t i = 0; i < chunk.n; ++i) {
       const bool hit = s.material[i] != kMiss;
       if (view_ == DebugView::effects) {
         const EffectSet sky = EffectSet().with(Effect::sky);
-        const EffectSet all = hit ? effectsOf(parts_.scene.materials[s.material[i]]) : sky;
-        add(chunk, i, colorOf(EffectSet(all.bits() & parts_.plan.effects.bits())), 1);
+        const EffectSet all = hit ? effectsOf(renderer_.scene().materials[s.material[i]]) : sky;
+        add(chunk, i, colorOf(EffectSet(all.bits() & renderer_.plan().effects.bits())), 1);
       } else if (!hit) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
@@ -135,11 +124,10 @@ class Watcher : public StageObserver {
     }
   }
 
-  const Renderer::Parts& parts_;
+  const Renderer& renderer_;
   const Crop window_;
   const DebugView view_;
   PixelTracker tracker_;
-  std::vector<std::size_t> reflections_;  // of each depth's queue
   std::vector<WatchedPixel> pixels_;
   Clock::time_point last_;
 };
@@ -149,12 +137,11 @@ class Watcher : public StageObserver {
 std::span<const EffectColor> effectColors() { return kEffectColors; }
 
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
-  Renderer::Parts& parts = renderer.parts();
-  FrameJob job = parts.makeJob(camera, film, film.image.window);
-  Watcher watcher(parts, film.image.window, view);
-  DebugFrame frame{parts.renderObserved(job, watcher), ""};
+  Watcher watcher(renderer, film.image.window, view);
+  StageObserver* const observers[] = {&watcher};
+  DebugFrame frame{renderer.observe(camera, film, observers), ""};
   const std::vector<WatchedPixel>& pixels = watcher.pixels();
-  const std::vector<double> amounts = amountsOf(pixels, static_cast<double>(job.samples.size()));
+  const std::vector<double> amounts = amountsOf(pixels, renderer.options().spp);
   switch (view) {
     case DebugView::depth:
       frame.legend = paintDepth(pixels, film.display);

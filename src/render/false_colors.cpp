@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/display.h"
-#include "metrics/heat_color.h"
+#include "metrics/metrics.h"
 
 namespace whit {
 

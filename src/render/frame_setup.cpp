@@ -1,8 +1,7 @@
-// What a frame's options say about camera and film.
+#include "render/frame_setup.h"
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "render/renderer.h"
 
 namespace whit {
 
@@ -62,6 +61,27 @@ Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t ma
   Film film;
   film.image = Image(size.width, size.height, window);
   return film;
+}
+
+CameraRays cameraRays(const CameraFrame& camera) {
+  const RayCone cone = pixelCone(camera);
+  return {.eye = Vec3f(camera.eye),
+          .forward = Vec3f(camera.forward),
+          .right = Vec3f(camera.right),
+          .up = Vec3f(camera.up),
+          .halfWidth = static_cast<float>(camera.width) / 2,
+          .halfHeight = static_cast<float>(camera.height) / 2,
+          .media = camera.media,
+          .orthographic = camera.orthographic,
+          .coneWidth = static_cast<float>(cone.width),
+          .coneSpread = static_cast<float>(cone.spread)};
+}
+
+void sizeDisplay(Film& film) {
+  if (!film.wantDisplay) return;
+  film.display.width = film.image.windowWidth();
+  film.display.height = film.image.windowHeight();
+  film.display.rgba.resize(film.image.pixels.size() * 4);
 }
 
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {

@@ -5,16 +5,14 @@ namespace whit {
 void FrameStats::add(const FrameStats& worker) {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     stageWorkerMs[i] += worker.stageWorkerMs[i];
-    kernelCalls[i] += worker.kernelCalls[i];
+    stageCalls[i] += worker.stageCalls[i];
   }
+  for (std::size_t i = 0; i < stepCalls.size(); ++i) stepCalls[i] += worker.stepCalls[i];
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    tally[i].rays += worker.tally[i].rays;
-    tally[i].lanes += worker.tally[i].lanes;
+    meter.tally[i].rays += worker.meter.tally[i].rays;
+    meter.tally[i].lanes += worker.meter.tally[i].lanes;
   }
-  embreeWorkerMs += worker.embreeWorkerMs;
-  reflectionCalls += worker.reflectionCalls;
-  glossyCalls += worker.glossyCalls;
-  refractionCalls += worker.refractionCalls;
+  meter.embreeMs += worker.meter.embreeMs;
   nonFinitePixels += worker.nonFinitePixels;
 }
 

@@ -6,7 +6,6 @@
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/pixel_tracker.h"
-#include "render/renderer_parts.h"
 
 namespace whit {
 
@@ -28,23 +27,21 @@ std::uint64_t shadowEvent(bool visible) { return mixed(visible ? 0x51 : 0x52); }
 // the tiles write to the same signatures, one a pixel of the window.
 class SignatureObserver : public StageObserver {
  public:
-  SignatureObserver(const Crop& window, bool tracesShadows, bool instances,
-                    std::vector<std::uint64_t>& signatures)
+  SignatureObserver(const Crop& window, std::vector<std::uint64_t>& signatures)
       : window_(window),
         width_(static_cast<std::size_t>(window.x1 - window.x0)),
-        tracesShadows_(tracesShadows),
-        instances_(instances),
         signatures_(signatures) {}
 
-  void after(Stage stage, const ChunkView& chunk) override {
+  void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);
     if (stage == Stage::findIntersections) {
       for (std::size_t i = 0; i < chunk.n; ++i) {
         if (chunk.hits.triangle[i] == kMiss) continue;
-        const std::uint32_t instance = instances_ ? chunk.hits.instance[i] : kMiss;
+        const std::uint32_t instance =
+            chunk.has(Feature::instances) ? chunk.hits.instance[i] : kMiss;
         at(tracker_.pixel(chunk, i)) += hitEvent(chunk.hits.triangle[i], instance);
       }
-    } else if (stage == Stage::checkShadows && tracesShadows_) {
+    } else if (stage == Stage::checkShadows) {
       for (std::size_t k = 0; k < chunk.shadowCount; ++k) {
         const std::uint32_t slot = chunk.shadows.slot[k];
         at(tracker_.pixel(chunk, slot)) += shadowEvent(chunk.unshadowed.visible[slot] > 0);
@@ -61,7 +58,6 @@ class SignatureObserver : public StageObserver {
 
   Crop window_;
   std::size_t width_;
-  bool tracesShadows_, instances_;
   PixelTracker tracker_;
   std::vector<std::uint64_t>& signatures_;
 };
@@ -88,21 +84,19 @@ class RecordingIntersector : public reference::Intersector {
 }  // namespace
 
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
-  Renderer::Parts& p = renderer.parts();
-  Film scratch = film;
-  const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
-  const reference::Settings settings = p.referenceSettings();
+  const CameraFrame frame = renderer.lookFrom(camera, film);
+  const reference::Settings settings = renderer.referenceSettings();
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
-  p.pool->run([&](int) {
-    const RecordingIntersector intersector(*p.accel);
-    const reference::Tracer tracer(p.scene, intersector, settings);
+  renderer.scheduler().pool().run([&](int) {
+    const RecordingIntersector intersector(renderer.accel());
+    const reference::Tracer tracer(renderer.scene(), intersector, settings);
     reference::RayCounts counts;
     for (int y = nextRow++; y < window.y1; y = nextRow++) {
       for (int x = window.x0; x < window.x1; ++x) {
         intersector.signature = 0;
-        paths.image.at(x, y) = Rgb(tracer.pixel(job.camera, x, y, counts));
+        paths.image.at(x, y) = Rgb(tracer.pixel(frame, x, y, counts));
         paths.signatures[paths.image.index(x, y)] = intersector.signature;
       }
     }
@@ -116,17 +110,14 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
 
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,
                             const ReferencePaths& reference) {
-  Renderer::Parts& p = renderer.parts();
   Film scratch = film;
-  const FrameJob job = p.makeJob(camera, scratch, scratch.image.window);
   std::vector<std::uint64_t> signatures(film.image.pixels.size());
-  std::vector<SignatureObserver> signers(p.tracers.size(),
-                                         SignatureObserver(film.image.window, p.plan.traceShadows,
-                                                           p.plan.groups.instances, signatures));
+  std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
+                                         SignatureObserver(film.image.window, signatures));
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());
   for (SignatureObserver& signer : signers) observers.push_back(&signer);
-  p.renderObserved(job, observers);
+  renderer.observe(camera, scratch, observers);
   PathComparison result{scratch.image, reference.image, {}, 0};
   result.diverged.resize(signatures.size());
   for (std::size_t i = 0; i < signatures.size(); ++i) {

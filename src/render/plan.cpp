@@ -1,8 +1,10 @@
 #include "render/plan.h"
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "simd/kernel_variants.h"
+#include "accel/accel.h"
+#include "render/update_image.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -23,73 +25,233 @@ EffectSet consistent(EffectSet e, int glossySamples) {
   return e;
 }
 
-bool runs(const Plan& plan, const simd::Kernel& kernel) {
-  if (std::find(plan.stages.begin(), plan.stages.end(), kernel.stage) == plan.stages.end()) {
-    return false;
+FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSet e) {
+  const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps);
+  const bool emission = e.has(Effect::emission);
+  return FeatureSet()
+      .with(Feature::ambient, e.has(Effect::ambient))
+      .with(Feature::emission, emission)
+      .with(Feature::emissionFactors,
+            e.has(Effect::emissionMaps) || (emission && e.has(Effect::vertexColors)))
+      .with(Feature::vertexColors, e.has(Effect::vertexColors))
+      .with(Feature::sky, e.has(Effect::sky))
+      .with(Feature::glossy, e.has(Effect::glossy))
+      .with(Feature::streams, e.has(Effect::glossyReflection))
+      .with(Feature::transmission, e.has(Effect::transmission))
+      .with(Feature::absorption, e.has(Effect::absorption))
+      .with(Feature::instances, e.has(Effect::instances))
+      .with(Feature::shadows, e.has(Effect::shadows))
+      // Where no vertex normal differs from its triangle's there is nothing to lift.
+      .with(Feature::lift,
+            options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
+      .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
+      .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
+}
+
+KernelUse useOf(const simd::Kernel& kernel, EffectSet effects) {
+  const EffectSet variant = kernel.variant(kernel.variantFor(effects));
+  return {kernel.stage, std::string(kernel.name), simd::variantName(variant), simd::chosenTarget()};
+}
+
+KernelUse embreeCall(Stage stage, const char* name) { return {stage, name, "plain", "embree"}; }
+
+Step stepOf(const simd::Kernel& kernel, EffectSet effects) {
+  return {.name = std::string(kernel.name),
+          .number = simd::indexOf(kernel),
+          .stage = kernel.stage,
+          .run = kernel.functionFor(effects),
+          .reads = kernel.reads,
+          .writes = kernel.writes,
+          .kernels = {useOf(kernel, effects)}};
+}
+
+// Rays to Embree and back: one at a time, or in packets that kernels fill and empty.
+Step embreeStep(const char* name, const char* call, StepFunction run, const simd::Kernel& pack,
+                const simd::Kernel& unpack, bool packets) {
+  Step step{.name = name,
+            .number = simd::indexOf(pack),
+            .stage = pack.stage,
+            .run = run,
+            .reads = pack.reads,
+            .writes = unpack.writes,
+            .kernels = {embreeCall(pack.stage, call)}};
+  if (packets) step.kernels = {useOf(pack, {}), step.kernels[0], useOf(unpack, {})};
+  return step;
+}
+
+class Planner {
+ public:
+  Planner(const Scene& scene, const RenderOptions& options) : scene_(scene), options_(options) {
+    const bool all = options.effects == EffectChoice::all;
+    plan_.effects = consistent((all ? EffectSet::all() : scene.effects).without(options.disable),
+                               options.glossy);
+    plan_.features = featuresOf(scene, options, plan_.effects);
   }
-  if (kernel.name.starts_with("pack") || kernel.name.starts_with("unpack")) return plan.packets;
-  if (kernel.name == "liftShadowOrigins") return plan.groups.lift;
-  if (kernel.name == "addReflections") return plan.traceReflections;
-  if (kernel.name == "addGlossyReflections") return plan.glossySamples > 0;
-  if (kernel.name == "addRefractions") return plan.traceRefractions;
-  return true;
+
+  Plan make() {
+    plan_.perSample = {stepOf(simd::kGenerateRays, plan_.effects)};
+    findIntersections();
+    plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
+    if (has(Effect::lights)) {
+      for (std::size_t i = 0; i < scene_.lights.size(); ++i) addLight(i);
+    }
+    addImpulses();
+    plan_.perTile = {updateImageStep()};
+    markEndsOfStages();
+    return std::move(plan_);
+  }
+
+ private:
+  bool has(Effect effect) const { return plan_.effects.has(effect); }
+  bool inPackets() const { return options_.packet != 1; }
+
+  void findIntersections() {
+    plan_.perQueue = {embreeStep("findHits", "intersect", findHits, simd::kPackRays,
+                                 simd::kUnpackHits, inPackets()),
+                      stepOf(simd::kInterpolateSurfels, plan_.effects)};
+    if (plan_.features.has(Feature::lift)) {
+      plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
+    }
+  }
+
+  // A light needs the code of its own kind only, and surfels that do not shine need less again.
+  void addLight(std::size_t index) {
+    const Light& light = scene_.lights[index];
+    EffectSet effects = plan_.effects;
+    if (light.kind != Light::Kind::spot) effects = effects.without(Effect::spotLights);
+    if (light.kind != Light::Kind::directional) {
+      effects = effects.without(Effect::directionalLights);
+    } else if (!has(Effect::directionalLights)) {
+      return;
+    }
+    LightSteps lightSteps{.light = index,
+                          .steps = {stepOf(simd::kFindRadianceAndShadowRays, effects)}};
+    Step& find = lightSteps.steps[0];
+    if (has(Effect::glossy)) {
+      find.wants = kMaterialGlossy;
+      find.otherwise =
+          simd::kFindRadianceAndShadowRays.functionFor(effects.without(Effect::glossy));
+    }
+    if (has(Effect::shadows)) {
+      lightSteps.steps.push_back(embreeStep("checkShadows", "occluded", checkShadows,
+                                            simd::kPackShadowRays, simd::kUnpackVisibility,
+                                            inPackets()));
+    }
+    lightSteps.steps.push_back(stepOf(simd::kAddShading, effects));
+    plan_.perLight.push_back(std::move(lightSteps));
+  }
+
+  // In the order in which a queue holds its rays, kind by kind.
+  void addImpulses() {
+    const auto samples = static_cast<std::size_t>(options_.glossy);
+    if (has(Effect::mirror)) {
+      addImpulse(simd::kAddReflections, kMaterialReflects, RayKind::reflection, 1);
+    }
+    if (has(Effect::glossyReflection)) {
+      addImpulse(simd::kAddGlossyReflections, kMaterialScatters, RayKind::reflection, samples);
+    }
+    if (has(Effect::transmission)) {
+      addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
+    }
+    if (options_.depth == 0) plan_.impulses.clear();
+    if (plan_.impulses.empty()) return;
+    plan_.depth = options_.depth;
+    plan_.onReturn = {stepOf(simd::kReturnImpulses, plan_.effects)};
+    // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
+    // frustums. Paths that have met more than two surfaces no longer are, and samples of lobes
+    // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits.
+    plan_.coherentDepth = has(Effect::glossyReflection) ? 0 : 2;
+  }
+
+  void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {
+    Step step = stepOf(kernel, plan_.effects);
+    step.wants = flag;
+    step.childKind = kind;
+    step.childrenAtEye = atEye;
+    step.childrenBeyond = 1;
+    plan_.impulses.push_back(std::move(step));
+  }
+
+  static Step updateImageStep() {
+    return {.name = "updateImage",
+            .number = simd::indexOf(simd::kEncodeDisplay),
+            .stage = Stage::updateImage,
+            .run = updateImage,
+            .reads = {Part::radiance, Part::pixels},
+            .writes = {Part::radiance, Part::codes, Part::film},
+            .kernels = {useOf(simd::kEncodeDisplay, {})}};
+  }
+
+  void markEndsOfStages() {
+    const auto mark = [](std::vector<Step>& steps) {
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        steps[i].endsStage = i + 1 == steps.size() || steps[i + 1].stage != steps[i].stage;
+      }
+    };
+    for (auto* list :
+         {&plan_.perSample, &plan_.perQueue, &plan_.impulses, &plan_.onReturn, &plan_.perTile}) {
+      mark(*list);
+    }
+    for (LightSteps& light : plan_.perLight) mark(light.steps);
+  }
+
+  const Scene& scene_;
+  const RenderOptions& options_;
+  Plan plan_;
+};
+
+// Each step reads only what a step before it has written, or what is there from the start.
+void requireOrder(const Plan& plan) {
+  Parts written{Part::pixels};
+  plan.forEachStep([&](const Step& step) {
+    if (!written.holds(step.reads)) {
+      throw std::logic_error("step " + step.name + " reads what no step before it writes");
+    }
+    written = written.with(step.writes);
+    if (step.childrenBeyond > 0) written = written.with({Part::parentRadiance});
+  });
 }
 
 }  // namespace
 
+const Step* Plan::find(std::string_view name) const {
+  const Step* found = nullptr;
+  forEachStep([&](const Step& step) {
+    if (!found && step.name == name) found = &step;
+  });
+  return found;
+}
+
+bool Plan::writes(Part part) const {
+  bool any = false;
+  forEachStep([&](const Step& step) { any = any || step.writes.has(part); });
+  return any;
+}
+
+std::vector<Stage> Plan::stages() const {
+  std::vector<Stage> list;
+  forEachStep([&](const Step& step) {
+    if (std::find(list.begin(), list.end(), step.stage) == list.end()) list.push_back(step.stage);
+  });
+  return list;
+}
+
 Plan makePlan(const Scene& scene, const RenderOptions& options) {
-  Plan plan;
-  const bool all = options.effects == EffectChoice::all;
-  plan.effects =
-      consistent((all ? EffectSet::all() : scene.effects).without(options.disable), options.glossy);
-  plan.traceShadows = plan.effects.has(Effect::shadows);
-  plan.traceReflections = plan.effects.has(Effect::mirror);
-  plan.traceRefractions = plan.effects.has(Effect::transmission);
-  plan.packets = options.packet != 1;
-  plan.glossySamples = plan.effects.has(Effect::glossyReflection) ? options.glossy : 0;
-  const bool impulses = plan.traceReflections || plan.traceRefractions || plan.glossySamples > 0;
-  plan.depth = impulses ? options.depth : 0;
-  plan.groups.glossy = plan.effects.has(Effect::glossy);
-  plan.groups.emission =
-      plan.effects.has(Effect::emissionMaps) ||
-      (plan.effects.has(Effect::emission) && plan.effects.has(Effect::vertexColors));
-  plan.groups.transmission = plan.traceRefractions;
-  // Where no vertex normal differs from its triangle's there is nothing to lift.
-  plan.groups.lift =
-      options.shading.terminator && plan.traceShadows && plan.effects.has(Effect::smoothNormals);
-  plan.groups.paths = plan.glossySamples > 0;
-  plan.groups.cones = options.shading.textureFilter == TextureFilter::trilinear &&
-                      (plan.effects.has(Effect::textures) || plan.effects.has(Effect::normalMaps));
-  plan.groups.instances = plan.effects.has(Effect::instances);
-  plan.stages = {Stage::generateRays, Stage::findIntersections,
-                 Stage::writeEmittedAndReflectiveAmbient};
-  if (plan.effects.has(Effect::lights)) {
-    plan.stages.push_back(Stage::findRadianceAndShadowRays);
-    if (plan.traceShadows) plan.stages.push_back(Stage::checkShadows);
-    plan.stages.push_back(Stage::addShading);
-  }
-  if (plan.depth > 0) plan.stages.push_back(Stage::addImpulses);
-  plan.stages.push_back(Stage::updateImage);
+  Plan plan = Planner(scene, options).make();
+  requireOrder(plan);
   return plan;
 }
 
 std::vector<KernelUse> kernelsOf(const Plan& plan) {
-  const std::string target = simd::chosenTarget();
   std::vector<KernelUse> uses;
-  bool hits = true, shadows = plan.traceShadows;
-  for (const simd::Kernel& kernel : simd::kKernels) {
-    if (!runs(plan, kernel)) continue;
-    if (hits && kernel.stage >= Stage::findIntersections && kernel.name != "packRays") {
-      uses.push_back({Stage::findIntersections, "intersect", "plain", "embree"});
-      hits = false;
+  plan.forEachStep([&](const Step& step) {
+    for (const KernelUse& use : step.kernels) {
+      if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
     }
-    if (shadows && kernel.stage >= Stage::checkShadows && kernel.name != "packShadowRays") {
-      uses.push_back({Stage::checkShadows, "occluded", "plain", "embree"});
-      shadows = false;
-    }
-    const EffectSet variant = kernel.variant(kernel.variantFor(plan.effects));
-    uses.push_back({kernel.stage, std::string(kernel.name), simd::variantName(variant), target});
-  }
+  });
+  // Lights of several kinds: their variants side by side.
+  std::stable_sort(uses.begin(), uses.end(),
+                   [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; });
   return uses;
 }
 

@@ -1,38 +1,96 @@
-// What a frame will run: the effects that the scene calls for, less those disabled, and what
-// follows from them: stages, ray kinds, kernel variants, columns. Made once, before the frame;
-// nothing in a frame asks again.
+// The plan of a frame: the list of steps that run. Made once from what the scene calls for and what
+// the options ask for; nothing in a frame asks again. What walks a frame (render/tile_tracer.h),
+// times it, looks on, lists it (whit info --kernels), benchmarks or probes it, walks these lists.
+//
+//   perSample   generateRays
+//   perQueue    findIntersections, writeEmittedAndReflectiveAmbient
+//   perLight    findRadianceAndShadowRays, checkShadows, addShading
+//   impulses    addReflections, addGlossyReflections, addRefractions: the next depth's queue
+//   onReturn    returnImpulses: what that queue has brought
+//   perTile     updateImage
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/options.h"
 #include "scene/scene.h"
-#include "stages/columns.h"
-#include "stages/stage.h"
+#include "stages/chunk.h"
+#include "stages/contract.h"
 
 namespace whit {
 
-struct Plan {
-  EffectSet effects;  // what the kernels are compiled for
-  std::vector<Stage> stages;
-  Groups groups;  // columns that are allocated
-  bool traceShadows = false, traceReflections = false, traceRefractions = false;
-  bool packets = true;    // rays go to Embree by fours at least
-  int glossySamples = 0;  // of a lobe that the eye sees
-  int depth = 0;          // deepest impulse that can occur
-};
-
-Plan makePlan(const Scene& scene, const RenderOptions& options);
-
-// One row of `whit info`'s kernels: those of simd/kernel_variants.h that the plan runs, and
-// Embree's part of a stage.
+// One row of `whit info`'s kernels.
 struct KernelUse {
   Stage stage;
   std::string kernel;
   std::string variant;  // effect names joined by '+', "plain" if none
   std::string target;   // SIMD target, or "embree"
+  bool operator==(const KernelUse&) const = default;
 };
+
+struct Step {
+  std::string name;
+  std::size_t number = 0;  // in simd::kKernels, of the kernel that it is or that begins it
+  Stage stage;
+  StepFunction run;
+  Parts reads, writes;
+  // kMaterial flags. A chunk of which no surfel has any of them goes to `otherwise`, which does the
+  // same with less code, or without that is left out.
+  std::uint32_t wants = 0;
+  StepFunction otherwise = nullptr;
+  // Of steps that write children: how many a surfel has at the most, where the eye sees it and
+  // further on, and of which kind.
+  RayKind childKind = RayKind::reflection;
+  std::size_t childrenAtEye = 0, childrenBeyond = 0;
+  std::vector<KernelUse> kernels;  // what it consists of
+  bool endsStage = false;          // no other step of its stage follows
+
+  // What runs for a chunk with these material flags; null: nothing.
+  StepFunction functionFor(std::uint32_t materialFlags) const {
+    return wants == 0 || (materialFlags & wants) != 0 ? run : otherwise;
+  }
+  std::size_t childrenAt(int depth) const { return depth == 0 ? childrenAtEye : childrenBeyond; }
+};
+
+// All that one light, or one sample of it, goes through.
+struct LightSteps {
+  std::size_t light = 0;                  // index into the tables' lights
+  std::uint32_t sample = 0, samples = 1;  // which part of it, of how many
+  std::vector<Step> steps;
+};
+
+struct Plan {
+  EffectSet effects;      // what kernels are compiled for
+  FeatureSet features;    // what whole calls ask for
+  int depth = 0;          // deepest impulse that can occur
+  int coherentDepth = 0;  // deepest queue whose rays travel close together
+
+  std::vector<Step> perSample, perQueue, impulses, onReturn, perTile;
+  std::vector<LightSteps> perLight;
+
+  // visit(step) for every step, in the order in which they first run.
+  template <typename Visitor>
+  void forEachStep(Visitor&& visit) const {
+    for (const Step& step : perSample) visit(step);
+    for (const Step& step : perQueue) visit(step);
+    for (const LightSteps& light : perLight) {
+      for (const Step& step : light.steps) visit(step);
+    }
+    for (const std::vector<Step>* list : {&impulses, &onReturn, &perTile}) {
+      for (const Step& step : *list) visit(step);
+    }
+  }
+  // The first step of that name; null where the plan has none.
+  const Step* find(std::string_view name) const;
+  bool writes(Part part) const;
+  std::vector<Stage> stages() const;
+};
+
+// For kernels of the target that is chosen (simd::chooseTarget).
+Plan makePlan(const Scene& scene, const RenderOptions& options);
+
 std::vector<KernelUse> kernelsOf(const Plan& plan);
 
 }  // namespace whit

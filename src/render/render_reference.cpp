@@ -3,7 +3,7 @@
 #include "core/stopwatch.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
-#include "render/renderer_parts.h"
+#include "render/renderer.h"
 
 namespace whit {
 
@@ -21,40 +21,39 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
   return accel_.occluded(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(tFar));
 }
 
-reference::Settings Renderer::Parts::referenceSettings() const {
+reference::Settings Renderer::referenceSettings() const {
   reference::Settings settings;
-  settings.spp = options.spp;
+  settings.spp = options_.spp;
   settings.adaptive = adaptive();
-  settings.contrast = options.contrast;
-  settings.exposure = options.exposure;
-  settings.toneCurve = options.toneCurve;
-  settings.srgb = options.srgb;
-  settings.film = options.film;
-  settings.depth = options.depth;
-  settings.glossy = options.glossy;
-  settings.cutoff = static_cast<double>(options.cutoff);
-  settings.shading = options.shading;
-  settings.effects = plan.effects;
-  settings.threads = machine.threads;
+  settings.contrast = options_.contrast;
+  settings.exposure = options_.exposure;
+  settings.toneCurve = options_.toneCurve;
+  settings.srgb = options_.srgb;
+  settings.film = options_.film;
+  settings.depth = options_.depth;
+  settings.glossy = options_.glossy;
+  settings.cutoff = static_cast<double>(options_.cutoff);
+  settings.shading = options_.shading;
+  settings.effects = plan_.effects;
+  settings.threads = machine_.threads;
   return settings;
 }
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
-  Parts& p = *parts_;
   const Stopwatch stopwatch;
-  p.lookFrom(camera.eye);
-  const EmbreeIntersector intersector(*p.accel);
+  lookFrom(camera, film);
+  const EmbreeIntersector intersector(*accel_);
   const reference::RayCounts counts =
-      reference::render(p.scene, intersector, camera, p.referenceSettings(), film.image, progress);
+      reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
   if (film.wantDisplay) {
-    film.display = toDisplay(film.image, p.options.exposure, p.options.toneCurve, p.options.srgb);
+    film.display = toDisplay(film.image, options_.exposure, options_.toneCurve, options_.srgb);
   }
   FrameStats stats;
   stats.frameMs = stopwatch.ms();
-  stats.workers = p.machine.threads;
+  stats.workers = machine_.threads;
   const std::uint64_t rays[] = {counts.primary, counts.shadow, counts.reflection,
                                 counts.refraction};
-  for (std::size_t k = 0; k < kRayKindCount; ++k) stats.tally[k] = {rays[k], rays[k]};
+  for (std::size_t k = 0; k < kRayKindCount; ++k) stats.meter.tally[k] = {rays[k], rays[k]};
   for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
   return stats;
 }

@@ -1,15 +1,13 @@
 #include "render/renderer.h"
 
-#include <cmath>
-
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "core/usable_threads.h"
 #include "reference/initial_medium_stack.h"
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
-#include "render/renderer_parts.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -32,92 +30,88 @@ void chooseSimd(const std::string& name) {
   throwUsage("--simd " + name + " is not available here; there are: auto" + have);
 }
 
-}  // namespace
-
-Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* progress)
-    : parts_(std::make_unique<Parts>(scene, options)) {
-  const Stopwatch stopwatch;
-  Parts& p = *parts_;
-  chooseSimd(options.simd);
-  p.plan = makePlan(scene, options);
-  p.machine.threads = options.threads > 0 ? options.threads : usableThreads();
+AccelOptions accelOptions(const RenderOptions& options, EffectSet effects, int threads) {
   AccelOptions accel;
   accel.robust = options.robust;
   accel.quality = options.bvh;
-  accel.alphaMasks = p.plan.effects.has(Effect::alphaMasks);
-  accel.instances = p.plan.effects.has(Effect::instances);
-  accel.threads = p.machine.threads;
+  accel.alphaMasks = effects.has(Effect::alphaMasks);
+  accel.instances = effects.has(Effect::instances);
+  accel.threads = threads;
   accel.packet = options.packet;
   // Also when the target was chosen by itself: kernels of another target than the processor's best,
   // as in sanitized builds, would else meet an Embree that asking for that target by name does not
   // give.
   accel.isa = embreeIsa(simd::chosenTarget());
-  p.accel.emplace(scene, accel, progress);
-  p.enclosed = options.robust && options.retry && isEnclosed(scene, *p.accel);
-  p.tables = buildTables(scene, p.plan.effects, options.shading, p.machine.threads);
-  p.pool.emplace(p.machine.threads);
-  p.machine.simd = simd::chosenTarget();
-  p.machine.embree = p.accel->description();
-  p.machine.packet = p.accel->packet();
-  p.buildMs = stopwatch.ms();
+  return accel;
 }
 
-Renderer::~Renderer() = default;
+}  // namespace
 
-const Plan& Renderer::plan() const { return parts_->plan; }
-const Machine& Renderer::machine() const { return parts_->machine; }
-double Renderer::buildMs() const { return parts_->buildMs; }
+Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* progress)
+    : scene_(scene),
+      options_(options),
+      scheduler_(options.threads > 0 ? options.threads : usableThreads()),
+      adaptive_(scheduler_) {
+  const Stopwatch stopwatch;
+  chooseSimd(options.simd);
+  plan_ = makePlan(scene, options);
+  const int threads = scheduler_.threads();
+  accel_.emplace(scene, accelOptions(options, plan_.effects, threads), progress);
+  enclosed_ = options.robust && options.retry && isEnclosed(scene, *accel_);
+  tables_ = buildTables(scene, plan_.effects, options.shading, threads);
+  machine_ = {simd::chosenTarget(), accel_->description(), accel_->packet(), threads};
+  buildMs_ = stopwatch.ms();
+}
 
 std::uint64_t Renderer::memoryBytes() const {
-  const Parts& p = *parts_;
-  std::uint64_t sum = p.accel->memoryBytes() + p.tables.texels.size() * sizeof(std::uint32_t);
-  for (const TileTracer& tracer : p.tracers) sum += tracer.bytes();
-  sum += p.surfaces.capacity() * sizeof(PixelSurface) + p.edges.capacity() +
-         p.contrasting.capacity() + (p.probes ? p.probes->bytes() : 0);
-  sum +=
-      p.firstSamples.image.pixels.capacity() * sizeof(Rgb) + p.firstSamples.display.rgba.capacity();
-  return sum;
+  return accel_->memoryBytes() + tables_.texels.size() * sizeof(std::uint32_t) +
+         scheduler_.bytes() + adaptive_.bytes();
 }
 
-void sizeDisplay(Film& film) {
-  if (!film.wantDisplay) return;
-  film.display.width = film.image.windowWidth();
-  film.display.height = film.image.windowHeight();
-  film.display.rgba.resize(film.image.pixels.size() * 4);
+CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
+  if (enclosed_ && lookedFrom_ != camera.eye) {
+    lookedFrom_ = camera.eye;
+    accel_->setEnclosed(false);
+    accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
+  }
+  CameraFrame frame = makeCameraFrame(camera, film.image.width, film.image.height);
+  frame.media =
+      reference::initialMediumStack(scene_, plan_.effects, EmbreeIntersector(*accel_), frame.eye);
+  return frame;
 }
 
-void Renderer::Parts::lookFrom(const Vec3f& eye) {
-  if (!enclosed || lookedFrom == eye) return;
-  lookedFrom = eye;
-  accel->setEnclosed(false);
-  accel->setEnclosed(isEnclosed(*accel, eye));
+FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
+  return {&tables_, &*accel_, plan_.features, options_, cameraRays(camera)};
 }
 
-FrameJob Renderer::Parts::makeJob(const Camera& camera, Film& film, const Crop& window) {
-  layOut(window);
-  lookFrom(camera.eye);
+Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
+  scheduler_.layOut(plan_, options_, window);
   sizeDisplay(film);
-  FrameJob job;
-  job.plan = &plan;
-  job.tables = &tables;
-  job.accel = &*accel;
-  job.camera = makeCameraFrame(camera, film.image.width, film.image.height);
-  job.camera.media =
-      reference::initialMediumStack(scene, plan.effects, EmbreeIntersector(*accel), job.camera.eye);
-  job.coneSpread = static_cast<float>(pixelCone(job.camera).spread);
-  job.samples = samplePattern(options.spp);
-  job.cutoff = options.cutoff;
-  job.exposureScale = std::exp2(options.exposure);
-  job.toneCurve = options.toneCurve;
-  job.precision = options.film;
-  job.srgb = options.srgb;
-  job.film = &film;
-  return job;
+  Frame frame;
+  frame.constants = constantsOf(lookFrom(camera, film));
+  frame.samples = samplePattern(options_.spp);
+  frame.film = &film;
+  return frame;
 }
 
-FrameStats Renderer::render(const Camera& camera, Film& film) {
-  FrameJob job = parts_->makeJob(camera, film, parts_->tracedWindow(film));
-  return parts_->renderFrame(job, nullptr);
+FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch) {
+  const Frame frame = frameOf(
+      camera, film, adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
+  const Stopwatch stopwatch;
+  FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
+                                : scheduler_.trace(frame, scheduler_.allPixels(), watch);
+  stats.frameMs = stopwatch.ms();
+  stats.workers = machine_.threads;
+  return stats;
+}
+
+FrameStats Renderer::observe(const Camera& camera, Film& film,
+                             std::span<StageObserver* const> observers) {
+  const Frame frame = frameOf(camera, film, film.image.window);
+  const Stopwatch stopwatch;
+  FrameStats stats = scheduler_.observe(frame, observers);
+  stats.frameMs = stopwatch.ms();
+  return stats;
 }
 
 }  // namespace whit

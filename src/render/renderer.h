@@ -3,26 +3,26 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "accel/accel.h"
 #include "core/options.h"
 #include "core/progress.h"
+#include "reference/reference.h"
+#include "render/adaptive.h"
+#include "render/film.h"
+#include "render/frame.h"
+#include "render/frame_setup.h"
 #include "render/frame_stats.h"
 #include "render/plan.h"
+#include "render/scheduler.h"
 #include "scene/scene.h"
 
 namespace whit {
-
-// Where a frame goes. `image` is linear radiance; `display`, when wanted, its 8-bit form.
-struct Film {
-  Image image;
-  bool wantDisplay = true;
-  DisplayImage display;  // of the window only
-};
 
 // What the pipeline runs on, after "auto" has been resolved.
 struct Machine {
@@ -32,24 +32,24 @@ struct Machine {
   int threads = 1;
 };
 
-struct FloorResult {
-  double floorMs = 0;  // Embree alone, the same rays in full packets
-  double frameMs = 0;  // whole frames, rendered in turn with the replays
-  std::uint64_t rays = 0;
-};
-
 class Renderer {
  public:
   // Builds the acceleration structure and the shading tables. `scene` must outlive the renderer.
   // Throws Error(usage) for a SIMD target or packet width that this machine does not have.
   Renderer(const Scene& scene, const RenderOptions& options, Progress* progress = nullptr);
-  ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
   // film.image must have its size and window set. Allocates on the first call and when sizes
-  // change.
-  FrameStats render(const Camera& camera, Film& film);
+  // change. `watch`, if any, looks on (render/scheduler.h).
+  FrameStats render(const Camera& camera, Film& film, const Scheduler::Watch& watch = {});
+
+  // Traces all samples of the film's pixels, without adaptive sampling, each observer looking on at
+  // a worker of its own; no more of them than machine().threads.
+  FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers);
+
+  // The same image by the scalar reference, its candidates from this renderer's Embree scene.
+  FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
 
   // For frames to come: all that changes neither the acceleration structure nor the workers is
   // taken from `options` (see canSetOptions), the others stay. Plans anew where needed. Throws
@@ -64,48 +64,40 @@ class Renderer {
   // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
   void shadingChanged();
 
-  // The same image by the scalar reference, its candidates from this renderer's Embree scene.
-  FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
+  const Scene& scene() const { return scene_; }
+  const RenderOptions& options() const { return options_; }
+  const Plan& plan() const { return plan_; }
+  const ShadingTables& tables() const { return tables_; }
+  const Accel& accel() const { return *accel_; }
+  const Machine& machine() const { return machine_; }
+  Scheduler& scheduler() { return scheduler_; }
 
-  // Captures the rays of one frame, then in turn renders a frame and replays its rays through
-  // Embree alone, `frames` times each, and returns the medians.
-  FloorResult measureFloor(const Camera& camera, Film& film, int frames);
+  // The camera for a film of that size, and the media around it; and what reference and kernels
+  // make of it. Rays that find nothing are retried if the eye, too, is where the scene is closed:
+  // outside, most of them find nothing for good.
+  CameraFrame lookFrom(const Camera& camera, const Film& film);
+  FrameConstants constantsOf(const CameraFrame& camera) const;
+  reference::Settings referenceSettings() const;
 
-  const Plan& plan() const;
-  const Machine& machine() const;
-  double buildMs() const;             // acceleration structure and tables
-  std::uint64_t memoryBytes() const;  // tables, queues, acceleration structure
-
-  struct Parts;
-  Parts& parts() { return *parts_; }  // for the folder's own comparisons
+  double buildMs() const { return buildMs_; }  // acceleration structure and tables
+  std::uint64_t memoryBytes() const;           // tables, queues, acceleration structure
 
  private:
-  std::unique_ptr<Parts> parts_;
-};
+  bool adaptive() const { return options_.adaptive && options_.spp > 1; }
+  Frame frameOf(const Camera& camera, Film& film, const Crop& window);
+  void replan(Plan next);
 
-// The camera that the options ask for: --camera, then --eye, --at, --up, --fov on top of it.
-// Throws Error(usage) naming the nearest camera.
-Camera chooseCamera(const Scene& scene, const RenderOptions& options);
-// Where the scene's camera path is at `seconds`, with --eye, --at, --up, --fov on top. Throws
-// Error(usage) when the scene has no path.
-Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
-// An empty film of the size and crop that the options ask for. Throws Error(usage) for a crop
-// outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
-Film makeFilm(const Scene& scene, const RenderOptions& options,
-              std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
-// Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
-void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
-
-// One row of `whit compare --stages`: the worst difference between a vector stage's output and its
-// scalar twin on the same input, in ulps of the column's magnitude.
-struct StageDifference {
-  Stage stage;
-  std::string column;
-  std::uint64_t slots = 0;
-  double worstUlp = 0, limitUlp = 0;
-  int pixelX = 0, pixelY = 0, depth = 0;
+  const Scene& scene_;
+  RenderOptions options_;
+  Plan plan_;
+  ShadingTables tables_;
+  std::optional<Accel> accel_;
+  Machine machine_;
+  Scheduler scheduler_;
+  AdaptiveSampler adaptive_;
+  bool enclosed_ = false;  // the scene is closed around its cameras, and rays are to be retried
+  std::optional<Vec3f> lookedFrom_;  // where the last frame's eye was
+  double buildMs_ = 0;
 };
-std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& camera,
-                                           const Film& film);
 
 }  // namespace whit

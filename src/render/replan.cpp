@@ -1,7 +1,7 @@
 // What may change from frame to frame: options, materials and lights.
 #include "core/error.h"
 #include "render/build_tables.h"
-#include "render/renderer_parts.h"
+#include "render/renderer.h"
 
 namespace whit {
 
@@ -47,48 +47,45 @@ EffectSet builtIn(const Plan& plan) {
 
 }  // namespace
 
-void Renderer::Parts::replan(const Plan& next) {
-  const bool otherQueues =
-      next.groups != plan.groups || next.effects != plan.effects || next.depth != plan.depth;
-  plan = next;
-  if (otherQueues) tracers.clear();  // laid out again by the next frame
+void Renderer::replan(Plan next) {
+  // Tracers follow the plan that is there; only the columns that they hold are made for one.
+  if (next.features != plan_.features || next.effects != plan_.effects ||
+      next.depth != plan_.depth) {
+    scheduler_.forgetTracers();
+  }
+  plan_ = std::move(next);
 }
 
 void Renderer::shadingChanged() {
-  Parts& p = *parts_;
-  const Plan plan = makePlan(p.scene, p.options);
-  if (plan.effects == p.plan.effects) {
-    refreshShading(p.scene, plan.effects, p.machine.threads, p.tables);
+  Plan plan = makePlan(scene_, options_);
+  if (plan.effects == plan_.effects) {
+    refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
   } else {
-    p.tables = buildTables(p.scene, plan.effects, p.options.shading, p.machine.threads);
+    tables_ = buildTables(scene_, plan.effects, options_.shading, machine_.threads);
   }
-  p.replan(plan);
+  replan(std::move(plan));
 }
 
 void Renderer::setOptions(const RenderOptions& options) {
-  Parts& p = *parts_;
-  const Plan plan = makePlan(p.scene, options);
-  if (builtIn(plan) != builtIn(p.plan)) {
+  Plan plan = makePlan(scene_, options);
+  if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
         "alpha masks and instances are part of the acceleration structure: it has to be built "
         "anew");
   }
-  const bool lacksMips = plan.groups.cones && p.tables.mipLevels.empty();
-  if (plan.effects != p.plan.effects || lacksMips) {
-    p.tables = buildTables(p.scene, plan.effects, options.shading, p.machine.threads);
+  const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
+  if (plan.effects != plan_.effects || lacksMips) {
+    tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
   }
-  p.tables.shading = options.shading;
-  p.replan(plan);
-  if (options.spp != p.options.spp) p.probes.reset();
-  takeOver(options, p.options);
+  replan(std::move(plan));
+  takeOver(options, options_);
 }
 
 bool Renderer::canSetOptions(const RenderOptions& options) const {
-  const Parts& p = *parts_;
-  RenderOptions reached = p.options;
+  RenderOptions reached = options_;
   takeOver(options, reached);
   takeOverFrame(options, reached);
-  return reached == options && builtIn(makePlan(p.scene, options)) == builtIn(p.plan);
+  return reached == options && builtIn(makePlan(scene_, options)) == builtIn(plan_);
 }
 
 }  // namespace whit

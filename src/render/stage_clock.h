@@ -17,7 +17,7 @@ class StageClock {
     const Stage account = depth == 0 || stage == Stage::updateImage ? stage : Stage::addImpulses;
     stats_.stageWorkerMs[static_cast<std::size_t>(account)] +=
         std::chrono::duration<double, std::milli>(now - last_).count();
-    ++stats_.kernelCalls[static_cast<std::size_t>(stage)];
+    ++stats_.stageCalls[static_cast<std::size_t>(stage)];
     last_ = now;
   }
   // Time that no stage should be charged with, such as waiting for the others.

@@ -1,7 +1,7 @@
-// whit compare --stages: how far each vector stage is from its scalar twin.
+// Each step of the vector pipeline held against its scalar twin, on the very same input
+// (whit compare --stages).
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace whit {
 
-// The worst difference between a stage's output and its twin's on the same input, in ulps of the
-// magnitude of one quantity of its columns.
+// The worst difference between what a stage wrote into a column and what its twin says, in ulps of
+// the column's magnitude.
 struct StageDifference {
   Stage stage;
   std::string column;

@@ -72,9 +72,10 @@ void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& table
 
 }  // namespace
 
-void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables) {
+void addTextures(const Scene& scene, EffectSet effects, TextureFilter filter, int threads,
+                 ShadingTables& tables) {
   const std::vector<bool> used = usedTextures(scene, effects, tables);
-  const bool trilinear = tables.shading.textureFilter == TextureFilter::trilinear;
+  const bool trilinear = filter == TextureFilter::trilinear;
   const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
   std::size_t total = 0;
   for (std::size_t i = 0; i < used.size(); ++i) {

@@ -3,6 +3,7 @@
 // always, at the price of 16/9 of the memory.
 #pragma once
 
+#include "core/shading_choices.h"
 #include "stages/shading_tables.h"
 
 namespace whit {
@@ -10,6 +11,7 @@ namespace whit {
 // Those that the materials of `tables` use, with mip levels where lookups are trilinear, made by
 // `threads` together. Throws Error(limit) when they hold more texels than a 31-bit index
 // reaches, borders counted, or one has a side beyond kTextureSideLimit.
-void addTextures(const Scene& scene, EffectSet effects, int threads, ShadingTables& tables);
+void addTextures(const Scene& scene, EffectSet effects, TextureFilter filter, int threads,
+                 ShadingTables& tables);
 
 }  // namespace whit

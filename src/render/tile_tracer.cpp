@@ -1,273 +1,157 @@
-#include "render/tile_pass.h"
+#include "render/tile_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/pixel.h"
+#include "render/contract_check.h"
+#include "render/update_image.h"
 
 namespace whit {
 
-namespace {
-
-RayTally& tallyOf(FrameStats& stats, RayKind kind) {
-  return stats.tally[static_cast<std::size_t>(kind)];
-}
-
-// Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
-// frustums. Paths that have met more than two surfaces no longer are, and samples of lobes never
-// were: told so, frames with 8 of them took 0.7 of the time, to the same bits.
-bool isCoherent(const Plan& plan, std::size_t depth) {
-  return depth == 0 || (depth <= 2 && plan.glossySamples == 0);
-}
-
-// A chunk whose surfels do not emit, or do not shine, needs less code for the same bits.
-EffectSet neededBy(std::uint32_t materialFlags, EffectSet effects) {
-  if ((materialFlags & kMaterialEmits) == 0) effects = effects.without(Effect::emission);
-  if ((materialFlags & kMaterialGlossy) == 0) effects = effects.without(Effect::glossy);
-  return effects;
-}
-
-// A light needs the code of its own kind only.
-EffectSet neededBy(const Light& light, EffectSet effects) {
-  if (light.kind != Light::Kind::spot) effects = effects.without(Effect::spotLights);
-  if (light.kind != Light::Kind::directional) effects = effects.without(Effect::directionalLights);
-  return effects;
-}
-
-bool isLeftOut(const Light& light, EffectSet effects) {
-  return light.kind == Light::Kind::directional && !effects.has(Effect::directionalLights);
-}
-
-simd::CameraRays cameraRays(const CameraFrame& camera, Vec2f sample, std::uint32_t sampleNumber) {
-  return {Vec3f(camera.eye),
-          Vec3f(camera.forward),
-          Vec3f(camera.right),
-          Vec3f(camera.up),
-          static_cast<float>(camera.width) / 2,
-          static_cast<float>(camera.height) / 2,
-          sample.x,
-          sample.y,
-          sampleNumber,
-          camera.media,
-          camera.orthographic,
-          static_cast<float>(pixelCone(camera).width)};
-}
-
-}  // namespace
-
 TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
-    : plan_(plan),
-      capacity_(roundUpToBlock(capacity)),
-      levels_(static_cast<std::size_t>(plan.depth) + 1),
-      hits_(capacity_, plan.groups),
-      surfels_(capacity_, plan.groups) {
-  if (plan.effects.has(Effect::lights)) unshadowed_.allocate(capacity_, plan.groups);
-  if (plan.traceShadows) shadows_.allocate(capacity_, plan.groups);
-  reserveLevel(0, capacity_);
-}
+    : plan_(plan), work_(plan, capacity) {}
 
-void TileTracer::reserveLevel(std::size_t depth, std::size_t rays) {
-  Level& level = levels_[depth];
-  if (level.rays.capacity() >= rays) return;
-  level.rays.allocate(rays, plan_.groups);
-  if (level.radiance.capacity() == 0) level.radiance.allocate(capacity_, plan_.groups);
-}
+std::size_t TileTracer::bytes() const { return work_.bytes() + sums_.capacity() * sizeof(RgbD); }
 
-BufferBytes TileTracer::bufferBytes() const {
-  BufferBytes bytes;
-  for (const Level& level : levels_) {
-    bytes.rays += level.rays.bytes();
-    bytes.radiance += level.radiance.bytes();
+void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels, FrameStats& stats,
+                       std::barrier<>* stageBarrier, StageObserver* observer) {
+  StageClock clock(stats);
+  const Watch watch{stats, clock, stageBarrier, frame.observer, observer};
+  chunk_.frame = &frame.constants;
+  chunk_.film = frame.film;
+  chunk_.meter = &stats.meter;
+  for (std::size_t begin = 0; begin < pixels.size(); begin += work_.capacity()) {
+    chunk_.pixels = pixels.subspan(begin, std::min(work_.capacity(), pixels.size() - begin));
+    work_.reserveCodes(chunk_.pixels.size());
+    if (frame.samples.size() == 1 && !frame.probes) {
+      chunk_.sample = frame.samples[0];
+      chunk_.sampleNumber = 0;
+      traceSample(watch);
+    } else {
+      traceSamples(frame, watch);
+    }
+    work_.returnTo(0, chunk_);
+    for (const Step& step : plan_.perTile) run(step, stats);
+    stats.nonFinitePixels += countNonFinite(chunk_);
+    clock.lap(Stage::updateImage, 0);
   }
-  bytes.hits = hits_.bytes();
-  bytes.surfels = surfels_.bytes();
-  bytes.unshadowed = unshadowed_.bytes();
-  bytes.shadows = shadows_.bytes();
-  return bytes;
 }
 
-std::size_t TileTracer::bytes() const {
-  return bufferBytes().sum() + sums_.capacity() * sizeof(RgbD) +
-         codes_.capacity() * sizeof(std::uint32_t);
+// The mean over the frame's samples.
+void TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
+  const std::size_t n = chunk_.pixels.size(), count = frame.samples.size();
+  const auto probesOf = [&](std::size_t i) -> PixelProbes& {
+    return frame.probes->at(pixelX(chunk_.pixels[i]), pixelY(chunk_.pixels[i]));
+  };
+  sums_.assign(n, RgbD());
+  const bool goesOn = frame.firstSample > 0;
+  for (std::size_t i = 0; goesOn && i < n; ++i) sums_[i] = probesOf(i).total;
+  for (std::size_t s = frame.firstSample; s < count; ++s) {
+    chunk_.sample = frame.samples[s];
+    chunk_.sampleNumber = static_cast<std::uint32_t>(s);
+    traceSample(watch);
+    work_.returnTo(0, chunk_);
+    const RadianceColumns& radiance = chunk_.radiance;
+    for (std::size_t i = 0; i < n; ++i) {
+      sums_[i] += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
+    }
+    if (frame.probes && !goesOn) keepProbeCodes(frame);
+  }
+  const RadianceColumns& radiance = chunk_.radiance;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (frame.probes && !goesOn) probesOf(i).total = sums_[i];
+    const Rgb mean(sums_[i] / static_cast<double>(count));
+    radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
+  }
 }
 
-void TileTracer::traceSample(Pass& pass) {
-  Level& first = levels_[0];
-  first.count = first.reflections = pass.pixels.size();
-  first.cursor = 0;
-  simd::generateRays(cameraRays(pass.job.camera, pass.sample, pass.sampleNumber),
-                     pass.pixels.data(), first.count, *first.rays);
-  first.chunk = first.count;
-  endStage(pass, Stage::generateRays, 0);
-  std::size_t depth = 0;
-  for (;;) {
-    Level& level = levels_[depth];
-    if (level.cursor < level.count) {
-      level.chunk = std::min(capacity_, level.count - level.cursor);
-      shadeChunk(pass, depth);
-      if (pass.children > 0) {
+void TileTracer::keepProbeCodes(const Frame& frame) {
+  encodeForDisplay(chunk_);
+  for (std::size_t i = 0; i < chunk_.n; ++i) {
+    const std::uint32_t pixel = chunk_.pixels[i];
+    frame.probes->at(pixelX(pixel), pixelY(pixel)).codes[chunk_.sampleNumber] = chunk_.codes[i];
+  }
+}
+
+// One sample of the batch's pixels, through all depths.
+void TileTracer::traceSample(const Watch& watch) {
+  work_.startQueue(chunk_.pixels.size());
+  work_.takeChunk(0, chunk_);
+  runSteps(plan_.perSample, watch);
+  for (int depth = 0;;) {
+    if (work_.hasMore(depth)) {
+      shadeChunk(depth, watch);
+      if (work_.startQueueOfChildren(chunk_)) {
         ++depth;
-        levels_[depth].cursor = 0;
       } else {
-        finishChunk(pass, depth);
+        finishChunk(depth, watch);
       }
       continue;
     }
     if (depth == 0) return;
     // The queue is drained: the chunk that it came from is complete.
     --depth;
-    finishChunk(pass, depth);
+    work_.returnTo(depth, chunk_);
+    finishChunk(depth, watch);
   }
 }
 
-void TileTracer::shadeChunk(Pass& pass, std::size_t depth) {
-  Level& level = levels_[depth];
-  const RayColumns rays = advanced(*level.rays, level.cursor);
-  findIntersections(pass, depth, rays);
-  simd::writeEmittedAndReflectiveAmbient(*pass.job.tables, neededBy(materialFlags_, plan_.effects),
-                                         rays, *surfels_, level.chunk, *level.radiance);
-  endStage(pass, Stage::writeEmittedAndReflectiveAmbient, depth);
-  if (plan_.effects.has(Effect::lights)) shadeLights(pass, depth, rays);
-  pass.children = 0;
-  if (depth < static_cast<std::size_t>(plan_.depth)) addImpulses(pass, depth, rays);
+void TileTracer::shadeChunk(int depth, const Watch& watch) {
+  work_.takeChunk(depth, chunk_);
+  runSteps(plan_.perQueue, watch);
+  for (const LightSteps& light : plan_.perLight) {
+    chunk_.turnTo(light.light, light.sample, light.samples);
+    runSteps(light.steps, watch);
+  }
+  if (depth < plan_.depth) addImpulses(watch);
 }
 
-void TileTracer::findIntersections(Pass& pass, std::size_t depth, const RayColumns& rays) {
-  const Level& level = levels_[depth];
-  const bool coherent = isCoherent(plan_, depth);
-  TraceMeter meter{nullptr, 0, pass.log};
-  // Reflections come first in a queue, refractions follow; a chunk may hold some of both.
-  const std::size_t reflected =
-      std::clamp(level.reflections, level.cursor, level.cursor + level.chunk) - level.cursor;
-  if (reflected > 0) {
-    meter.tally = &tallyOf(pass.stats, depth == 0 ? RayKind::primary : RayKind::reflection);
-    pass.job.accel->findHits(rays, reflected, coherent, *hits_, meter);
+void TileTracer::addImpulses(const Watch& watch) {
+  std::size_t most = 0;
+  for (const Step& step : plan_.impulses) {
+    if (step.functionFor(chunk_.materialFlags)) most += step.childrenAt(chunk_.depth);
   }
-  if (reflected < level.chunk) {
-    meter.tally = &tallyOf(pass.stats, RayKind::refraction);
-    pass.job.accel->findHits(advanced(rays, reflected), level.chunk - reflected, coherent,
-                             advanced(*hits_, reflected), meter);
-  }
-  pass.stats.embreeWorkerMs += meter.embreeMs;
-  std::fill(hits_->triangle + level.chunk, hits_->triangle + roundUpToBlock(level.chunk), kMiss);
-  materialFlags_ = simd::interpolateSurfels(*pass.job.tables, plan_.effects, rays, *hits_,
-                                            level.chunk, *surfels_, pass.job.coneSpread);
-  if (plan_.groups.lift) {
-    simd::liftShadowOrigins(*pass.job.tables, plan_.effects, *hits_, level.chunk, *surfels_);
-  }
-  if (depth == 0 && pass.job.surfaces) recordSurfaces(pass);
-  endStage(pass, Stage::findIntersections, depth);
+  work_.reserveChildren(most * roundUpToBlock(chunk_.n), chunk_);
+  runSteps(plan_.impulses, watch);
 }
 
-void TileTracer::recordSurfaces(const Pass& pass) {
-  const SurfelColumns& s = *surfels_;
-  for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
-    const std::uint32_t pixel = pass.pixels[i];
-    PixelSurface& surface =
-        (*pass.job.surfaces)[pass.job.film->image.index(pixelX(pixel), pixelY(pixel))];
-    surface = {};
-    if (s.material[i] == kMiss) continue;
-    surface.material = s.material[i];
-    if (hits_->instance) surface.instance = hits_->instance[i];
-    surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
-    surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
-  }
-}
-
-void TileTracer::shadeLights(Pass& pass, std::size_t depth, const RayColumns& rays) {
-  const Level& level = levels_[depth];
-  const EffectSet effects = neededBy(materialFlags_, plan_.effects);
-  for (const Light& light : pass.job.tables->lights) {
-    if (isLeftOut(light, effects)) continue;
-    shadowCount_ =
-        simd::findRadianceAndShadowRays(*pass.job.tables, neededBy(light, effects), light, rays,
-                                        *surfels_, level.chunk, *unshadowed_, *shadows_);
-    endStage(pass, Stage::findRadianceAndShadowRays, depth, &light);
-    if (plan_.traceShadows) {
-      TraceMeter meter{&tallyOf(pass.stats, RayKind::shadow), 0, pass.log};
-      pass.job.accel->checkShadows(*shadows_, shadowCount_, isCoherent(plan_, depth),
-                                   unshadowed_->visible, meter);
-      pass.stats.embreeWorkerMs += meter.embreeMs;
-      endStage(pass, Stage::checkShadows, depth, &light);
-    }
-    simd::addShading(*unshadowed_, level.chunk, *level.radiance);
-    endStage(pass, Stage::addShading, depth, &light);
-  }
-}
-
-void TileTracer::addImpulses(Pass& pass, std::size_t depth, const RayColumns& rays) {
-  const Level& level = levels_[depth];
-  const bool scatters = plan_.glossySamples > 0 && (materialFlags_ & kMaterialScatters) != 0;
-  const LobeSampling sampling =
-      lobeSampling(static_cast<int>(depth), plan_.glossySamples, pass.sampleNumber);
-  const std::size_t children = static_cast<std::size_t>(plan_.traceReflections) +
-                               static_cast<std::size_t>(plan_.traceRefractions) +
-                               (scatters ? sampling.count : 0);
-  reserveLevel(depth + 1, children * roundUpToBlock(level.chunk));
-  Level& next = levels_[depth + 1];
-  next.count = 0;
-  const float cutoff = pass.job.cutoff;
-  if (plan_.traceReflections && (materialFlags_ & kMaterialReflects) != 0) {
-    next.count = simd::addReflections(*pass.job.tables, plan_.effects, cutoff, rays, *surfels_,
-                                      level.chunk, *next.rays, 0);
-    ++pass.stats.reflectionCalls;
-  }
-  if (scatters) {
-    next.count += simd::addGlossyReflections(*pass.job.tables, plan_.effects, cutoff, sampling,
-                                             rays, *surfels_, level.chunk, *next.rays, next.count);
-    ++pass.stats.glossyCalls;
-  }
-  next.reflections = next.count;
-  if (plan_.traceRefractions && (materialFlags_ & kMaterialTransmits) != 0) {
-    next.count += simd::addRefractions(*pass.job.tables, plan_.effects, cutoff, rays, *surfels_,
-                                       level.chunk, *next.rays, next.count);
-    ++pass.stats.refractionCalls;
-  }
-  pass.children = next.count;
-  endStage(pass, Stage::addImpulses, depth);
-}
-
-void TileTracer::finishChunk(Pass& pass, std::size_t depth) {
-  Level& level = levels_[depth];
+void TileTracer::finishChunk(int depth, const Watch& watch) {
   if (depth > 0) {
-    simd::returnImpulses(advanced(*level.rays, level.cursor), *level.radiance, level.chunk,
-                         *levels_[depth - 1].radiance);
-    pass.clock.lap(Stage::addImpulses, static_cast<int>(depth));
+    for (const Step& step : plan_.onReturn) run(step, watch.stats);
+    watch.clock.lap(Stage::addImpulses, depth);
   }
-  level.cursor += level.chunk;
+  work_.finishChunk(depth);
 }
 
-void TileTracer::endStage(Pass& pass, Stage stage, std::size_t depth, const Light* light) {
-  pass.clock.lap(stage, static_cast<int>(depth));
-  if (pass.job.stageBarrier) {
-    pass.job.stageBarrier->arrive_and_wait();
-    pass.clock.skip();
+void TileTracer::runSteps(const std::vector<Step>& steps, const Watch& watch) {
+  for (const Step& step : steps) {
+    run(step, watch.stats);
+    if (step.endsStage) endStage(step.stage, watch);
   }
-  if (!pass.job.observer) return;
-  const Level& level = levels_[depth];
-  ChunkView view;
-  view.depth = static_cast<int>(depth);
-  view.first = level.cursor;
-  view.n = level.chunk;
-  view.rays = advanced(*level.rays, level.cursor);
-  view.hits = *hits_;
-  view.surfels = *surfels_;
-  view.radiance = *level.radiance;
-  view.unshadowed = *unshadowed_;
-  view.shadows = *shadows_;
-  view.shadowCount = shadowCount_;
-  view.light = light;
-  view.pixels = pass.pixels;
-  view.sample = pass.sample;
-  view.sampleNumber = pass.sampleNumber;
-  if (stage == Stage::addImpulses) {
-    const Level& next = levels_[depth + 1];
-    view.children = *next.rays;
-    view.reflections = next.reflections;
-    view.refractions = next.count - next.reflections;
+}
+
+void TileTracer::run(const Step& step, FrameStats& stats) {
+  const StepFunction function = step.functionFor(chunk_.materialFlags);
+  if (!function) return;
+  const std::size_t children = chunk_.childCount;
+  {
+    const ContractCheck check(step, chunk_);
+    function(chunk_);
   }
-  pass.job.observer->after(stage, view);
-  pass.clock.skip();
+  ++stats.stepCalls[step.number];
+  Workspace::noteChildren(step.childKind, children, chunk_);
+}
+
+void TileTracer::endStage(Stage stage, const Watch& watch) {
+  if (watch.frameObserver) watch.frameObserver->after(stage, chunk_);
+  watch.clock.lap(stage, chunk_.depth);
+  if (watch.stageBarrier) {
+    watch.stageBarrier->arrive_and_wait();
+    watch.clock.skip();
+  }
+  if (!watch.observer) return;
+  watch.observer->after(stage, chunk_);
+  watch.clock.skip();
 }
 
 }  // namespace whit

@@ -1,25 +1,22 @@
-// What there is of a scene once its instances are in place.
+// Where the instances of a scene lie, and how far rays may start that are carried into their space.
 #pragma once
 
-#include <algorithm>
-#include <limits>
 #include <vector>
 
+#include "core/box.h"
 #include "scene/scene.h"
 
 namespace whit {
-
-struct Box {
-  Vec3f lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
-  void add(const Vec3f& p) {
-    lower = min(lower, p);
-    upper = max(upper, p);
-  }
-};
 
 // Counts and bounds as seen, from `boxes`: one a geometry, in its own space. Left out are instances
 // that are so much smaller or flatter than the scene that its rays, in their space, would leave the
 // range of coordinates. Throws Error(badScene) for one that is too far away.
 void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings);
+
+// The largest coordinate with which a ray may start (its direction's length at most 1) so that in
+// the instance's own space it stays within kLargestCoordinate, beyond which Embree takes no rays;
+// 0 where the inverse of the map has no floats. Embree inverts it as adjoint over determinant, in
+// single precision.
+float instanceReach(const Affine& toWorld);
 
 }  // namespace whit

@@ -1,7 +1,11 @@
 // The same scene without some of its effects: what remains calls for all the others and for none of
-// those. Measures and tests compare a scene with itself in this way.
+// those; and the order in which `whit effects` adds them one after the other. Measures and tests
+// compare a scene with itself in this way.
 #pragma once
 
+#include <array>
+
+#include "core/effects.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -13,5 +17,18 @@ namespace whit {
 // uses of an object but the first. Without shadows nothing casts any. Without mirror dielectrics
 // get the refractive index of the vacuum, because others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
+
+// What the matte scene starts with: primary and shadow rays, lights that shine all around.
+inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with(Effect::shadows);
+
+// What is added to it, in this order: each needs only those before it.
+inline constexpr std::array kAddedEffects{
+    Effect::spotLights,   Effect::directionalLights, Effect::ambient,       Effect::emission,
+    Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
+    Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
+    Effect::glossy,       Effect::glossyReflection,  Effect::instances,     Effect::mirror,
+    Effect::transmission, Effect::absorption,
+};
+static_assert(kAddedEffects.size() + 2 == kEffectCount);
 
 }  // namespace whit

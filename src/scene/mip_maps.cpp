@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 
 #include "core/worker_pool.h"
@@ -100,21 +99,19 @@ Texture halved(const Texture& texture) {
 
 MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads)
     : textures_(&textures), smaller_(textures.size()) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](int) {
-    for (std::size_t i = next++; i < textures.size(); i = next++) {
-      if (!wanted[i]) continue;
-      const Texture* last = &textures[i];
-      std::vector<Texture>& levels = smaller_[i];
-      levels.reserve(kMipLevels);
-      while (last->width > 1 || last->height > 1) {
-        levels.push_back(halved(*last));
-        last = &levels.back();
-      }
+  std::vector<std::size_t> made;
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    if (wanted[i]) made.push_back(i);
+  }
+  parallelFor(threads, made.size(), [&](std::size_t k, int) {
+    const Texture* last = &textures[made[k]];
+    std::vector<Texture>& levels = smaller_[made[k]];
+    levels.reserve(kMipLevels);
+    while (last->width > 1 || last->height > 1) {
+      levels.push_back(halved(*last));
+      last = &levels.back();
     }
-  };
-  const auto count = static_cast<int>(std::count(wanted.begin(), wanted.end(), true));
-  WorkerPool(std::clamp(threads, 1, std::max(1, count))).run(work);
+  });
 }
 
 MipMaps::MipMaps(const Scene& scene, int threads)

@@ -72,6 +72,8 @@ struct Chunk {
 
   // From findRadianceAndShadowRays to addShading.
   const Light* light = nullptr;
+  std::uint32_t lightNumber = 0;                    // of the light, in the tables
+  std::uint32_t lightSample = 0, lightSamples = 1;  // which part of it, of how many
   UnshadowedColumns unshadowed;
   ShadowColumns shadows;
   std::size_t shadowCount = 0;
@@ -91,6 +93,14 @@ struct Chunk {
   bool has(Feature feature) const { return frame->features.has(feature); }
   const ShadingTables& tables() const { return *frame->tables; }
   const RenderOptions& options() const { return frame->options; }
+
+  // Takes a light, or one of so many samples of it, in hand.
+  void turnTo(std::size_t number, std::uint32_t sample, std::uint32_t samples) {
+    light = &tables().lights[number];
+    lightNumber = static_cast<std::uint32_t>(number);
+    lightSample = sample;
+    lightSamples = samples;
+  }
 };
 
 using StepFunction = void (*)(Chunk&);

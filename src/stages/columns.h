@@ -36,9 +36,9 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 // X(type, name, feature). Directions are unit vectors; `parent` is the slot at the depth above (a
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
-// each, the one entered last in the low byte; `path` is its number (core/random_streams.h), where
-// lobes are sampled; `cone` is the width of its cone (RayCone) where it starts, for mip levels: the
-// spread is that of the camera's pixels at every depth.
+// each, the one entered last in the low byte; `path` is its number (sampling/random_streams.h),
+// where lobes are sampled; `cone` is the width of its cone (RayCone) where it starts, for mip
+// levels: the spread is that of the camera's pixels at every depth.
 #define WHIT_RAY_COLUMNS(X)             \
   X(float, orgX, always)                \
   X(float, orgY, always)                \

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/shading_choices.h"
 #include "scene/mip_maps.h"
 #include "scene/scene.h"
 
@@ -101,7 +100,6 @@ struct ShadingTables {
   std::vector<Light> lights;
   SkyTable sky;
   Ambient ambient;
-  ShadingChoices shading;
   bool samePriority = true;  // no medium outranks another
 };
 

@@ -122,13 +122,13 @@ Finding srgbCodes(const Setup&) {
   Finding finding(0.01);
   Numbers numbers(72);
   constexpr std::size_t kValues = 1 << 16;
-  ColumnStore<RadianceColumns> radiance(kValues, Groups{});
+  ColumnStore<RadianceColumns> radiance(kValues, FeatureSet());
   for (std::size_t i = 0; i < kValues; ++i) {
     const double x = i % 2 ? numbers.in(0, 1) : std::pow(10, numbers.in(-6, 0));
     radiance->r[i] = radiance->g[i] = radiance->b[i] = static_cast<float>(x);
   }
   std::vector<std::uint32_t> codes(kValues + 16);
-  simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *radiance, kValues, codes.data());
+  simd::encodeDisplay({.radiance = *radiance, .n = kValues, .codes = codes.data()});
   for (std::size_t i = 0; i < kValues; ++i) {
     const double x = static_cast<double>(radiance->r[i]);
     const double exact = 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
@@ -152,17 +152,7 @@ Finding cameraDirections(const Setup&) {
       camera.at = eye + Vec3f{1, 0.25f, -1};
       camera.fov = fov;
       const CameraFrame frame = makeCameraFrame(camera, 1024, 576);
-      const simd::CameraRays rays{Vec3f(frame.eye),
-                                  Vec3f(frame.forward),
-                                  Vec3f(frame.right),
-                                  Vec3f(frame.up),
-                                  512,
-                                  288,
-                                  0.5f,
-                                  0.5f,
-                                  0};
-      ColumnStore<RayColumns> columns(pixels.size(), Groups{});
-      simd::generateRays(rays, pixels.data(), pixels.size(), *columns);
+      const ColumnStore<RayColumns> columns = raysThrough(pixels, cameraRays(frame));
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;

@@ -26,22 +26,37 @@ RenderOptions probeOptions(const Setup& setup, bool robust) {
 }  // namespace
 
 Probe::Probe(const Scene& scene, const Setup& setup, bool robust)
-    : renderer_(scene, probeOptions(setup, robust)) {}
+    : renderer_(scene, probeOptions(setup, robust)),
+      constants_{&renderer_.tables(),
+                 &renderer_.accel(),
+                 renderer_.plan().features,
+                 renderer_.options(),
+                 {}} {
+  chunk_.frame = &constants_;
+  chunk_.meter = &meter_;
+}
 
 void Probe::reserve(std::size_t count) {
   count_ = count;
   if (rays_.capacity() >= count && rays_.capacity() > 0) return;
-  const Groups groups;
-  rays_.allocate(count, groups);
-  children_.allocate(count, groups);
-  hits_.allocate(count, groups);
-  surfels_.allocate(count, groups);
-  unshadowed_.allocate(count, groups);
-  shadows_.allocate(count, groups);
+  const FeatureSet features = constants_.features;
+  rays_.allocate(count, features);
+  children_.allocate(count, features);
+  hits_.allocate(count, features);
+  surfels_.allocate(count, features);
+  unshadowed_.allocate(count, features);
+  shadows_.allocate(count, features);
 }
 
 void Probe::load(const std::vector<ProbeRay>& rays) {
   reserve(rays.size());
+  chunk_.n = count_;
+  chunk_.rays = *rays_;
+  chunk_.hits = *hits_;
+  chunk_.surfels = *surfels_;
+  chunk_.unshadowed = *unshadowed_;
+  chunk_.shadows = *shadows_;
+  chunk_.children = *children_;
   const RayColumns& c = *rays_;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto& [o, d, media] = rays[i];
@@ -62,16 +77,21 @@ void Probe::hit(std::size_t i, std::uint32_t triangle, float t, float u, float v
   hits_->v[i] = v;
 }
 
+void Probe::run(const simd::Kernel& kernel) {
+  kernel.functionFor(renderer_.plan().effects)(chunk_);
+}
+
 void Probe::interpolate() {
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);
-  simd::interpolateSurfels(tables(), effects(), *rays_, *hits_, count_, *surfels_);
+  run(simd::kInterpolateSurfels);
 }
 
 void Probe::cast(const std::vector<ProbeRay>& rays) {
   load(rays);
-  RayTally tally;
-  TraceMeter meter{&tally, 0, nullptr};
-  accel().findHits(*rays_, count_, false, *hits_, meter);
+  chunk_.coherent = false;
+  chunk_.segments[0] = {RayKind::primary, 0, count_};
+  chunk_.segmentCount = 1;
+  findHits(chunk_);
   interpolate();
 }
 
@@ -89,10 +109,19 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   s.mediaBehind[i] = rays_->media[i] << 8 | tables().materials[material].medium;
 }
 
-std::vector<ProbeChild> Probe::childrenOf(std::size_t n) const {
-  std::vector<ProbeChild> result(n);
+// Kernels read whole vectors of surfels.
+void Probe::endSurfels() {
+  std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
+}
+
+std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel, float cutoff) {
+  endSurfels();
+  constants_.options.cutoff = cutoff;
+  chunk_.childCount = 0;
+  run(kernel);
+  std::vector<ProbeChild> result(chunk_.childCount);
   const RayColumns& c = *children_;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < result.size(); ++i) {
     result[i].ray = {
         {c.orgX[i], c.orgY[i], c.orgZ[i]}, {c.dirX[i], c.dirY[i], c.dirZ[i]}, c.media[i]};
     result[i].weight = {c.weightR[i], c.weightG[i], c.weightB[i]};
@@ -102,31 +131,27 @@ std::vector<ProbeChild> Probe::childrenOf(std::size_t n) const {
 }
 
 std::vector<ProbeChild> Probe::reflections(float cutoff) {
-  std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
-  return childrenOf(
-      simd::addReflections(tables(), effects(), cutoff, *rays_, *surfels_, count_, *children_, 0));
+  return childrenBy(simd::kAddReflections, cutoff);
 }
 
 std::vector<ProbeChild> Probe::refractions(float cutoff) {
-  std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
-  return childrenOf(
-      simd::addRefractions(tables(), effects(), cutoff, *rays_, *surfels_, count_, *children_, 0));
+  return childrenBy(simd::kAddRefractions, cutoff);
 }
 
 std::size_t Probe::light(const Light& light) {
-  std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
-  const std::size_t n = simd::findRadianceAndShadowRays(tables(), effects(), light, *rays_,
-                                                        *surfels_, count_, *unshadowed_, *shadows_);
-  RayTally tally;
-  TraceMeter meter{&tally, 0, nullptr};
-  accel().checkShadows(*shadows_, n, true, unshadowed_->visible, meter);
-  return n;
+  endSurfels();
+  chunk_.light = &light;
+  run(simd::kFindRadianceAndShadowRays);
+  chunk_.coherent = true;
+  checkShadows(chunk_);
+  chunk_.light = nullptr;
+  return chunk_.shadowCount;
 }
 
 void Probe::poison(std::uint32_t bits) {
   const auto fill = [&](const auto& store) {
     auto columns = *store;
-    decltype(columns)::forEachColumn(columns, [&](const char*, auto* column, Group) {
+    decltype(columns)::forEachColumn(columns, [&](const char*, auto* column, Feature) {
       for (std::size_t i = 0; column && i < store.capacity(); ++i) {
         std::memcpy(column + i, &bits, sizeof(bits));
       }
@@ -143,6 +168,22 @@ void Probe::poison(std::uint32_t bits) {
 ProbeRay Probe::ray(std::size_t i) const {
   const RayColumns& c = *rays_;
   return {{c.orgX[i], c.orgY[i], c.orgZ[i]}, {c.dirX[i], c.dirY[i], c.dirZ[i]}, c.media[i]};
+}
+
+ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
+                                    const CameraRays& camera) {
+  std::vector<std::uint32_t> padded = pixels;
+  padded.resize(roundUpToBlock(pixels.size()));  // kernels read whole vectors
+  ColumnStore<RayColumns> rays(pixels.size(), FeatureSet());
+  FrameConstants constants;
+  constants.camera = camera;
+  Chunk chunk;
+  chunk.frame = &constants;
+  chunk.pixels = {padded.data(), pixels.size()};
+  chunk.n = pixels.size();
+  chunk.rays = *rays;
+  simd::kGenerateRays.functionFor({})(chunk);
+  return rays;
 }
 
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,

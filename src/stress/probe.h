@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "render/renderer_parts.h"
+#include "core/worker_pool.h"
+#include "render/renderer.h"
 #include "stress/case.h"
 
 namespace whit::stress {
@@ -63,16 +64,20 @@ class Probe {
   const HitColumns& hits() const { return *hits_; }
   const SurfelColumns& surfels() const { return *surfels_; }
   const ShadowColumns& shadows() const { return *shadows_; }
-  const ShadingTables& tables() { return renderer_.parts().tables; }
-  const Accel& accel() { return *renderer_.parts().accel; }
-  EffectSet effects() { return renderer_.parts().plan.effects; }
+  const ShadingTables& tables() const { return renderer_.tables(); }
+  const Accel& accel() const { return renderer_.accel(); }
 
  private:
   void reserve(std::size_t count);
-  std::vector<ProbeChild> childrenOf(std::size_t n) const;
+  void endSurfels();
+  void run(const simd::Kernel& kernel);
+  std::vector<ProbeChild> childrenBy(const simd::Kernel& kernel, float cutoff);
 
   Renderer renderer_;
   FlushDenormals flush_;  // as in a frame's workers
+  FrameConstants constants_;
+  TraceMeter meter_;
+  Chunk chunk_;
   std::size_t count_ = 0;
   ColumnStore<RayColumns> rays_, children_;
   ColumnStore<HitColumns> hits_;
@@ -80,6 +85,10 @@ class Probe {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
 };
+
+// Primary rays of the pixels (packed), through their centers, by the kernel.
+ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
+                                    const CameraRays& camera);
 
 // What most cases look at: the picture from one camera.
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,

@@ -147,12 +147,12 @@ Finding oddRadiance(const Setup&) {
                                                               {1e-40f, 0},
                                                               {3e38f, 255}}};
   for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic, ToneCurve::reinhard}) {
-    ColumnStore<RadianceColumns> radiance(64, Groups{});
+    ColumnStore<RadianceColumns> radiance(64, FeatureSet());
     for (std::size_t i = 0; i < 64; ++i) {
       radiance->r[i] = radiance->g[i] = radiance->b[i] = cases[i % 8].first;
     }
     std::array<std::uint32_t, 96> codes{};
-    simd::encodeDisplay(1, curve, SrgbEncoding::exact, *radiance, 64, codes.data());
+    simd::encodeDisplay({.curve = curve, .radiance = *radiance, .n = 64, .codes = codes.data()});
     for (std::size_t i = 0; i < 64; ++i) {
       const auto& [value, code] = cases[i % 8];
       const std::uint32_t got = codes[i] & 255u;

@@ -1,12 +1,81 @@
 // H37 to H44: Fresnel's and Snell's laws in the kernels, against long double.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "stress/bodies.h"
-#include "stress/dielectric_surface.h"
+#include "stress/probe.h"
+#include "stress/scene_builder.h"
 
 namespace whit::stress {
 
 namespace {
+
+// The surface between two dielectrics, as the kernels have it and as the textbook does.
+
+// A surfel with both normals up, met by rays at given cosines.
+struct Incidence {
+  std::vector<ProbeRay> rays;
+  std::vector<double> cosines;  // as the kernel sees them
+};
+
+// What the kernels make of a dielectric: F from the reflected weight, or 0 where nothing is
+// reflected; the refracted weight and direction, or 0.
+struct Interfaces {
+  std::vector<double> reflected, refracted;
+  std::vector<Vec3d> direction;
+};
+
+using Real = long double;
+
+Incidence raysAt(const std::vector<double>& cosines) {
+  Incidence incidence;
+  for (const double c : cosines) {
+    // The vertical component is what counts, and is kept as it is.
+    const auto down = static_cast<float>(c);
+    const double rounded = static_cast<double>(down);
+    const auto along = static_cast<float>(std::sqrt(std::max(0.0, (1 - rounded) * (1 + rounded))));
+    incidence.rays.push_back({{0, 1, 0}, {along, -down, 0}});
+    incidence.cosines.push_back(rounded);
+  }
+  return incidence;
+}
+
+// `from` is the index in front. The medium number 1 is in front where it is not the vacuum.
+Interfaces throughKernels(float from, float to, const Incidence& incidence, const Setup& setup) {
+  SceneBuilder builder;
+  const auto front = builder.add(glassMaterial(from)), behind = builder.add(glassMaterial(to));
+  builder.add(floorAt(0, 1, front));
+  builder.add(floorAt(1, 1, behind));
+  const Scene scene = builder.build();
+  Probe probe(scene, setup);
+  std::vector<ProbeRay> rays = incidence.rays;
+  for (ProbeRay& ray : rays) ray.media = probe.tables().materials[front].medium;
+  probe.load(rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) probe.surfel(i, behind, {0, 1, 0}, {0, 1, 0});
+  Interfaces result;
+  result.reflected.assign(rays.size(), 0);
+  result.refracted.assign(rays.size(), 0);
+  result.direction.resize(rays.size());
+  for (const ProbeChild& child : probe.reflections()) {
+    result.reflected[child.parent] = static_cast<double>(child.weight.x);
+  }
+  for (const ProbeChild& child : probe.refractions()) {
+    result.refracted[child.parent] = static_cast<double>(child.weight.x);
+    result.direction[child.parent] = Vec3d(child.ray.direction);
+  }
+  return result;
+}
+
+// Unpolarised reflectance in the textbook's form, in long double.
+Real fresnel(Real n1, Real n2, Real c) {
+  const Real s2 = (1 - c) * (1 + c) * n1 * n1 / (n2 * n2);
+  if (s2 >= 1) return 1;
+  const Real t = std::sqrt(1 - s2);
+  const Real rs = (n1 * c - n2 * t) / (n1 * c + n2 * t), rp = (n2 * c - n1 * t) / (n2 * c + n1 * t);
+  return (rs * rs + rp * rp) / 2;
+}
 
 constexpr double kUnit = 0x1p-24;  // unit round-off of float
 

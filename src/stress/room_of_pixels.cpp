@@ -15,19 +15,11 @@ Mesh roomOfPixels(const CameraFrame& frame) {
     for (int x = 0; x < columns; ++x) pixels.push_back(packedPixel(x, y));
   }
   // One pixel up and left of the picture, which the middle of this larger one makes good.
-  const simd::CameraRays rays{Vec3f(frame.eye),
-                              Vec3f(frame.forward),
-                              Vec3f(frame.right),
-                              Vec3f(frame.up),
-                              static_cast<float>(frame.width) / 2 + 1,
-                              static_cast<float>(frame.height) / 2 + 1,
-                              0.5f,
-                              0.5f,
-                              0};
+  CameraRays rays = cameraRays(frame);
+  rays.halfWidth += 1;
+  rays.halfHeight += 1;
   const std::size_t count = pixels.size();
-  pixels.resize(roundUpToBlock(count));  // kernels read whole vectors
-  ColumnStore<RayColumns> directions(count, Groups{});
-  simd::generateRays(rays, pixels.data(), count, *directions);
+  const ColumnStore<RayColumns> directions = raysThrough(pixels, rays);
   Mesh mesh;
   mesh.materials = {0};
   for (std::size_t i = 0; i < count; ++i) {

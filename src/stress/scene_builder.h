@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/box.h"
 #include "scene/scene.h"
 
 namespace whit::stress {
@@ -119,10 +120,7 @@ inline void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_
 // An axis-aligned box with its outside outwards; eight shared corners, no texture coordinates.
 inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
   Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.positions.push_back(
-        {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  }
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(Box{low, high}.corner(i));
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   mesh.materials = {material};

@@ -1,76 +1,74 @@
-// What each kernel takes a ray, for every SIMD target of this machine:
+// What each step of the plan takes a ray, for every SIMD target of this machine; steps that call
+// Embree are timed with it, and the kernels that fill and empty its packets once more alone:
 //   build/tests/kernels_bench [--benchmark_filter=interpolate] [...]
 // Before it is timed, a target's kernels are compared with their scalar twins; afterwards its
 // columns must still hold the same bits.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <functional>
 #include <map>
-#include <utility>
+#include <memory>
 
 #include "bench/bench_tile.h"
+#include "render/stage_comparison.h"
 
 namespace whit::bench {
 namespace {
 
-struct Job {
-  std::string kernel;
-  std::function<void(BenchTile&)> run;
-  std::function<std::size_t(const BenchTile&)> rays;
-  std::string tile = "atrium";
+// Scenes between which every step runs, some by choice only.
+struct Input {
+  std::string scene;
+  bool terminator = false;
+  int glossy = 0;
 };
+const std::array kInputs{Input{"atrium"}, Input{"glass"}, Input{"atrium", true},
+                         Input{"glossy", false, 4}};
 
-// Scenes with what kernels do by choice only.
-constexpr const char *kLifted = "atrium, --terminator on", *kScattering = "glossy, --glossy 4";
-
-RenderOptions optionsOf(const std::string& tile) {
+RenderOptions optionsOf(const Input& input) {
   RenderOptions options;
-  options.shading.terminator = tile == kLifted;
-  options.glossy = tile == kScattering ? 4 : 0;
+  options.shading.terminator = input.terminator;
+  options.glossy = input.glossy;
   return options;
 }
 
-std::size_t tileRays(const BenchTile& tile) { return tile.n(); }
+// Packets of 16 between columns and Embree, as in findHits and checkShadows.
+class PacketBench {
+ public:
+  explicit PacketBench(const Chunk& chunk)
+      : chunk_(chunk), words_(kTileRays / kPacket * kWords), hits_(kTileRays, FeatureSet()) {}
 
-const std::vector<Job>& jobs() {
-  static const std::vector<Job> list{
-      {"generateRays", [](BenchTile& t) { t.generate(); }, tileRays},
-      {"packRays", [](BenchTile& t) { simd::packRays(*t.rays, t.n(), kReach, t.packets()); },
-       tileRays},
-      {"unpackHits",
-       [](BenchTile& t) { simd::unpackHits(t.packets(), t.n(), t.triangleBase, *t.unpacked); },
-       tileRays},
-      {"interpolateSurfels", [](BenchTile& t) { t.interpolate(); }, tileRays},
-      {"writeEmittedAndReflectiveAmbient", [](BenchTile& t) { t.writeEmitted(); }, tileRays},
-      {"findRadianceAndShadowRays", [](BenchTile& t) { t.findShadowRays(); }, tileRays},
-      {"packShadowRays",
-       [](BenchTile& t) { simd::packShadowRays(*t.shadows, t.shadowCount, kReach, t.packets()); },
-       [](const BenchTile& t) { return t.shadowCount; }},
-      {"unpackVisibility",
-       [](BenchTile& t) {
-         simd::unpackVisibility(t.packets(), t.shadowCount, t.shadows->slot, t.unpackedVisible());
-       },
-       [](const BenchTile& t) { return t.shadowCount; }},
-      {"addShading", [](BenchTile& t) { simd::addShading(*t.unshadowed, t.n(), *t.radiance); },
-       tileRays},
-      {"addReflections", [](BenchTile& t) { t.reflect(); }, tileRays},
-      {"addRefractions", [](BenchTile& t) { t.refract(t.reflections); }, tileRays, "glass"},
-      {"liftShadowOrigins", [](BenchTile& t) { t.lift(); }, tileRays, kLifted},
-      {"addGlossyReflections", [](BenchTile& t) { t.scatter(); }, tileRays, kScattering},
-      {"returnImpulses",
-       [](BenchTile& t) {
-         simd::returnImpulses(*t.children, *t.radiance, t.reflections, *t.radiance);
-       },
-       [](const BenchTile& t) { return t.reflections; }},
-      {"encodeDisplay",
-       [](BenchTile& t) {
-         simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *t.radiance, t.n(),
-                             t.codes.data());
-       },
-       tileRays},
-  };
-  return list;
-}
+  // name, what runs, and the rays of it.
+  template <typename Visitor>
+  void forEachKernel(Visitor&& visit) {
+    const simd::PacketKernels kernels = simd::findPacketKernels();
+    const PacketWords words{words_.data(), kWords, kPacket};
+    visit(
+        "packRays", [=, this] { kernels.packRays(chunk_.rays, chunk_.n, kReach, words); },
+        chunk_.n);
+    visit(
+        "unpackHits", [=, this] { kernels.unpackHits(words, chunk_.n, kBase.data(), *hits_); },
+        chunk_.n);
+    visit(
+        "packShadowRays",
+        [=, this] { kernels.packShadowRays(chunk_.shadows, chunk_.shadowCount, kReach, words); },
+        chunk_.shadowCount);
+    visit(
+        "unpackVisibility",
+        [=, this] {
+          kernels.unpackVisibility(words, chunk_.shadowCount, chunk_.shadows.slot, hits_->t);
+        },
+        chunk_.shadowCount);
+  }
+
+ private:
+  static constexpr std::size_t kPacket = 16, kWords = 20 * kPacket;
+  static constexpr float kReach = 1e10f;  // of all rays
+  static constexpr std::array<std::uint32_t, kTriangleClasses> kBase{0, 1, 2, 3};
+  const Chunk& chunk_;
+  std::vector<float> words_;
+  ColumnStore<HitColumns> hits_;
+};
 
 // Empty, or which stage is how far from its twin.
 std::string twinsDiffer(BenchTile& tile) {
@@ -82,48 +80,82 @@ std::string twinsDiffer(BenchTile& tile) {
   return {};
 }
 
-void time(benchmark::State& state, BenchTile& tile, const Job& job, const std::string& target,
-          std::map<std::string, std::string>& verdicts) {
-  simd::chooseTarget(target);
-  const auto known = verdicts.find(target);
-  const std::string verdict = known != verdicts.end() ? known->second : twinsDiffer(tile);
-  verdicts[target] = verdict;
-  if (!verdict.empty()) return state.SkipWithError(verdict.c_str());
+// A tile and its verdict, made when its first benchmark runs.
+struct Subject {
+  Input input;
+  std::string target;
+  std::unique_ptr<BenchTile> tile;
+  std::string verdict;
+
+  BenchTile& made() {
+    if (!tile) {
+      tile = std::make_unique<BenchTile>(input.scene, target, optionsOf(input));
+      verdict = twinsDiffer(*tile);
+      simd::chooseTarget(target);
+    }
+    return *tile;
+  }
+};
+
+void time(benchmark::State& state, Subject& subject, const std::function<void()>& run,
+          std::size_t rays) {
+  if (!subject.verdict.empty()) return state.SkipWithError(subject.verdict.c_str());
+  BenchTile& tile = subject.made();
   tile.run();
   const std::vector<std::uint32_t> expected = tile.bits();
-  for (auto _ : state) job.run(tile);
+  for (auto _ : state) run();
   tile.run();
   if (tile.bits() != expected) {
-    verdicts[target] = job.kernel + ": the same input gave other bits";
-    return state.SkipWithError(verdicts[target].c_str());
+    subject.verdict = "the same input gave other bits";
+    return state.SkipWithError(subject.verdict.c_str());
   }
-  const auto rays = static_cast<double>(job.rays(tile));
-  state.counters["per_ray"] = benchmark::Counter(
-      rays, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_ray"] =
+      benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate |
+                                                        benchmark::Counter::kInvert);
+}
+
+void registerOne(const std::string& kernel, Subject& subject, const std::function<void()>& run,
+                 std::size_t rays) {
+  const std::string name = kernel + "/" + subject.input.scene + "/" + subject.target;
+  benchmark::RegisterBenchmark(
+      name.c_str(), [&subject, run, rays](auto& state) { time(state, subject, run, rays); });
+}
+
+// The steps of the subject's plan that no input before it had.
+void registerAll(Subject& subject, std::vector<std::string>& known) {
+  BenchTile& tile = subject.made();
+  tile.plan().forEachStep([&](const Step& step) {
+    const std::string name = step.name + "/" + subject.target;
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    known.push_back(name);
+    registerOne(
+        step.name, subject,
+        [&tile, &step] {
+          Chunk chunk = tile.chunkFor(step);
+          step.functionFor(chunk.materialFlags)(chunk);
+        },
+        tile.raysOf(step));
+  });
 }
 
 int runAll() {
-  struct Input {
-    std::unique_ptr<BenchTile> tile;
-    std::map<std::string, std::string> verdicts;
-  };
-  std::map<std::string, Input> inputs;
-  for (const Job& job : jobs()) {
-    Input& input = inputs[job.tile];
-    const std::string scene = job.tile.substr(0, job.tile.find(','));
-    if (!input.tile) input.tile = std::make_unique<BenchTile>(scene, optionsOf(job.tile));
+  std::vector<std::unique_ptr<Subject>> subjects;
+  std::vector<std::unique_ptr<PacketBench>> packets;
+  std::vector<std::string> known;
+  for (const Input& input : kInputs) {
     for (const std::string& target : simd::availableTargets()) {
-      const std::string name = job.kernel + "/" + scene + "/" + target;
-      benchmark::RegisterBenchmark(name.c_str(), [&input, &job, target](auto& state) {
-        time(state, *input.tile, job, target, input.verdicts);
-      });
+      Subject& subject = *subjects.emplace_back(new Subject{input, target, nullptr, {}});
+      registerAll(subject, known);
+      if (&input != kInputs.data()) continue;
+      simd::chooseTarget(target);
+      packets.emplace_back(new PacketBench(subject.made().chunk()))
+          ->forEachKernel([&](const char* name, const std::function<void()>& run,
+                              std::size_t rays) { registerOne(name, subject, run, rays); });
     }
   }
   benchmark::RunSpecifiedBenchmarks();
-  for (const auto& [name, input] : inputs) {
-    for (const auto& [target, verdict] : input.verdicts) {
-      if (!verdict.empty()) return 1;
-    }
+  for (const auto& subject : subjects) {
+    if (!subject->verdict.empty()) return 1;
   }
   return 0;
 }

@@ -90,6 +90,7 @@ TEST(Options, SaysWhatWasExpected) {
       {{"s", "--tonemap", "filmc"}, "nearest: filmic"},
       {{"s", "--robust", "yes"}, "on or off"},
       {{"s", "--disable", "shadow"}, "nearest: 'shadows'"},
+      {{"s", "--disable", "vertexColours"}, "nearest: 'vertexColors'"},
       {{"s", "--fov", "180"}, "from 0.001 to 179"},
       {{"s", "--size"}, "--size"},
       {{"s", "--sise", "10x10"}, "nearest: '--size'"},

@@ -23,8 +23,8 @@ RunSummary madeUpRun(int frames) {
     for (std::size_t i = 0; i < kStageCount; ++i) {
       frame.stageWorkerMs[i] = 2 * frame.frameMs * static_cast<double>(i + 1) / 100;
     }
-    frame.tally[0] = {2048, 2048};
-    frame.tally[1] = {300, 400};
+    frame.meter.tally[0] = {2048, 2048};
+    frame.meter.tally[1] = {300, 400};
     run.frames.push_back(frame);
   }
   return run;

@@ -21,9 +21,9 @@ RunSummary madeUpRun(const std::vector<double>& ms, std::uint64_t reflections) {
     FrameStats frame;
     frame.frameMs = duration;
     frame.workers = 2;
-    frame.embreeWorkerMs = 2 * 0.4 * duration;
-    frame.tally[0] = {2048, 2048};
-    frame.tally[2] = {reflections, reflections};
+    frame.meter.embreeMs = 2 * 0.4 * duration;
+    frame.meter.tally[0] = {2048, 2048};
+    frame.meter.tally[2] = {reflections, reflections};
     run.frames.push_back(frame);
   }
   return run;

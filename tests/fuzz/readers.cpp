@@ -17,7 +17,7 @@
 #include "io/image_file.h"
 #include "io/load_scene.h"
 #include "io/mtl_reader.h"
-#include "io/raw_channels.h"
+#include "io/texture_from_image.h"
 #include "scene/scene.h"
 
 namespace whit::fuzz {

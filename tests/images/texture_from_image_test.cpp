@@ -1,5 +1,6 @@
 #include "core/srgb.h"
 #include "image_samples.h"
+#include "io/texture_from_image.h"
 
 namespace whit {
 namespace {

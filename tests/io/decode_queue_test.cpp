@@ -50,6 +50,24 @@ TEST(DecodeQueue, ReportsTheFirstFailureInTheOrderOfAdding) {
   }
 }
 
+// Whoever asks for progress may end the work by an exception, from any thread.
+class Impatient : public Progress {
+ public:
+  void report(const std::string&, double) override { throw std::runtime_error("enough"); }
+};
+
+TEST(DecodeQueue, WhatAnObserverThrowsReachesTheCallerOfFinish) {
+  for (const int threads : {1, 2, 8}) {
+    Impatient progress;
+    std::atomic<int> runs{0};
+    DecodeQueue queue(threads, &progress, "counting");
+    for (int i = 0; i < 50; ++i) queue.add([&] { ++runs; });
+    EXPECT_THROW(queue.finish(), std::runtime_error) << threads;
+    EXPECT_GE(runs, 1);
+  }
+  DecodeQueue dropped(2, nullptr, "never asked for");
+}
+
 TEST(DecodeQueue, MayBeDroppedUnfinished) {
   std::atomic<int> runs{0};
   {

@@ -68,6 +68,8 @@ TEST_F(SceneSettings, ErrorsAreThoseOfTheFile) {
   EXPECT_EQ(errorWith("/materials/floor/ruffness=1").find("3 s.json#/materials/floor/ruffness"),
             0u);
   EXPECT_EQ(errorWith("/lihgts/0=1").find("3 s.json#/lihgts"), 0u);
+  EXPECT_EQ(errorWith("/sky={\"colour\": 1}"),
+            "3 s.json#/sky/colour: unknown key; is \"color\" meant?");
   EXPECT_EQ(errorWith("/lights/1/intensity=1"),
             "3 s.json#/lights/1: expected an index below 1, or - for a new element, found a list "
             "of 1");

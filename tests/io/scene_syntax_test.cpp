@@ -55,6 +55,28 @@ TEST_F(SceneSyntax, UnknownKeysNameTheNearest) {
             "3 s.json#/scene/0/radiuss: unknown key; is \"radius\" meant?");
 }
 
+// British spelling was a scene file's once. It is refused, never taken for a key that is not given.
+TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
+  EXPECT_EQ(errorOfMembers("\"sky\": {\"colour\": 1}"),
+            "3 s.json#/sky/colour: unknown key; is \"color\" meant?");
+  EXPECT_EQ(errorOfMembers("\"ambient\": {\"colour\": 1}"),
+            "3 s.json#/ambient/colour: unknown key; is \"color\" meant?");
+  for (const char* pattern : {"bricks", "tiles", "roof", "checker", "stripes", "fabric", "leaf",
+                              "noise", "plaster", "marble", "wood"}) {
+    const std::string start =
+        std::string("\"textures\": {\"t\": {\"pattern\": \"") + pattern + "\", ";
+    EXPECT_EQ(errorOfMembers(start + "\"colour\": [1, 0, 0]}}"),
+              "3 s.json#/textures/t/colour: unknown key; is \"color\" meant?")
+        << pattern;
+    EXPECT_EQ(errorOfMembers(start + "\"colour2\": [1, 0, 0]}}"),
+              "3 s.json#/textures/t/colour2: unknown key; is \"color2\" meant?")
+        << pattern;
+  }
+  const std::string image = "\"textures\": {\"t\": {\"image\": \"t.png\", \"as\": \"colour\"}}";
+  const std::string error = errorOfMembers(image);
+  EXPECT_NE(error.find("(is \"color\" meant?)"), std::string::npos) << error;
+}
+
 TEST_F(SceneSyntax, NestingIsLimited) {
   const std::string deep = std::string(100, '[') + std::string(100, ']');
   const std::string error = errorOfMembers("\"scene\": " + deep);

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/pixel.h"
-#include "core/random_streams.h"
 #include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 namespace {

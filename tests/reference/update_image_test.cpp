@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reference/small_scenes.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit::reference {
 namespace {

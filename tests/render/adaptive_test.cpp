@@ -4,7 +4,7 @@
 #include "core/display.h"
 #include "metrics/metrics.h"
 #include "render/shipped_scene.h"
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit::test {
 namespace {

@@ -7,6 +7,7 @@
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
+#include "render/stage_comparison.h"
 
 namespace whit::test {
 namespace {

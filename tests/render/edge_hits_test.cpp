@@ -58,14 +58,14 @@ Rays raysAtEdges(const Mesh& mesh, std::mt19937& random) {
   return rays;
 }
 
-using Hit = std::array<std::uint32_t, 4>;  // triangle, and the bits of t, u, v
+using HitBits = std::array<std::uint32_t, 4>;  // triangle, and the bits of t, u, v
 
-std::vector<Hit> trace(const Accel& accel, const Rays& rays, const std::vector<std::size_t>& order,
-                       bool coherent) {
+std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
+                           const std::vector<std::size_t>& order, bool coherent) {
   ColumnStore<RayColumns> columns;
   ColumnStore<HitColumns> hits;
-  columns.allocate(roundUpToBlock(kRays), Groups{});
-  hits.allocate(roundUpToBlock(kRays), Groups{});
+  columns.allocate(roundUpToBlock(kRays), FeatureSet());
+  hits.allocate(roundUpToBlock(kRays), FeatureSet());
   for (std::size_t k = 0; k < kRays; ++k) {
     const Vec3f& o = rays.origin[order[k]];
     const Vec3f& d = rays.direction[order[k]];
@@ -76,12 +76,22 @@ std::vector<Hit> trace(const Accel& accel, const Rays& rays, const std::vector<s
     columns->dirY[k] = d.y;
     columns->dirZ[k] = d.z;
   }
-  RayTally tally;
-  TraceMeter meter{&tally, 0, nullptr};
-  accel.findHits(*columns, kRays, coherent, *hits, meter);
-  std::vector<Hit> result(kRays);
+  FrameConstants constants;
+  constants.accel = &accel;
+  TraceMeter meter;
+  Chunk chunk;
+  chunk.frame = &constants;
+  chunk.meter = &meter;
+  chunk.coherent = coherent;
+  chunk.n = kRays;
+  chunk.segments[0] = {RayKind::primary, 0, kRays};
+  chunk.segmentCount = 1;
+  chunk.rays = *columns;
+  chunk.hits = *hits;
+  findHits(chunk);
+  std::vector<HitBits> result(kRays);
   for (std::size_t k = 0; k < kRays; ++k) {
-    Hit& hit = result[order[k]];
+    HitBits& hit = result[order[k]];
     hit = {hits->triangle[k], 0, 0, 0};
     if (hit[0] == kMiss) continue;
     hit[1] = std::bit_cast<std::uint32_t>(hits->t[k]);
@@ -101,13 +111,13 @@ TEST(EdgeHits, H59_doNotDependOnTheRaysBeside) {
   std::iota(order.begin(), order.end(), 0);
   AccelOptions single;
   single.packet = 1;
-  const std::vector<Hit> expected = trace(Accel(scene, single), rays, order, true);
+  const std::vector<HitBits> expected = trace(Accel(scene, single), rays, order, true);
   for (const int packet : {4, 8, 16}) {
     AccelOptions options;
     options.packet = packet;
     const Accel accel(scene, options);
     for (int turn = 0; turn < 4; ++turn) {
-      const std::vector<Hit> found = trace(accel, rays, order, turn % 2 == 0);
+      const std::vector<HitBits> found = trace(accel, rays, order, turn % 2 == 0);
       std::size_t differ = 0, first = 0;
       for (std::size_t i = kRays; i-- > 0;) {
         if (found[i] == expected[i]) continue;

@@ -1,9 +1,7 @@
 // A scene without an effect, and the same scene with it: what the effect costs when it is absent.
 #include <gtest/gtest.h>
 
-#include "render/renderer_parts.h"
 #include "render/shipped_scene.h"
-#include "scene/effect_steps.h"
 #include "scene/leave_out.h"
 
 namespace whit::test {
@@ -96,36 +94,34 @@ Cost costWithout(EffectSet effects) {
   Film film = makeFilm(scene, o);
   Cost cost;
   cost.stats = renderer.render(chooseCamera(scene, o), film);
-  const Renderer::Parts& parts = renderer.parts();
-  cost.buffers = parts.tracers.at(0).bufferBytes();
+  cost.buffers = renderer.scheduler().tracers().at(0).bufferBytes();
   cost.capacity = static_cast<std::size_t>(o.tile * o.tile);
-  cost.texels = parts.tables.texels.size();
-  cost.instances = parts.tables.instances.size();
-  cost.lights = parts.tables.lights.size();
-  cost.skyImage = parts.tables.sky.r != nullptr;
+  cost.texels = renderer.tables().texels.size();
+  cost.instances = renderer.tables().instances.size();
+  cost.lights = renderer.tables().lights.size();
+  cost.skyImage = renderer.tables().sky.r != nullptr;
   return cost;
 }
 
-std::uint64_t callsOf(const Cost& cost, Stage stage) {
-  return cost.stats.kernelCalls[static_cast<std::size_t>(stage)];
-}
+std::uint64_t callsOf(const Cost& cost, Stage stage) { return cost.stats.callsOf(stage); }
 
 template <typename Columns>
 std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool instances) {
-  Groups groups;
-  groups.glossy = glossy;
-  groups.transmission = transmission;
-  groups.instances = instances;
-  return ColumnStore<Columns>(cost.capacity, groups).bytes();
+  const FeatureSet features = FeatureSet()
+                                  .with(Feature::emissionFactors)
+                                  .with(Feature::glossy, glossy)
+                                  .with(Feature::transmission, transmission)
+                                  .with(Feature::instances, instances);
+  return ColumnStore<Columns>(cost.capacity, features).bytes();
 }
 
 TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
   const Cost cost = costWithout(EffectSet());
-  for (const RayTally& tally : cost.stats.tally) EXPECT_GT(tally.rays, 0u);
-  for (const std::uint64_t calls : cost.stats.kernelCalls) EXPECT_GT(calls, 0u);
-  EXPECT_GT(cost.stats.reflectionCalls, 0u);
-  EXPECT_GT(cost.stats.glossyCalls, 0u);
-  EXPECT_GT(cost.stats.refractionCalls, 0u);
+  for (const RayTally& tally : cost.stats.meter.tally) EXPECT_GT(tally.rays, 0u);
+  for (const std::uint64_t calls : cost.stats.stageCalls) EXPECT_GT(calls, 0u);
+  EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
+  EXPECT_GT(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
+  EXPECT_GT(cost.stats.callsOf(simd::kAddRefractions), 0u);
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.unshadowed, columnBytes<UnshadowedColumns>(cost, true, true, true));
@@ -157,15 +153,15 @@ TEST(AbsentEffects, WithoutShadowsNoShadowRaysAndNoBufferForThem) {
 TEST(AbsentEffects, WithoutMirrorsNoReflections) {
   const Cost cost = costWithout(EffectSet().with(Effect::mirror).with(Effect::glossyReflection));
   EXPECT_EQ(cost.stats.of(RayKind::reflection).rays, 0u);
-  EXPECT_EQ(cost.stats.reflectionCalls, 0u);
+  EXPECT_EQ(cost.stats.callsOf(simd::kAddReflections), 0u);
   EXPECT_GT(cost.stats.of(RayKind::refraction).rays, 0u);
 }
 
 TEST(AbsentEffects, WithoutGlossyReflectionNoSamplesAndNoPaths) {
   const Cost all = costWithout(EffectSet());
   const Cost cost = costWithout(EffectSet().with(Effect::glossyReflection));
-  EXPECT_EQ(cost.stats.glossyCalls, 0u);
-  EXPECT_GT(cost.stats.reflectionCalls, 0u);
+  EXPECT_EQ(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
+  EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
   EXPECT_LT(cost.stats.of(RayKind::reflection).rays, all.stats.of(RayKind::reflection).rays);
   EXPECT_LT(cost.buffers.rays, all.buffers.rays);
 }
@@ -173,7 +169,7 @@ TEST(AbsentEffects, WithoutGlossyReflectionNoSamplesAndNoPaths) {
 TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
   const Cost cost = costWithout(EffectSet().with(Effect::transmission));
   EXPECT_EQ(cost.stats.of(RayKind::refraction).rays, 0u);
-  EXPECT_EQ(cost.stats.refractionCalls, 0u);
+  EXPECT_EQ(cost.stats.callsOf(simd::kAddRefractions), 0u);
   EXPECT_GT(cost.stats.of(RayKind::reflection).rays, 0u);
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, false, true));
 }

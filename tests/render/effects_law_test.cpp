@@ -68,7 +68,7 @@ TEST(EffectLaw, MatteTracesNothingButPrimaryAndShadowRays) {
   EXPECT_GT(p.stats.of(RayKind::shadow).rays, 0u);
   EXPECT_EQ(p.stats.of(RayKind::reflection).rays, 0u);
   EXPECT_EQ(p.stats.of(RayKind::refraction).rays, 0u);
-  EXPECT_EQ(p.stats.kernelCalls[static_cast<std::size_t>(Stage::addImpulses)], 0u);
+  EXPECT_EQ(p.stats.callsOf(Stage::addImpulses), 0u);
 }
 
 TEST(EffectLaw, WithoutLightsNoLightStageRuns) {
@@ -77,7 +77,7 @@ TEST(EffectLaw, WithoutLightsNoLightStageRuns) {
   o.disable = EffectSet().with(Effect::lights);
   const Picture p = render(scene, o);
   for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
-    EXPECT_EQ(p.stats.kernelCalls[static_cast<std::size_t>(s)], 0u);
+    EXPECT_EQ(p.stats.callsOf(s), 0u);
   }
   EXPECT_EQ(p.stats.of(RayKind::shadow).rays, 0u);
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "render/renderer_parts.h"
+#include "render/renderer.h"
 #include "shipped_scene.h"
 
 namespace whit {
@@ -24,13 +24,13 @@ TEST(Enclosure, HoldsForEyesWithinOnly) {
   outside.eye = scene.upper + (scene.upper - scene.lower) * 10.0f;
   const auto enclosedFrom = [&](const Camera& camera) {
     renderer.render(camera, film);
-    return renderer.parts().accel->enclosed();
+    return renderer.accel().enclosed();
   };
   EXPECT_TRUE(enclosedFrom(inside));
   EXPECT_FALSE(enclosedFrom(outside));
   EXPECT_TRUE(enclosedFrom(inside));
   renderer.renderReference(outside, film);
-  EXPECT_FALSE(renderer.parts().accel->enclosed());
+  EXPECT_FALSE(renderer.accel().enclosed());
 }
 
 }  // namespace

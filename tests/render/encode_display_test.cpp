@@ -18,13 +18,12 @@ class EncodeDisplay : public testing::Test {
 };
 
 std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
-  ColumnStore<RadianceColumns> radiance(values.size(), Groups{});
+  ColumnStore<RadianceColumns> radiance(values.size(), FeatureSet());
   for (std::size_t i = 0; i < values.size(); ++i) {
     radiance->r[i] = radiance->g[i] = radiance->b[i] = values[i];
   }
   std::vector<std::uint32_t> codes(values.size() + 16);
-  simd::encodeDisplay(1, ToneCurve::none, SrgbEncoding::exact, *radiance, values.size(),
-                      codes.data());
+  simd::encodeDisplay({.radiance = *radiance, .n = values.size(), .codes = codes.data()});
   return codes;
 }
 

@@ -60,11 +60,11 @@ TEST_P(Glossy, ACropShowsTheSameNoise) {
 TEST_P(Glossy, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
   RenderOptions o = smallOptions();
   const Picture plain = render(scene_, o);
-  EXPECT_EQ(plain.stats.glossyCalls, 0u);
-  EXPECT_FALSE(Renderer(scene_, o).plan().groups.paths);
+  EXPECT_EQ(plain.stats.callsOf(simd::kAddGlossyReflections), 0u);
+  EXPECT_FALSE(Renderer(scene_, o).plan().features.has(Feature::streams));
   o.glossy = 3;
   const Picture sampled = render(scene_, o);
-  EXPECT_GT(sampled.stats.glossyCalls, 0u);
+  EXPECT_GT(sampled.stats.callsOf(simd::kAddGlossyReflections), 0u);
   EXPECT_GT(sampled.stats.of(RayKind::reflection).rays, plain.stats.of(RayKind::reflection).rays);
   o.disable = EffectSet().with(Effect::glossyReflection);
   EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");

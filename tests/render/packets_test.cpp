@@ -62,11 +62,11 @@ std::vector<std::size_t> spoilSome(const Columns& rays) {
 }
 
 TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
-  ColumnStore<RayColumns> rays(kPacked, Groups{});
+  ColumnStore<RayColumns> rays(kPacked, FeatureSet());
   fillRays(*rays);
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
-    simd::packRays(*rays, kPacked, kReach, packets(width));
+    simd::findPacketKernels().packRays(*rays, kPacked, kReach, packets(width));
     namespace column = packet_column;
     for (std::size_t i = 0; i < (kPacked + width - 1) / width * width; ++i) {
       const auto at = [&](std::size_t c) { return word(i, c, width); };
@@ -96,12 +96,12 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
 }
 
 TEST_F(Packets, HoldWhereShadowRaysEnd) {
-  ColumnStore<ShadowColumns> rays(kPacked, Groups{});
+  ColumnStore<ShadowColumns> rays(kPacked, FeatureSet());
   fillRays(*rays);
   for (std::size_t i = 0; i < kPacked; ++i) rays->tFar[i] = 1 - 0.01f * static_cast<float>(i);
   const std::vector<std::size_t> bad = spoilSome(*rays);
   forEachWidthAndTarget([&](std::size_t width) {
-    simd::packShadowRays(*rays, kPacked, kReach, packets(width));
+    simd::findPacketKernels().packShadowRays(*rays, kPacked, kReach, packets(width));
     for (std::size_t i = 0; i < kPacked; ++i) {
       const bool good = std::find(bad.begin(), bad.end(), i) == bad.end();
       EXPECT_EQ(word(i, packet_column::tFar, width), good ? rays->tFar[i] : -1) << i;
@@ -123,8 +123,8 @@ TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
       word(i, packet_column::primitive, width) = floatOf(7 * number);
       word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
     }
-    ColumnStore<HitColumns> hits(kPacked, Groups{});
-    simd::unpackHits(packets(width), kPacked, triangleBase, *hits);
+    ColumnStore<HitColumns> hits(kPacked, FeatureSet());
+    simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase, *hits);
     for (std::size_t i = 0; i < kPacked; ++i) {
       const auto number = static_cast<std::uint32_t>(i);
       EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
@@ -143,7 +143,8 @@ TEST_F(Packets, GiveVisibilityBackToTheSlots) {
       slot[i] = static_cast<std::uint32_t>(3 * i);
       word(i, packet_column::tFar, width) = i % 3 == 0 ? -kInf : i % 3 == 1 ? 0.0f : 0.75f;
     }
-    simd::unpackVisibility(packets(width), kPacked, slot.data(), visible.data());
+    simd::findPacketKernels().unpackVisibility(packets(width), kPacked, slot.data(),
+                                               visible.data());
     for (std::size_t at = 0; at < visible.size(); ++at) {
       const bool written = at % 3 == 0 && at / 3 < kPacked;
       EXPECT_EQ(visible[at], !written ? -7.0f : at / 3 % 3 == 0 ? 0.0f : 1.0f) << at;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/shipped_scene.h"
+#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {

@@ -6,6 +6,7 @@
 
 #include "metrics/metrics.h"
 #include "render/shipped_scene.h"
+#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {

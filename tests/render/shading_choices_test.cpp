@@ -8,6 +8,7 @@
 #include "metrics/metrics.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
+#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -95,8 +96,9 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     // ones depends on the last bit of the direction.
     EXPECT_LE(d.pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1) << choice.name;
     for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
-      const auto rays = static_cast<double>(b.tally[kind].rays);
-      EXPECT_NEAR(static_cast<double>(a.tally[kind].rays), rays, 1e-3 * rays + 1) << choice.name;
+      const auto rays = static_cast<double>(b.meter.tally[kind].rays);
+      EXPECT_NEAR(static_cast<double>(a.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
+          << choice.name;
     }
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "core/option_values.h"
-#include "simd/kernel_variants.h"
 #include "simd/kernels.h"
 
 namespace whit {

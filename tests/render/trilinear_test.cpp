@@ -7,7 +7,7 @@
 #include "metrics/metrics.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
-#include "render/renderer_parts.h"
+#include "render/renderer.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -115,8 +115,9 @@ TEST(Trilinear, CostsColumnsAndTexelsOnlyWhereItIsAskedFor) {
   const Scene scene = frozen(textured()), plain = load("matte");
   const auto parts = [](const Scene& s, const RenderOptions& o) {
     Renderer renderer(s, o);
-    const auto& p = renderer.parts();
-    return std::tuple(p.plan.groups.cones, p.tables.texels.size(), p.tables.mipLevels.size());
+    const ShadingTables& tables = renderer.tables();
+    return std::tuple(renderer.plan().features.has(Feature::cones), tables.texels.size(),
+                      tables.mipLevels.size());
   };
   // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in tiles of 4x4 that
   // hold 3x3 footprints of the width + 1 by height + 1 that there are.

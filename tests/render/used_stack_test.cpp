@@ -25,9 +25,9 @@ class UsedStack : public testing::TestWithParam<int> {
  protected:
   // A scene of instances: see EmbreeScene::coherentOcclusionMayHang.
   UsedStack() : scene_(test::load("mirrors")), accel_(scene_, optionsOf(GetParam())) {
-    rays_.allocate(kRays, Groups{});
-    hits_.allocate(kRays, Groups{});
-    shadows_.allocate(kRays, Groups{});
+    rays_.allocate(kRays, FeatureSet());
+    hits_.allocate(kRays, FeatureSet());
+    shadows_.allocate(kRays, FeatureSet());
     alarm(kPatience);
   }
   ~UsedStack() override { alarm(0); }
@@ -53,8 +53,24 @@ class UsedStack : public testing::TestWithParam<int> {
 
   const Scene scene_;
   const Accel accel_;
-  RayTally tally_;
-  TraceMeter meter_{&tally_, 0, nullptr};
+  // One segment of all rays.
+  Chunk chunkOf(const Accel& accel, bool coherent) {
+    constants_.accel = &accel;
+    Chunk chunk;
+    chunk.frame = &constants_;
+    chunk.meter = &meter_;
+    chunk.coherent = coherent;
+    chunk.n = chunk.shadowCount = kRays;
+    chunk.segments[0] = {RayKind::primary, 0, kRays};
+    chunk.segmentCount = 1;
+    chunk.rays = *rays_;
+    chunk.hits = *hits_;
+    chunk.shadows = *shadows_;
+    return chunk;
+  }
+
+  FrameConstants constants_;
+  TraceMeter meter_;
   ColumnStore<RayColumns> rays_;
   ColumnStore<HitColumns> hits_;
   ColumnStore<ShadowColumns> shadows_;
@@ -69,7 +85,9 @@ TEST_P(UsedStack, OcclusionReturns) {
   for (const bool coherent : {true, false}) {
     std::vector<float> visible(kRays, -1.0f);
     useStack();
-    accel_.checkShadows(*shadows_, kRays, coherent, visible.data(), meter_);
+    Chunk chunk = chunkOf(accel_, coherent);
+    chunk.unshadowed.visible = visible.data();
+    checkShadows(chunk);
     EXPECT_EQ(visible, std::vector<float>(kRays, 1.0f));
   }
 }
@@ -78,7 +96,8 @@ TEST_P(UsedStack, IntersectionReturns) {
   aim(*rays_);
   for (const bool coherent : {true, false}) {
     useStack();
-    accel_.findHits(*rays_, kRays, coherent, *hits_, meter_);
+    Chunk chunk = chunkOf(accel_, coherent);
+    findHits(chunk);
     for (std::size_t i = 0; i < kRays; ++i) EXPECT_EQ(hits_->triangle[i], kMiss) << i;
   }
 }

@@ -1,5 +1,5 @@
 // Which pixels count as edges.
-#include "scene/pixel_edges.h"
+#include "sampling/pixel_edges.h"
 
 #include <gtest/gtest.h>
 

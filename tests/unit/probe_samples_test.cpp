@@ -1,5 +1,5 @@
 // Which pixels get every sample: worked out by hand on three pixels in a row.
-#include "scene/probe_samples.h"
+#include "sampling/probe_samples.h"
 
 #include <gtest/gtest.h>
 

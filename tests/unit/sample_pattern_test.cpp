@@ -1,5 +1,5 @@
 // The fixed pattern of supersampling.
-#include "scene/sample_pattern.h"
+#include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
 

@@ -1,1 +1,1 @@
-whit_tests(unit whit_scene)
+whit_tests(unit whit_scene whit_sampling)

@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -52,6 +56,53 @@ TEST(WorkerPool, AnExceptionReachesTheCallerAndThePoolLivesOn) {
   EXPECT_EQ(calls, 2);
 }
 
+TEST(WorkerPool, TheCallerMayWorkBetweenBeginAndFinish) {
+  for (const int workers : {1, 2, 4}) {
+    WorkerPool pool(workers);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<int> calls(static_cast<std::size_t>(workers), 0);
+      std::atomic<bool> ready{false};
+      const std::function<void(int)> job = [&](int worker) {
+        while (!ready) std::this_thread::yield();
+        ++calls[static_cast<std::size_t>(worker)];
+      };
+      pool.begin(job);
+      ready = true;  // a begin() that waited for the job would never get here
+      EXPECT_EQ(calls[0], 0);
+      pool.finish();
+      for (const int c : calls) EXPECT_EQ(c, 1);
+    }
+  }
+}
+
+TEST(ParallelFor, EveryIndexOnceByWorkersOfTheirOwn) {
+  for (const int threads : {0, 1, 3, 8}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {
+      std::vector<int> done(count, 0);
+      std::vector<std::size_t> ofWorker(static_cast<std::size_t>(std::max(threads, 1)), 0);
+      parallelFor(threads, count, [&](std::size_t i, int worker) {
+        ++done.at(i);
+        ++ofWorker.at(static_cast<std::size_t>(worker));
+      });
+      for (const int d : done) EXPECT_EQ(d, 1);
+      EXPECT_EQ(std::accumulate(ofWorker.begin(), ofWorker.end(), std::size_t{0}), count);
+    }
+  }
+}
+
+TEST(ParallelFor, WhatIsThrownEndsTheLoopAndReachesTheCaller) {
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<int> calls{0};
+    EXPECT_THROW(parallelFor(threads, 1000000,
+                             [&](std::size_t i, int) {
+                               ++calls;
+                               if (i == 3) throw std::runtime_error("at three");
+                             }),
+                 std::runtime_error);
+    EXPECT_LT(calls, 1000000) << threads;
+  }
+}
+
 // A product that is denormal, computed where the compiler cannot see its factors.
 float denormalProduct() {
   const volatile float tiny = std::numeric_limits<float>::min();
@@ -66,6 +117,9 @@ TEST(WorkerPool, H55_denormalsAreFlushedInEveryWorkerAndNowhereElse) {
   pool.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
   for (const float p : products) EXPECT_EQ(p, 0.0f);
   EXPECT_GT(denormalProduct(), 0.0f);
+  WorkerPool keeping(3, Denormals::kept);
+  keeping.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
+  for (const float p : products) EXPECT_GT(p, 0.0f);
 }
 
 // Some threads can be started, others not: those that were are ended in order.
@@ -86,8 +140,6 @@ TEST(WorkerPoolDeathTest, NoRoomForThreadsIsALimit) {
   };
   EXPECT_EXIT(fillUp(), testing::ExitedWithCode(7), "");
 }
-
-TEST(WorkerPool, ThereIsAtLeastOneUsableThread) { EXPECT_GE(usableThreads(), 1); }
 
 }  // namespace
 }  // namespace whit::test

@@ -1,0 +1,298 @@
+// What surrounds Embree in findIntersections: rays into packets, hits out of them, and from hits to
+// surfels.
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/find_intersections.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/material-inl.h"
+#include "simd/media-inl.h"
+#include "simd/packets-inl.h"
+#include "simd/surface-inl.h"
+#include "simd/surface_maps-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+void PackRays(const RayColumns& rays, size_t n, float reach, const PacketWords& to) {
+  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr};
+  ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
+}
+
+template <size_t kWidth>
+HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* triangleBase,
+                             const HitColumns& hits) {
+  const PacketTag<kWidth> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto miss = hn::Set(du, kMiss);
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const float* const words = WordsOf<kWidth>(from, i);
+    const auto load = [&](size_t column) HWY_ATTR { return hn::LoadU(d, words + column * kWidth); };
+    hn::StoreU(load(packet_column::tFar), d, hits.t + i);
+    hn::StoreU(load(packet_column::u), d, hits.u + i);
+    hn::StoreU(load(packet_column::v), d, hits.v + i);
+    const auto geometry = hn::BitCast(du, load(packet_column::geometry));
+    const auto primitive = hn::BitCast(du, load(packet_column::primitive));
+    auto base = hn::Set(du, triangleBase[0]);
+    for (uint32_t c = 1; c < kTriangleClasses; ++c) {
+      const auto ofClass = hn::Eq(geometry, hn::Set(du, c));
+      base = hn::IfThenElse(ofClass, hn::Set(du, triangleBase[c]), base);
+    }
+    const auto missed = hn::Eq(geometry, miss);
+    hn::StoreU(hn::IfThenElse(missed, miss, hn::Add(base, primitive)), du, hits.triangle + i);
+  }
+}
+
+void UnpackHits(const PacketWords& from, size_t n, const uint32_t* triangleBase,
+                const HitColumns& hits) {
+  ForWidth(from.width,
+           [&](auto width) HWY_ATTR { UnpackHitsOf<width()>(from, n, triangleBase, hits); });
+}
+
+PacketKernels FindPacketKernels() {
+  return {PackRays, PackShadowRays, UnpackHits, UnpackVisibility};
+}
+
+// What vertex colors multiply, as the flags of the lanes' materials say.
+struct Tints {
+  V3 diffuse, specular, emission;
+};
+
+HWY_INLINE Tints FindTints(const V3& color, VU flags) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const V3 white{one, one, one};
+  const MF emission = HasFlags(flags, kMaterialTintsEmission);
+  return {Select3(emission, white, color),
+          Select3(HasFlags(flags, kMaterialTintsSpecular), color, white),
+          Select3(emission, color, white)};
+}
+
+// No maps wait there yet.
+template <uint32_t kBits>
+HWY_INLINE void ClearSlot(size_t slot, BlockTextures& block) {
+  if constexpr ((kBits & kTextured) != 0) {
+    block.diffuse.level.any[slot] = block.specular.level.any[slot] = false;
+    block.emission.level.any[slot] = false;
+  }
+  if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
+}
+
+HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF valid,
+                            const Surface& s, VF flip, const TexturePoints& at, size_t slot,
+                            BlockTextures& block) {
+  const MF mapped = MappedLanes(map, valid);
+  if (hn::AllFalse(FloatTag(), mapped)) return;
+  const TangentFrame frame = FindTangentFrame(uv, s.edge1, s.edge2, s.ns, s.handedness);
+  QueueMap(job, map, hn::And(mapped, frame.good), at, slot, block.normal);
+  StoreFrame(frame, flip, slot, block);
+}
+
+// Everything but textures, which are queued, for the vector of rays at i; returns the flags of
+// their materials.
+template <uint32_t kBits>
+HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
+  const FloatTag d;
+  const UintTag du;
+  const ShadingTables& tables = job.tables;
+  const RayColumns& rays = job.rays;
+  const HitColumns& hits = job.hits;
+  const SurfelColumns& surfels = job.surfels;
+  const VF one = hn::Set(d, 1.0f);
+  ClearSlot<kBits>(slot, block);
+  const auto [valid, triangle] = LoadHits(hits, i);
+  if (job.absorption) Absorb(tables, rays, hits, valid, i);
+  if (hn::AllFalse(d, valid)) {
+    hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
+    return hn::Zero(du);
+  }
+  const TriangleLanes t = LoadTriangles(tables, triangle);
+  const Weights w = LoadWeights(hits, i);
+  Surface s =
+      InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  if (job.instances) CarryToWorld(tables, hits, valid, i, s);
+  const MaterialLanes material(tables, t.material, valid);
+  const auto [diffuse, diffuseMap] = material.Diffuse();
+  TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
+                   Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
+  const VF cosine = Dot(Load3(rays.dirX, rays.dirY, rays.dirZ, i), s.ng);
+  if (job.cones) {
+    const VF width =
+        hn::MulAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
+    hn::Store(width, d, surfels.cone + i);
+    at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
+  }
+  const MF entering = hn::Lt(cosine, hn::Zero(d));
+  const VF flip = TurnToViewer(entering);
+  if constexpr ((kBits & kTextured) != 0) {
+    QueueMap(job, diffuseMap, valid, at, slot, block.diffuse);
+  }
+  if constexpr ((kBits & kNormalMapped) != 0) {
+    QueueNormal(job, material.Emission().normalMap, t.uv, valid, s, flip, at, slot, block);
+  }
+  StoreSurface(s, flip, i, surfels);
+  const LobeLanes lobe = material.Lobe();
+  Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
+  V3 scattered = diffuse;
+  if (job.vertexColors) {
+    tints = FindTints(VertexColor(tables, triangle, w.w1, w.w2), lobe.flags);
+    scattered = Mul3(scattered, tints.diffuse);
+  }
+  Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+  if (job.emissionFactors) {
+    Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
+    if constexpr ((kBits & kTextured) != 0) {
+      QueueMap(job, lobe.emissionMap, valid, at, slot, block.emission);
+    }
+  }
+  const VU materialOrMiss =
+      hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
+  hn::Store(materialOrMiss, du, surfels.material + i);
+  if (job.glossy) {
+    const auto [specular, specularMap] = material.Specular();
+    if constexpr ((kBits & kTextured) != 0) {
+      QueueMap(job, specularMap, valid, at, slot, block.specular);
+    }
+    const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
+    Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
+    hn::Store(lobe.alpha, d, surfels.alpha + i);
+  }
+  if (job.transmission) StoreMedia(tables, rays, lobe.medium, entering, i, surfels);
+  return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);
+}
+
+// What the vector at i has queued.
+template <uint32_t kBits>
+HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, size_t slot,
+                              size_t i) {
+  const SurfelColumns& surfels = job.surfels;
+  if constexpr ((kBits & kTextured) != 0) {
+    if (job.emissionFactors) {
+      ApplyColor(job, block.emission, slot, surfels.emissionR, surfels.emissionG, surfels.emissionB,
+                 i);
+    }
+    ApplyColor(job, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    if (job.glossy) {
+      ApplyColor(job, block.specular, slot, surfels.specularR, surfels.specularG, surfels.specularB,
+                 i);
+    }
+  }
+  if constexpr ((kBits & kNormalMapped) != 0) ApplyNormalMap(job, block, slot, i);
+}
+
+template <uint32_t kBits>
+HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns& hits, size_t begin,
+                                  size_t end) {
+  // Locals: what memory may alias would be read again for every ray.
+  const uint32_t* const hit = hits.triangle;
+  const TriangleRecord* const triangles = tables.triangles;
+  const auto* const normals = reinterpret_cast<const float*>(tables.normals);
+  const auto stride = static_cast<size_t>(tables.normalStride);
+  for (size_t i = begin; i < end; ++i) {
+    const size_t triangle = hit[i] == kMiss ? 0 : hit[i];
+    hwy::Prefetch(triangles + triangle);
+    if constexpr ((kBits & kSmooth) != 0) hwy::Prefetch(normals + triangle * stride);
+  }
+}
+
+template <uint32_t kBits>
+void InterpolateSurfels(Chunk& c) noexcept {
+  const UintTag du;
+  const size_t lanes = hn::Lanes(du), n = c.n;
+  const SurfelJob job = SurfelJobOf(c);
+  VU flags = hn::Zero(du);
+  BlockTextures block;
+  for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
+    const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
+    PrefetchTriangles<kBits>(job.tables, job.hits, begin, end);
+    for (size_t i = begin; i < end; i += lanes) {
+      flags = hn::Or(flags, InterpolateVector<kBits>(job, i, i - begin, block));
+      if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
+        if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs<kBits>(job, i, i - begin, block);
+      }
+    }
+    if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
+      for (size_t i = begin; i < end; i += lanes) ApplyTextures<kBits>(job, block, i - begin, i);
+    }
+  }
+  HWY_ALIGN uint32_t perLane[16];
+  hn::Store(flags, du, perLane);
+  c.materialFlags = 0;
+  for (size_t lane = 0; lane < lanes; ++lane) c.materialFlags |= perLane[lane];
+}
+
+StepFunction FindInterpolateSurfels(size_t index) {
+  static constexpr auto kVariants = variantTable<kInterpolateSurfels>(
+      []<uint32_t kBits>() { return &InterpolateSurfels<kBits>; });
+  return kVariants[index];
+}
+
+// Corners and their normals, in the world.
+struct WorldCorners {
+  Corners position, normal;
+};
+
+HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on, WorldCorners& w) {
+  const PlacementLanes to = LoadPlacements(tables, on.instance, on.placed);
+  for (V3* p : {&w.position.c0, &w.position.c1, &w.position.c2}) {
+    *p = Select3(on.placed, Add3(TransformVector(to.toWorld, *p), to.origin), *p);
+  }
+  for (V3* n : {&w.normal.c0, &w.normal.c1, &w.normal.c2}) {
+    *n = Select3(on.placed, NormalizeOr(TransformVector(to.normal, *n), *n), *n);
+  }
+}
+
+// The scalar twin is terminatorLift in src/reference/surfel.cpp.
+void LiftShadowOrigins(Chunk& c) noexcept {
+  const FloatTag d;
+  const ShadingTables& tables = c.tables();
+  const HitColumns hits = c.hits;
+  const SurfelColumns surfels = c.surfels;
+  const size_t n = c.n;
+  const bool instanced = c.has(Feature::instances);
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto [valid, triangle] = LoadHits(hits, i);
+    const TriangleLanes t = LoadTriangles(tables, triangle);
+    WorldCorners w{{t.p0, t.p1, t.p2}, LoadNormals(tables, triangle)};
+    if (instanced) {
+      const InstanceHits on = LoadInstances(hits, valid, i);
+      if (!hn::AllFalse(d, on.placed)) CarryToWorld(tables, on, w);
+    }
+    const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
+    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+    const VF offset = hn::Load(d, surfels.offset + i);
+    V3 lift{zero, zero, zero};
+    const auto add = [&](const V3& corner, const V3& normal, VF weight) HWY_ATTR {
+      // Corner normals point to the outside, the surfel's to the viewer.
+      const V3 m = Scale3(normal, hn::CopySign(one, Dot(normal, ng)));
+      const VF below = hn::Neg(hn::Add(Dot(Sub3(position, corner), m), offset));
+      lift = MulAdd3(m, hn::Mul(weight, hn::Max(below, zero)), lift);
+    };
+    add(w.position.c0, w.normal.c0, hn::Sub(hn::Sub(one, u), v));
+    add(w.position.c1, w.normal.c1, u);
+    add(w.position.c2, w.normal.c2, v);
+    Store3(lift, surfels.liftX, surfels.liftY, surfels.liftZ, i);
+  }
+}
+
+StepFunction FindLiftShadowOrigins(size_t /*index*/) { return LiftShadowOrigins; }
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(FindPacketKernels);
+PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernels)(); }
+HWY_EXPORT(FindInterpolateSurfels);
+StepFunction findInterpolateSurfels(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindInterpolateSurfels)(index);
+}
+HWY_EXPORT(FindLiftShadowOrigins);
+StepFunction findLiftShadowOrigins(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindLiftShadowOrigins)(index);
+}
+}  // namespace whit::simd
+#endif

@@ -1,0 +1,117 @@
+// The 8-bit half of updateImage.
+#include "core/srgb.h"
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/update_image.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// 255 * srgb(x) for x in [0, 1], off by at most kNear: from the interpolation of t^(5/3) in
+// t = x^(1/4) at the seven Chebyshev nodes of [0.2365, 1], which is off by 0.00055; float adds
+// 1e-4.
+constexpr float kNear = 0x1p-10f;
+HWY_INLINE VF NearCode(VF x) {
+  const FloatTag d;
+  const VF t = hn::Sqrt(hn::Sqrt(x));
+  VF curve = hn::MulAdd(t, hn::Set(d, 15.7422484f), hn::Set(d, -75.0331475f));
+  curve = hn::MulAdd(t, curve, hn::Set(d, 158.355582f));
+  curve = hn::MulAdd(t, curve, hn::Set(d, -210.446404f));
+  curve = hn::MulAdd(t, curve, hn::Set(d, 345.416025f));
+  curve = hn::MulAdd(t, curve, hn::Set(d, 36.1993571f));
+  curve = hn::MulAdd(t, curve, hn::Set(d, -15.2334479f));
+  const VF line = hn::Mul(x, hn::Set(d, 255 * 12.92f));
+  return hn::IfThenElse(hn::Gt(x, hn::Set(d, 0.0031308f)), curve, line);
+}
+
+// round(255 * srgb(x)), exactly as the scalar srgbCode of the same float.
+HWY_INLINE VU SrgbCode(const SrgbTables& tables, VF x) {
+  const FloatTag d;
+  const IntTag di;
+  const VF one = hn::Set(d, 1.0f);
+  // A comparison that NaN fails, so that NaN becomes 0 on every target.
+  const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), one);
+  // Rounded down, the least that the code may be. It is one more at most, and that only where the
+  // next whole number is near: in one lane of 500. There the least float of the next code decides.
+  const VF least = hn::Add(NearCode(clamped), hn::Set(d, 0.5f - kNear));
+  const VF whole = hn::Floor(least);
+  const VI code = hn::ConvertTo(di, whole);
+  const MF open = hn::Ge(hn::Sub(least, whole), hn::Set(d, 1 - 2 * kNear));
+  if (HWY_LIKELY(hn::AllFalse(d, open))) return hn::BitCast(UintTag(), code);
+  const VF next = hn::GatherIndex(d, tables.least.data(), hn::Add(code, hn::Set(di, 1)));
+  const VI step = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(clamped, next)), hn::Set(di, 1));
+  return hn::BitCast(UintTag(), hn::Add(code, step));
+}
+
+// Hable's shoulder-and-toe curve (2010), scaled so that 11.2 becomes 1.
+HWY_INLINE VF HableCurve(VF x) {
+  const FloatTag d;
+  const VF a = hn::Set(d, 0.15f), b = hn::Set(d, 0.50f), cb = hn::Set(d, 0.05f);
+  const VF de = hn::Set(d, 0.20f * 0.02f), df = hn::Set(d, 0.20f * 0.30f);
+  const VF numerator = hn::MulAdd(x, hn::MulAdd(a, x, cb), de);
+  const VF denominator = hn::MulAdd(x, hn::MulAdd(a, x, b), df);
+  return hn::Sub(hn::Div(numerator, denominator), hn::Set(d, 0.02f / 0.30f));
+}
+
+HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
+  const FloatTag d;
+  const VF positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+  switch (curve) {
+    case ToneCurve::reinhard: {
+      // Infinity stays 1, not infinity over infinity.
+      const VF bounded = hn::Min(positive, hn::Set(d, 1e30f));
+      return hn::Div(bounded, hn::Add(bounded, hn::Set(d, 1.0f)));
+    }
+    case ToneCurve::filmic: {
+      const VF bounded = hn::Min(positive, hn::Set(d, 1e15f));
+      return hn::Div(HableCurve(bounded), HableCurve(hn::Set(d, 11.2f)));
+    }
+    case ToneCurve::none:
+      break;
+  }
+  return positive;
+}
+
+// The code of the nearest step: srgbCodeByTable in float.
+HWY_INLINE VU SrgbCodeByTable(const SrgbTables& tables, VF x) {
+  const FloatTag d;
+  const IntTag di;
+  const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), hn::Set(d, 1.0f));
+  const VF step =
+      hn::Add(hn::Mul(clamped, hn::Set(d, static_cast<float>(kSrgbSteps))), hn::Set(d, 0.5f));
+  return hn::BitCast(UintTag(),
+                     hn::GatherIndex(di, tables.codeOfStep.data(), hn::ConvertTo(di, step)));
+}
+
+void EncodeDisplay(const EncodeArgs& args) {
+  const FloatTag d;
+  const UintTag du;
+  const SrgbTables& tables = srgbTables();
+  const ToneCurve curve = args.curve;
+  const SrgbEncoding encoding = args.encoding;
+  const RadianceColumns radiance = args.radiance;
+  const VF scale = hn::Set(d, args.exposureScale);
+  for (size_t i = 0; i < args.n; i += hn::Lanes(d)) {
+    const auto encode = [&](const float* column) HWY_ATTR {
+      const VF curved = ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale));
+      return encoding == SrgbEncoding::table ? SrgbCodeByTable(tables, curved)
+                                             : SrgbCode(tables, curved);
+    };
+    const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
+    const VU b = hn::ShiftLeft<16>(encode(radiance.b));
+    hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, args.codes + i);
+  }
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(EncodeDisplay);
+void encodeDisplay(const EncodeArgs& args) noexcept { HWY_DYNAMIC_DISPATCH(EncodeDisplay)(args); }
+}  // namespace whit::simd
+#endif

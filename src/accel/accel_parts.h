@@ -1,0 +1,31 @@
+// What an Accel holds. Not in accel.h, so that nobody else sees Embree.
+#pragma once
+
+#include <string>
+
+#include "accel/accel.h"
+#include "accel/embree_scene.h"
+#include "simd/kernels.h"
+
+namespace whit {
+
+struct Accel::Parts {
+  Parts(const Scene& scene, const AccelOptions& options, Progress* progress)
+      : embree(scene, options, progress) {}
+
+  // The width of a packet of shadow rays.
+  int shadowPacket(bool coherent) const {
+    return coherent && embree.coherentOcclusionMayHang(packet) ? 8 : packet;
+  }
+  // Whether Embree is to lead packets of this width through its BVH several at a time.
+  bool together(int width, bool coherent) const {
+    return coherent && embree.streamWidth() == width;
+  }
+
+  EmbreeScene embree;
+  simd::PacketKernels kernels = simd::findPacketKernels();
+  int packet = 8;
+  std::string description;
+};
+
+}  // namespace whit

@@ -1,0 +1,24 @@
+// A box along the axes, grown around points.
+#pragma once
+
+#include <limits>
+
+#include "core/vec3.h"
+
+namespace whit {
+
+struct Box {
+  Vec3f lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
+
+  bool empty() const { return !(lower.x <= upper.x); }
+  void add(const Vec3f& p) {
+    lower = min(lower, p);
+    upper = max(upper, p);
+  }
+  // Of eight; bit k of `i` says which end of axis k.
+  Vec3f corner(int i) const {
+    return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
+  }
+};
+
+}  // namespace whit

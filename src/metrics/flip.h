@@ -1,0 +1,25 @@
+// LDR-FLIP of pictures as they are displayed; private to this folder.
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+#include "core/vec3.h"
+
+namespace whit {
+
+// What FLIP sees of one image.
+struct FlipSide {
+  std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
+  std::vector<float> edge, point;  // magnitudes of the features
+};
+
+// `pixels` are linear, in [0, 1], width * height of them.
+FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height);
+// FLIP per pixel of two images of the same size.
+std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b);
+
+// The same of two encoded images of the same size.
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b);
+
+}  // namespace whit

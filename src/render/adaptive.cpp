@@ -1,0 +1,179 @@
+#include "render/adaptive.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include "core/pixel.h"
+#include "sampling/sample_pattern.h"
+
+namespace whit {
+
+namespace {
+
+// Pixels that are traced together after the first pass. Fewer than a tile has: they are few, of
+// many samples, and no worker is to wait long for another's last list.
+constexpr std::size_t kListLength = 256;
+
+// Notes what the rays of depth 0 meet, a surface a pixel of the film.
+class SurfaceRecorder : public StageObserver {
+ public:
+  SurfaceRecorder(const Image& image, std::vector<PixelSurface>& surfaces)
+      : image_(image), surfaces_(surfaces) {}
+
+  void after(Stage stage, const Chunk& c) override {
+    if (stage != Stage::findIntersections || c.depth > 0) return;
+    const SurfelColumns& s = c.surfels;
+    for (std::size_t i = 0; i < c.n; ++i) {
+      const std::uint32_t pixel = c.pixels[c.first + i];
+      PixelSurface& surface = surfaces_[image_.index(pixelX(pixel), pixelY(pixel))];
+      surface = {};
+      if (s.material[i] == kMiss) continue;
+      surface.material = s.material[i];
+      if (c.has(Feature::instances)) surface.instance = c.hits.instance[i];
+      surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
+      surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
+    }
+  }
+
+ private:
+  const Image& image_;
+  std::vector<PixelSurface>& surfaces_;
+};
+
+}  // namespace
+
+Crop AdaptiveSampler::tracedWindow(const Image& image) {
+  return grown(image.window, kPassReach, image.width, image.height);
+}
+
+std::size_t AdaptiveSampler::bytes() const {
+  return surfaces_.capacity() * sizeof(PixelSurface) + edges_.capacity() + contrasting_.capacity() +
+         (probes_ ? probes_->bytes() : 0) + first_.image.pixels.capacity() * sizeof(Rgb) +
+         first_.display.rgba.capacity();
+}
+
+FrameStats AdaptiveSampler::render(const Frame& frame, const Scheduler::Watch& watch) {
+  startOver(frame);
+  FrameStats stats = traceCenters(frame, watch);
+  stats.add(traceProbes(frame, watch));
+  stats.add(findContrast(frame));
+  stats.nonFinitePixels = 0;  // of pictures that are kept only
+  stats.add(keepFirstPicture(frame));
+  Frame rest = frame;
+  if (frame.samples.size() > kProbeSamples) {
+    rest.probes = &*probes_;
+    rest.firstSample = kProbeSamples;
+  }
+  stats.add(traceMarked(rest, frame.film->image.window, contrasting_, watch));
+  return stats;
+}
+
+void AdaptiveSampler::startOver(const Frame& frame) {
+  const Image& film = frame.film->image;
+  if (first_.image.window != scheduler_.window() || first_.image.width != film.width ||
+      first_.image.height != film.height) {
+    first_.image = Image(film.width, film.height, scheduler_.window());
+    sizeDisplay(first_);
+    surfaces_.resize(first_.image.pixels.size());
+    edges_.resize(surfaces_.size());
+    probes_.reset();
+  }
+  if (frame.samples.size() != samples_) probes_.reset();
+  samples_ = frame.samples.size();
+  contrasting_.assign(surfaces_.size(), 0);
+}
+
+FrameStats AdaptiveSampler::traceCenters(const Frame& frame, const Scheduler::Watch& watch) {
+  Frame centers = frame;
+  SurfaceRecorder recorder(first_.image, surfaces_);
+  centers.samples = samplePattern(1);
+  centers.film = &first_;
+  centers.observer = &recorder;
+  return scheduler_.trace(centers, scheduler_.allPixels(), watch);
+}
+
+FrameStats AdaptiveSampler::traceProbes(const Frame& frame, const Scheduler::Watch& watch) {
+  const int contrast = frame.constants.options.contrast;
+  FrameStats stats = scheduler_.forRows([&](int begin, int end) {
+    findEdges(first_.display, surfaces_, contrast, begin, end, edges_);
+  });
+  if (!probes_) {
+    const int spp = static_cast<int>(samples_);
+    probes_.emplace(scheduler_.window(), edges_, samplePattern(std::max(spp, kProbeSamples)));
+  }
+  Frame probes = frame;
+  probes.samples.resize(std::min<std::size_t>(samples_, kProbeSamples));
+  probes.film = &first_;
+  probes.probes = &*probes_;
+  const Image& image = frame.film->image;
+  stats.add(traceMarked(probes, grown(image.window, 1, image.width, image.height), edges_, watch));
+  return stats;
+}
+
+// Where the probe samples do not agree, if there are more samples than those.
+FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
+  if (samples_ <= kProbeSamples) return {};
+  const Crop &traced = scheduler_.window(), &window = frame.film->image.window;
+  const int contrast = frame.constants.options.contrast;
+  return scheduler_.forRows([&](int begin, int end) {
+    for (int y = std::max(traced.y0 + begin, window.y0); y < std::min(traced.y0 + end, window.y1);
+         ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        const std::size_t i = first_.image.index(x, y);
+        contrasting_[i] = edges_[i] != 0 && probes_->differ(x, y, contrast);
+      }
+    }
+  });
+}
+
+// The film takes over what is not traced anew.
+FrameStats AdaptiveSampler::keepFirstPicture(const Frame& frame) {
+  Film& film = *frame.film;
+  Image& to = film.image;
+  const Crop& traced = scheduler_.window();
+  std::atomic<std::uint64_t> nonFinite{0};
+  FrameStats stats = scheduler_.forRows([&](int begin, int end) {
+    std::uint64_t mine = 0;
+    for (int y = std::max(traced.y0 + begin, to.window.y0);
+         y < std::min(traced.y0 + end, to.window.y1); ++y) {
+      for (int x = to.window.x0; x < to.window.x1; ++x) {
+        const std::size_t source = first_.image.index(x, y), target = to.index(x, y);
+        if (contrasting_[source] != 0) continue;
+        const Rgb value = to.pixels[target] = first_.image.pixels[source];
+        mine += !isFinite(value);
+        if (!film.wantDisplay) continue;
+        std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);
+      }
+    }
+    nonFinite += mine;
+  });
+  stats.nonFinitePixels += nonFinite;
+  return stats;
+}
+
+FrameStats AdaptiveSampler::traceMarked(const Frame& frame, const Crop& window,
+                                        const std::vector<std::uint8_t>& marks,
+                                        const Scheduler::Watch& watch) {
+  return scheduler_.trace(frame, scheduler_.workOf(markedPixels(window, marks)), watch);
+}
+
+// In the order of the tiles, so that neighbors stay together.
+PixelLists AdaptiveSampler::markedPixels(const Crop& window,
+                                         const std::vector<std::uint8_t>& marks) const {
+  PixelLists lists;
+  for (const auto& tile : scheduler_.allPixels().tiles) {
+    for (const std::uint32_t pixel : tile) {
+      const int x = pixelX(pixel), y = pixelY(pixel);
+      const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
+      if (!inside || marks[first_.image.index(x, y)] == 0) continue;
+      if (lists.empty() || lists.back().size() == kListLength) {
+        lists.emplace_back().reserve(kListLength);
+      }
+      lists.back().push_back(pixel);
+    }
+  }
+  return lists;
+}
+
+}  // namespace whit

@@ -1,0 +1,31 @@
+// What the options say about a frame's camera and film.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/options.h"
+#include "render/film.h"
+#include "render/frame_stats.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "stages/chunk.h"
+
+namespace whit {
+
+// The camera that the options ask for: --camera, then --eye, --at, --up, --fov on top of it.
+// Throws Error(usage) naming the nearest camera.
+Camera chooseCamera(const Scene& scene, const RenderOptions& options);
+// Where the scene's camera path is at `seconds`, with --eye, --at, --up, --fov on top. Throws
+// Error(usage) when the scene has no path.
+Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
+// The camera as kernels take it.
+CameraRays cameraRays(const CameraFrame& camera);
+// An empty film of the size and crop that the options ask for. Throws Error(usage) for a crop
+// outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
+Film makeFilm(const Scene& scene, const RenderOptions& options,
+              std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
+// Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
+void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
+
+}  // namespace whit

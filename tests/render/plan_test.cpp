@@ -1,0 +1,162 @@
+// The table of compiled kernel variants, and the plans that are made of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "render/plan.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+using simd::Kernel;
+using simd::kKernels;
+
+Plan planOf(EffectSet effects) {
+  Scene scene;
+  scene.effects = effects;
+  scene.lights.resize(1);
+  RenderOptions options;
+  options.glossy = 2;
+  return makePlan(scene, options);
+}
+
+TEST(KernelVariants, AreFewEnoughToCompile) {
+  std::size_t variants = 0;
+  for (const Kernel& kernel : kKernels) {
+    // A choice doubles a kernel's code and the time to compile it, once for every target.
+    EXPECT_LE(kernel.variantCount(), 8u) << kernel.name;
+    variants += kernel.variantCount();
+  }
+  EXPECT_LE(variants, 32u);
+}
+
+TEST(KernelVariants, AreTheSubsetsOfAKernelsChoices) {
+  for (const Kernel& kernel : kKernels) {
+    std::set<std::uint32_t> seen;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < kernel.variantCount(); ++i) {
+      const EffectSet variant = kernel.variant(i);
+      EXPECT_EQ(variant.without(kernel.choices), EffectSet()) << kernel.name;
+      EXPECT_EQ(kernel.variantFor(variant), i) << kernel.name;
+      // Effects that are no choice of this kernel do not choose another variant.
+      EXPECT_EQ(kernel.variantFor(EffectSet(variant.bits() | ~kernel.choices.bits())), i);
+      seen.insert(variant.bits());
+      names.insert(simd::variantName(variant));
+    }
+    EXPECT_EQ(seen.size(), kernel.variantCount()) << kernel.name;
+    EXPECT_EQ(names.size(), kernel.variantCount()) << kernel.name;
+  }
+}
+
+TEST(KernelVariants, BelongToStagesInOrder) {
+  EXPECT_TRUE(std::is_sorted(kKernels.begin(), kKernels.end(),
+                             [](const Kernel& a, const Kernel& b) { return a.stage < b.stage; }));
+  for (std::size_t s = 0; s < kStageCount; ++s) {
+    const auto stage = static_cast<Stage>(s);
+    const bool has = std::any_of(kKernels.begin(), kKernels.end(),
+                                 [&](const Kernel& k) { return k.stage == stage; });
+    EXPECT_TRUE(has) << kStageNames[s];
+  }
+}
+
+TEST(KernelVariants, AreCompiledForEveryTargetThatCanBeChosen) {
+  const std::vector<std::string> compiled = simd::compiledTargets();
+  for (const std::string& target : simd::availableTargets()) {
+    EXPECT_NE(std::find(compiled.begin(), compiled.end(), target), compiled.end()) << target;
+  }
+}
+
+TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
+  for (std::uint32_t bits = 0; bits <= EffectSet::all().bits(); bits += 37) {
+    const Plan plan = planOf(EffectSet(bits));
+    std::set<Stage> stages;
+    const std::vector<KernelUse> uses = kernelsOf(plan);
+    for (const KernelUse& use : uses) {
+      stages.insert(use.stage);
+      if (use.target == "embree") continue;
+      const auto kernel = std::find_if(kKernels.begin(), kKernels.end(),
+                                       [&](const Kernel& k) { return k.name == use.kernel; });
+      ASSERT_NE(kernel, kKernels.end()) << use.kernel;
+      EXPECT_EQ(use.stage, kernel->stage);
+    }
+    EXPECT_EQ(std::vector<Stage>(stages.begin(), stages.end()), plan.stages());
+    EXPECT_TRUE(
+        std::is_sorted(uses.begin(), uses.end(),
+                       [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; }));
+  }
+}
+
+TEST(KernelsOfAPlan, NameTheVariant) {
+  const Plan plan = planOf(EffectSet()
+                               .with(Effect::lights)
+                               .with(Effect::textures)
+                               .with(Effect::normalMaps)
+                               .with(Effect::mirror));
+  std::vector<std::string> names;
+  for (const KernelUse& use : kernelsOf(plan)) names.push_back(use.kernel + ":" + use.variant);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "generateRays:plain", "packRays:plain", "intersect:plain", "unpackHits:plain",
+                "interpolateSurfels:textures+normalMaps", "writeEmittedAndReflectiveAmbient:plain",
+                "findRadianceAndShadowRays:plain", "addShading:plain", "addReflections:plain",
+                "returnImpulses:plain", "encodeDisplay:plain"}));
+}
+
+TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
+  RenderOptions options;
+  options.shading.terminator = true;
+  for (const int packet : {1, 16}) {
+    options.packet = packet;
+    Scene scene;
+    scene.effects = EffectSet::all();
+    scene.lights.resize(1);
+    std::vector<std::string> names;
+    for (const KernelUse& use : kernelsOf(makePlan(scene, options))) {
+      const bool traces = use.stage == Stage::findIntersections || use.stage == Stage::checkShadows;
+      if (traces) names.push_back(use.kernel);
+    }
+    const std::vector<std::string> singly{"intersect", "interpolateSurfels", "liftShadowOrigins",
+                                          "occluded"};
+    const std::vector<std::string> inPackets{
+        "packRays",          "intersect",      "unpackHits", "interpolateSurfels",
+        "liftShadowOrigins", "packShadowRays", "occluded",   "unpackVisibility"};
+    EXPECT_EQ(names, packet == 1 ? singly : inPackets);
+  }
+}
+
+TEST(Plans, HaveNoStepThatReadsWhatNoneHasWritten) {
+  for (std::uint32_t bits = 0; bits <= EffectSet::all().bits(); bits += 37) {
+    EXPECT_NO_THROW(planOf(EffectSet(bits))) << bits;
+  }
+}
+
+TEST(Plans, EndEachStageOnce) {
+  planOf(EffectSet::all()).forEachStep([](const Step& step) {
+    EXPECT_EQ(step.endsStage, step.name != "findHits" && step.name != "interpolateSurfels" &&
+                                  step.name != "addReflections" &&
+                                  step.name != "addGlossyReflections")
+        << step.name;
+    EXPECT_NE(step.run, nullptr) << step.name;
+  });
+}
+
+TEST(Plans, GiveEachLightTheCodeOfItsOwnKind) {
+  Scene scene;
+  scene.effects = EffectSet::all();
+  scene.lights.resize(3);
+  scene.lights[1].kind = Light::Kind::spot;
+  scene.lights[2].kind = Light::Kind::directional;
+  const Plan plan = makePlan(scene, RenderOptions());
+  ASSERT_EQ(plan.perLight.size(), 3u);
+  std::set<std::string> variants;
+  for (const LightSteps& light : plan.perLight) {
+    variants.insert(light.steps[0].kernels[0].variant);
+  }
+  EXPECT_EQ(variants,
+            (std::set<std::string>{"glossy", "glossy+spotLights", "glossy+directionalLights"}));
+}
+
+}  // namespace
+}  // namespace whit::test
