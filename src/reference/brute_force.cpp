@@ -1,7 +1,7 @@
 #include <limits>
 
+#include "reference/find_intersections.h"
 #include "reference/reference.h"
-#include "reference/surfel.h"
 #include "reference/triangle.h"
 
 namespace whit::reference {

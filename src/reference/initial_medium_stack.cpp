@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "reference/surfel.h"
+#include "reference/find_intersections.h"
 #include "reference/triangle.h"
 
 namespace whit::reference {

@@ -6,14 +6,28 @@
 
 #include "core/display.h"
 #include "core/film.h"
+#include "core/pixel.h"
 #include "core/worker_pool.h"
+#include "reference/find_intersections.h"
+#include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
+#include "reference/update_image.h"
 #include "sampling/probe_samples.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 
 namespace {
+
+Path pathOf(int x, int y, std::size_t sample) {
+  const auto number = static_cast<std::uint32_t>(sample);
+  return {streamOfPixel(packedPixel(x, y), number), number};
+}
+
+PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
+  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
+}
 
 using RowTask = std::function<void(int y, RayCounts& counts)>;
 
@@ -60,9 +74,8 @@ RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Sett
     for (int s = 0; s < samples; ++s) {
       const auto number = static_cast<std::size_t>(s);
       const RgbD value = tracer.sample(frame, x, y, number, counts);
-      own.total += (value - own.total) / (s + 1.0);
-      const auto codes = displayCodes(Rgb(value), scale, options.toneCurve, options.srgb);
-      own.codes[number] = codes[0] | std::uint32_t{codes[1]} << 8 | std::uint32_t{codes[2]} << 16;
+      addSample(own.total, value, s + 1.0);
+      own.codes[number] = displayCode(Rgb(value), scale, options.toneCurve, options.srgb);
     }
     first.image.at(x, y) = quantized(options.film, Rgb(own.total));
   };
@@ -95,7 +108,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     RgbD mean = probes.at(x, y).total;
     for (int s = kProbeSamples; s < options.spp; ++s) {
       const auto number = static_cast<std::size_t>(s);
-      mean += (tracer.sample(frame, x, y, number, rowCounts) - mean) / (s + 1.0);
+      addSample(mean, tracer.sample(frame, x, y, number, rowCounts), s + 1.0);
     }
     return quantized(options.film, Rgb(mean));
   };
@@ -110,6 +123,40 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
 }
 
 }  // namespace
+
+RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  RgbD mean;
+  double taken = 0;
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    addSample(mean, sample(camera, x, y, s, counts), ++taken);
+  }
+  return mean;
+}
+
+RgbD Tracer::sample(const CameraFrame& camera, int x, int y, std::size_t number,
+                    RayCounts& counts) const {
+  return sampled(camera, x, y, samples_[number], number, counts);
+}
+
+RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
+}
+
+RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
+                     RayCounts& counts) const {
+  ++counts.primary;
+  const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
+  return traceImpulse(ray, 0, 1.0, camera.media, counts, pathOf(x, y, sample));
+}
+
+PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
+  const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
+  Candidate candidate;
+  if (!intersector_.closest(ray, candidate)) return {};
+  const TriangleHit hit = refineHit(scene_, ray, candidate);
+  const Surfel s = makeSurfel(scene_, effects_, candidate, hit, ray.direction);
+  return surfaceOf(s, candidate);
+}
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {

@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <limits>
-#include <optional>
 
-#include "core/pixel.h"
-#include "reference/generate_ray.h"
-#include "reference/glossy.h"
-#include "reference/impulses.h"
+#include "reference/add_impulses.h"
+#include "reference/check_shadows.h"
+#include "reference/find_intersections.h"
+#include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/media.h"
 #include "reference/reference.h"
-#include "reference/shading.h"
-#include "reference/surfel.h"
+#include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/sample_pattern.h"
 
@@ -17,16 +15,8 @@ namespace whit::reference {
 
 namespace {
 
-Path pathOf(int x, int y, std::size_t sample) {
-  const auto number = static_cast<std::uint32_t>(sample);
-  return {streamOfPixel(packedPixel(x, y), number), number};
-}
 Path childOf(const Path& path, std::uint32_t branch) {
   return {childStream(path.number, branch), path.sample};
-}
-
-PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
-  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
 }
 
 }  // namespace
@@ -122,46 +112,11 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCoun
     if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
     if (effects_.has(Effect::shadows)) {
       ++counts.shadow;
-      if (intersector_.occluded(arrival.shadowRay, arrival.tFar)) continue;
+      if (!isVisible(intersector_, arrival.shadowRay, arrival.tFar)) continue;
     }
     sum += arrival.radiance;
   }
   return sum;
-}
-
-RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  // A running mean: samples that are all equal give just that, without any rounding.
-  RgbD mean;
-  double taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
-    mean += (sample(camera, x, y, s, counts) - mean) / ++taken;
-  }
-  return mean;
-}
-
-RgbD Tracer::sample(const CameraFrame& camera, int x, int y, std::size_t number,
-                    RayCounts& counts) const {
-  return sampled(camera, x, y, samples_[number], number, counts);
-}
-
-RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
-}
-
-RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
-                     RayCounts& counts) const {
-  ++counts.primary;
-  const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
-  return traceImpulse(ray, 0, 1.0, camera.media, counts, pathOf(x, y, sample));
-}
-
-PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
-  const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
-  Candidate candidate;
-  if (!intersector_.closest(ray, candidate)) return {};
-  const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const Surfel s = makeSurfel(scene_, effects_, candidate, hit, ray.direction);
-  return surfaceOf(s, candidate);
 }
 
 }  // namespace whit::reference

@@ -1,7 +1,6 @@
 #include "reference/triangle.h"
 
 #include <cmath>
-#include <limits>
 
 namespace whit::reference {
 
@@ -56,15 +55,6 @@ std::optional<Pierced> pierce(const Ray& ray, const Corners& corners) {
   return Pierced{hit, inside};
 }
 
-// The nearest weights that belong to a point of the triangle.
-void moveOntoTriangle(TriangleHit& hit) {
-  const double w = std::max(0.0, 1 - hit.u - hit.v);
-  const double u = std::max(0.0, hit.u), v = std::max(0.0, hit.v);
-  const double sum = w + u + v;
-  hit.u = sum > 0 ? u / sum : 1.0 / 3;
-  hit.v = sum > 0 ? v / sum : 1.0 / 3;
-}
-
 }  // namespace
 
 Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance) {
@@ -85,20 +75,6 @@ std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corn
   const std::optional<Pierced> pierced = pierce(ray, corners);
   if (!pierced || !pierced->inside || !(pierced->hit.t > 0)) return std::nullopt;
   return pierced->hit;
-}
-
-TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
-  const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
-  if (std::optional<TriangleHit> hit = piercePlane(ray, corners); hit && hit->t > 0) {
-    moveOntoTriangle(*hit);
-    return *hit;
-  }
-  TriangleHit hit{0, candidate.u, candidate.v};
-  moveOntoTriangle(hit);
-  const Vec3d point = corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
-  const double t = dot(point - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
-  hit.t = t > 0 ? t : std::numeric_limits<double>::min();
-  return hit;
 }
 
 }  // namespace whit::reference

@@ -29,9 +29,4 @@ std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
 // intersection"; border hits count for every triangle that they touch).
 std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corners);
 
-// The hit that a candidate stands for, computed again: u, v >= 0, u + v <= 1, t > 0. Rounding may
-// have put the hit just beside the triangle; it is moved onto it. The candidate's own u and v serve
-// where ray and triangle leave nothing to compute with.
-TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
-
 }  // namespace whit::reference

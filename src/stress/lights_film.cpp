@@ -1,7 +1,7 @@
 // H65 to H76: lights at no distance, texture coordinates, film, camera.
 
 #include "core/pixel.h"
-#include "reference/generate_ray.h"
+#include "reference/generate_rays.h"
 #include "simd/kernels.h"
 #include "stress/bodies.h"
 

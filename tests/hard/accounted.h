@@ -14,7 +14,7 @@ struct Accounted {
 };
 
 inline constexpr std::array kAccounted{
-    Accounted{11, "instances are their meshes, moved", "tests/reference/reference_surfel_test.cpp",
+    Accounted{11, "instances are their meshes, moved", "tests/reference/find_intersections_test.cpp",
               "Surfel.InstancesMatchBakedGeometry", ""},
     Accounted{23, "degenerate triangles are counted", "tests/unit/repairing_test.cpp",
               "Repairing.DegenerateTrianglesAreDroppedAndCounted", ""},
@@ -37,15 +37,15 @@ inline constexpr std::array kAccounted{
     Accounted{57, "sky and image texels are repaired and counted", "tests/images/exr_test.cpp",
               "ExrTest.OddValuesAreMendedInTexturesOnly", ""},
     Accounted{67, "cones of spot lights, directional lights",
-              "tests/reference/spot_lights_test.cpp",
+              "tests/reference/find_radiance_and_shadow_rays_test.cpp",
               "SpotCone.H67_fallsOffMonotonicallyBetweenItsCones", ""},
     Accounted{68, "far texture coordinates are recenterd", "tests/unit/repairing_test.cpp",
               "Repairing.FarTextureCoordinatesAreRecenterdWhereTheyRepeat", ""},
-    Accounted{69, "coordinates just below 0", "tests/reference/reference_texture_test.cpp",
+    Accounted{69, "coordinates just below 0", "tests/reference/texture_sampling_test.cpp",
               "TextureSampling.TinyNegativeCoordinates", ""},
-    Accounted{70, "footprints of no sense", "tests/reference/reference_cones_test.cpp",
+    Accounted{70, "footprints of no sense", "tests/reference/ray_cones_test.cpp",
               "MipLevel.H70_ofSenselessFootprintsIsALevel", ""},
-    Accounted{70, "whole mip levels", "tests/reference/reference_cones_test.cpp",
+    Accounted{70, "whole mip levels", "tests/reference/ray_cones_test.cpp",
               "Trilinear.H70_aWholeLevelIsThatLevelBitForBit", ""},
     Accounted{71, "analytic spheres", "", "", "every surface is made of triangles"},
     Accounted{72, "every sRGB code comes back", "tests/images/display_test.cpp",

@@ -14,6 +14,14 @@ inline Vec3d steep(double degrees) {
   return {std::sin(angle), -std::cos(angle), 0};
 }
 
+inline Light sun(const Vec3f& direction, float irradiance) {
+  Light light;
+  light.kind = Light::Kind::directional;
+  light.direction = direction;
+  light.intensity = Rgb(irradiance);
+  return light;
+}
+
 // Depth 8, no cutoff: contributions are all counted.
 inline reference::Settings uncut(int depth = 8) {
   reference::Settings settings;

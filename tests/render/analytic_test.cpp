@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pi.h"
-#include "reference/generate_ray.h"
+#include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 #include "render/stage_comparison.h"

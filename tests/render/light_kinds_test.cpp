@@ -5,7 +5,7 @@
 
 #include "metrics/metrics.h"
 #include "pi.h"
-#include "reference/generate_ray.h"
+#include "reference/generate_rays.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 #include "stress/scene_builder.h"

@@ -3,8 +3,9 @@
 
 #include <cmath>
 
+#include "reference/add_impulses.h"
+#include "reference/find_intersections.h"
 #include "reference/fresnel.h"
-#include "reference/impulses.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {

@@ -1,4 +1,4 @@
-#include "reference/shading.h"
+#include "reference/find_radiance_and_shadow_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,25 +21,12 @@ double shadowReach(const Light& light, double distance) {
   return std::max(0.0, 1 - (uncertainty + 4 * kUnitRoundOff));
 }
 
+LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
+  return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
+                           chunk.options().shading);
+}
+
 }  // namespace
-
-RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
-  if (!effects.has(Effect::sky)) return {};
-  if (scene.sky.kind == Sky::Kind::image && !effects.has(Effect::skyImage)) return {};
-  return skyRadiance(scene.sky, direction);
-}
-
-RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
-  RgbD radiance;
-  if (effects.has(Effect::emission)) {
-    radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
-  }
-  if (effects.has(Effect::ambient)) {
-    const RgbD up(scene.ambient.up), down(scene.ambient.down);
-    radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
-  }
-  return radiance;
-}
 
 RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   const Vec3d& n = surfel.shadingNormal;
@@ -92,6 +79,30 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   arrival.shadowRay = {origin, towards(light, origin)};
   arrival.tFar = shadowReach(light, distance);
   return arrival;
+}
+
+std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,
+                                          std::size_t slot) {
+  const LightArrival arrival = arrivalAt(world, chunk, slot);
+  if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
+  UnshadowedRow row;
+  put(arrival.radiance, row.r, row.g, row.b);
+  // Shadow rays have yet to find out.
+  row.visible = chunk.has(Feature::shadows) ? 0 : 1;
+  return row;
+}
+
+std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
+                                       std::size_t shadowRay) {
+  const std::uint32_t slot = chunk.shadows.slot[shadowRay];
+  const LightArrival arrival = arrivalAt(world, chunk, slot);
+  if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
+  ShadowRow row;
+  put(arrival.shadowRay.origin, row.orgX, row.orgY, row.orgZ);
+  put(arrival.shadowRay.direction, row.dirX, row.dirY, row.dirZ);
+  row.tFar = arrival.tFar;
+  row.slot = slot;
+  return row;
 }
 
 }  // namespace whit::reference

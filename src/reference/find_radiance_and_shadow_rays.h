@@ -1,16 +1,13 @@
-// What a surfel sends to the viewer by itself and from the lights.
+// findRadianceAndShadowRays: what a surfel sends to the viewer from one light, and the ray that
+// asks whether something is in between.
 #pragma once
 
+#include <optional>
+
 #include "core/shading_choices.h"
-#include "reference/surfel.h"
+#include "reference/twin.h"
 
 namespace whit::reference {
-
-// Radiance of the sky along the unit direction, black where the effects leave it out.
-RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction);
-
-// Emission, and the ambient light reflected by the diffuse color.
-RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
 
 // The glossy lobe's reflectance density (1/sr) towards the viewer for light from the unit direction
 // `toLight`: GGX with height-correlated masking (Walter et al. 2007, "Microfacet models for
@@ -26,5 +23,11 @@ struct LightArrival {
 };
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {});
+
+// The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light
+// lies in the surface's plane, or behind it.
+std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk, std::size_t slot);
+std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
+                                       std::size_t shadowRay);
 
 }  // namespace whit::reference

@@ -1,13 +1,24 @@
-#include "reference/surfel.h"
+#include "reference/find_intersections.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "reference/media.h"
 #include "reference/texture_sampling.h"
 
 namespace whit::reference {
 
 namespace {
+
+// The nearest weights that belong to a point of the triangle.
+void moveOntoTriangle(TriangleHit& hit) {
+  const double w = std::max(0.0, 1 - hit.u - hit.v);
+  const double u = std::max(0.0, hit.u), v = std::max(0.0, hit.v);
+  const double sum = w + u + v;
+  hit.u = sum > 0 ? u / sum : 1.0 / 3;
+  hit.v = sum > 0 ? v / sum : 1.0 / 3;
+}
 
 Vec3d triple(const float* values) { return {values[0], values[1], values[2]}; }
 
@@ -174,6 +185,20 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
 
 }  // namespace
 
+TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
+  const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
+  if (std::optional<TriangleHit> hit = piercePlane(ray, corners); hit && hit->t > 0) {
+    moveOntoTriangle(*hit);
+    return *hit;
+  }
+  TriangleHit hit{0, candidate.u, candidate.v};
+  moveOntoTriangle(hit);
+  const Vec3d point = corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
+  const double t = dot(point - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+  hit.t = t > 0 ? t : std::numeric_limits<double>::min();
+  return hit;
+}
+
 TexturePoint texturePoint(const float* uv, const TriangleHit& hit) {
   const double w = 1 - hit.u - hit.v;
   return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
@@ -245,6 +270,36 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
   findColors(scene, effects, candidate.triangle, hit, lookups, s);
   return s;
+}
+
+std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chunk,
+                                           std::size_t slot) {
+  const Candidate candidate = candidateOf(chunk, slot);
+  if (candidate.triangle == kNoHit) return std::nullopt;
+  const Ray ray = rayOf(chunk, slot);
+  const TriangleHit hit{double{chunk.hits.t[slot]}, candidate.u, candidate.v};
+  // Looked up at the width that the step has found: what is left of it decides between mip levels.
+  const TextureLookup lookup{chunk.options().shading.textureFilter, world.maps,
+                             surfelOf(chunk, slot).cone};
+  const Surfel s = makeSurfel(world.scene, world.effects, candidate, hit, ray.direction, lookup);
+  const std::uint32_t media = mediaOf(chunk, slot);
+  const Crossing crossing = crossMedia(world.scene, world.effects, s.material, s.entering, media);
+  const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
+  SurfelRow row;
+  put(s.position, row.posX, row.posY, row.posZ);
+  put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);
+  put(s.shadingNormal, row.nsX, row.nsY, row.nsZ);
+  row.offset = s.offset;
+  put(s.diffuse, row.diffuseR, row.diffuseG, row.diffuseB);
+  row.material = s.material;
+  put(s.specular, row.specularR, row.specularG, row.specularB);
+  row.alpha = s.alpha;
+  put(s.emission, row.emissionR, row.emissionG, row.emissionB);
+  put(s.lift, row.liftX, row.liftY, row.liftZ);
+  row.cone = cone.widthAt(hit.t);
+  row.flags = (s.entering ? kEntering : 0) | (crossing.hidden ? kHidden : 0);
+  row.mediaBehind = crossing.stackBehind;
+  return row;
 }
 
 }  // namespace whit::reference

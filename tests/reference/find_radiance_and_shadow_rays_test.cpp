@@ -1,10 +1,12 @@
-// Spot and directional lights against closed forms.
+// Point, spot and directional lights against closed forms.
+#include "reference/find_radiance_and_shadow_rays.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "pi.h"
-#include "reference/shading.h"
+#include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 #include "rounding.h"
 
@@ -14,20 +16,85 @@ namespace {
 using test::lightAt;
 using test::radianceAlong;
 using test::SceneBuilder;
+using test::sun;
+
+// What the camera should see at pixel (x, y) of a w x h image, from 5 above a floor that spans
+// y = 0, looking down with -z up: the point on the floor.
+Vec3d pointOnFloor(double x, double y, int w, int h, double fovDegrees) {
+  const double half = 5 * std::tan(fovDegrees * kPi / 360);
+  return {(x + 0.5 - w / 2.0) / (h / 2.0) * half, 0, (y + 0.5 - h / 2.0) / (h / 2.0) * half};
+}
+
+// L = kd / pi * I cos / d^2 at every pixel center.
+TEST(Lights, FallOffOverAFloor) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 100, builder.add(test::diffuseMaterial(0.5f))));
+  builder.description.lights = {lightAt({0.5f, 2, -0.25f}, 30)};
+  const Scene scene = builder.build();
+  Camera camera;
+  camera.eye = {0, 5, 0};
+  camera.at = {0, 0, 0};
+  camera.up = {0, 0, -1};
+  camera.fov = 60;
+  Image image(9, 7);
+  const RayCounts counts = render(scene, BruteForce(scene), camera, test::uncut(), image);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const Vec3d toLight = Vec3d{0.5, 2, -0.25} - pointOnFloor(x, y, 9, 7, 60);
+      const double d2 = dot(toLight, toLight), cosine = toLight.y / std::sqrt(d2);
+      const double expected = 0.5 / kPi * 30 * cosine / d2;
+      // One rounding to float at the end.
+      EXPECT_NEAR(image.at(x, y).x, expected, 1e-7 * expected) << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(counts.primary, 63u);
+  EXPECT_EQ(counts.shadow, 63u);
+  EXPECT_EQ(counts.reflection + counts.refraction, 0u);
+}
+
+// Hard case H65: near the light its radius bounds the radiance; at the light there is none.
+TEST(Lights, NearTheSurfaceStayFinite) {
+  for (const float height : {1e-2f, 1e-6f, 1e-30f, 0.0f}) {
+    SceneBuilder builder;
+    builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
+    Light light = lightAt({0.25f, height, 0.25f}, 1);
+    light.radius = 0.1f;
+    builder.description.lights = {light};
+    Settings settings = test::uncut();
+    settings.effects = EffectSet::all().without(Effect::shadows);
+    const RgbD seen = radianceAlong(builder.build(), {0.25, 1, 0.25}, {0, -1, 0}, settings);
+    const double expected = height > 0 ? 1 / kPi / (0.1 * 0.1) : 0;
+    EXPECT_NEAR(seen.x, expected, 1e-6 * expected) << height;
+  }
+}
+
+TEST(Lights, BehindTheSurfaceGiveNothing) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
+  builder.description.lights = {lightAt({0, -2, 0}, 1)};
+  const Scene scene = builder.build();
+  RayCounts counts;
+  EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, test::uncut(), &counts), RgbD());
+  EXPECT_EQ(counts.shadow, 0u) << "nothing to look for";
+  EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
+}
+
+// Hard case H36: both normals must see the light.
+TEST(Lights, BehindEitherNormalGiveNothing) {
+  Surfel s;
+  s.diffuse = RgbD(1.0);
+  s.view = s.geometricNormal = {0, 1, 0};
+  s.shadingNormal = normalized(Vec3d{1, 1, 0});
+  EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({2, -1, 0}, 1)).radiance, RgbD());
+  EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({-2, 1, 0}, 1)).radiance, RgbD());
+  EXPECT_GT(radianceFromLight(EffectSet::all(), s, lightAt({2, 1, 0}, 1)).radiance.x, 0);
+}
 
 Light spotAt(const Vec3f& position, float intensity, float inner, float outer) {
   Light light = lightAt(position, intensity);
   light.kind = Light::Kind::spot;
   light.innerConeAngle = inner;
   light.outerConeAngle = outer;
-  return light;
-}
-
-Light sun(const Vec3f& direction, float irradiance) {
-  Light light;
-  light.kind = Light::Kind::directional;
-  light.direction = direction;
-  light.intensity = Rgb(irradiance);
   return light;
 }
 
@@ -124,26 +191,6 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
   EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings), RgbD());
 }
 
-// However far away what stands in the way is; behind the surface nothing does.
-TEST(DirectionalLight, ShadowsReachToTheEndOfTheScene) {
-  for (const float height : {0.01f, 10.0f, 1e6f}) {
-    SceneBuilder builder;
-    const auto gray = builder.add(test::diffuseMaterial(1));
-    builder.add(test::floorAt(0, 10, gray));
-    builder.add(test::floorAt(-5, 10, gray));
-    // The light comes down from +x at 45 degrees: what hangs at `height` darkens what lies as far
-    // to the left.
-    const float x = height;
-    builder.add(test::quad({x - 1, height, 1}, {x + 1, height, 1}, {x + 1, height, -1},
-                           {x - 1, height, -1}, gray));
-    builder.description.lights = {sun({-1, -1, 0}, 1)};
-    const Scene scene = builder.build();
-    // A ray from just above the floor; the screen is beyond.
-    EXPECT_EQ(radianceAlong(scene, {0, 0.005, 0}, {0, -1, 0}).x, 0) << height;
-    EXPECT_NEAR(radianceAlong(scene, {5, 0.005, 0}, {0, -1, 0}).x, 1 / kPi * std::sqrt(0.5), 1e-9);
-  }
-}
-
 // Hard case H67: at a right angle to the surface, and from behind it.
 TEST(DirectionalLight, H67_givesNothingFromTheHorizonOrBelow) {
   SceneBuilder builder;
@@ -165,6 +212,29 @@ TEST(DirectionalLight, HasAHighlight) {
   EXPECT_NEAR(mirrored.radiance.x, glossyLobe(s, l).x * 3 * std::sqrt(0.5), kRounding);
   EXPECT_NEAR(dot(mirrored.shadowRay.direction, l), 1, kRounding);
   EXPECT_TRUE(std::isinf(mirrored.tFar));
+}
+
+// White, 2 below a light of 4 pi^2: 4 pi^2 / 4 / pi.
+TEST(FindRadianceTwin, LooksFromTheSurfelToTheLight) {
+  const Scene scene = SceneBuilder().build();
+  test::SmallChunk small(scene, FeatureSet::all().without(Feature::lift));
+  const Light light = lightAt({0, 2, 0}, static_cast<float>(4 * kPi));
+  small.chunk.light = &light;
+  test::setRay(small.chunk.rays, 0, {0, 1, 0}, {0, -1, 0});
+  small.chunk.surfels.ngY[0] = small.chunk.surfels.nsY[0] = 1;
+  small.chunk.surfels.diffuseR[0] = 1;
+  small.chunk.surfels.offset[0] = 0.0625f;
+  const auto unshadowed = findRadiance(small.world, small.chunk, 0);
+  const auto shadow = findShadowRay(small.world, small.chunk, 0);
+  ASSERT_TRUE(unshadowed && shadow);
+  EXPECT_NEAR(unshadowed->r, 1, 1e-7);
+  EXPECT_EQ(unshadowed->g, 0);
+  EXPECT_EQ(unshadowed->visible, 0) << "not yet known";
+  EXPECT_GE(shadow->orgY, 0.0625);
+  EXPECT_EQ(shadow->orgY + shadow->dirY, 2);
+  EXPECT_TRUE(shadow->tFar > 0.9999 && shadow->tFar < 1);
+  small.chunk.surfels.ngY[0] = -1;
+  EXPECT_FALSE(findRadiance(small.world, small.chunk, 0));
 }
 
 }  // namespace

@@ -1,17 +1,54 @@
-// Surfels: position, normals, offset, textures.
-#include "reference/surfel.h"
+// Hits computed again, and surfels: position, normals, offset, textures.
+#include "reference/find_intersections.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
 namespace {
 
 using test::makeTexture;
+using test::Numbers;
 using test::SceneBuilder;
+
+// Hard case H3: the point by weights lies on the triangle, whatever the distance of the eye.
+TEST(Triangle, RefinedHitStaysOnTheTriangle) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 0.5f, 0));
+  const Scene scene = builder.build();
+  Numbers numbers(2);
+  for (int i = 0; i < 1000; ++i) {
+    // Aimed a little past the border as well, as a candidate found in float may be.
+    const Vec3d target{numbers.in(-0.5001, 0.5001), 0, numbers.in(-0.5001, 0.5001)};
+    const Vec3d eye{1e5, numbers.in(1, 100), numbers.in(-1e5, 1e5)};
+    const Ray ray{eye, normalized(target - eye)};
+    const TriangleHit hit = refineHit(scene, ray, {static_cast<std::uint32_t>(i % 2)});
+    EXPECT_GE(hit.u, 0);
+    EXPECT_GE(hit.v, 0);
+    EXPECT_LE(hit.u + hit.v, 1 + 1e-15);
+    EXPECT_GT(hit.t, 0);
+  }
+}
+
+TEST(Triangle, UselessCandidateKeepsItsHint) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1, 0));
+  const Scene scene = builder.build();
+  // Along the plane: nothing to compute with.
+  const Ray along{{-5, 0, 0}, {1, 0, 0}};
+  const TriangleHit hit = refineHit(scene, along, {0, kNoHit, 0.25, 0.5});
+  EXPECT_EQ(hit.u, 0.25);
+  EXPECT_EQ(hit.v, 0.5);
+  EXPECT_GT(hit.t, 0);
+  const double nan = std::nan("");
+  const TriangleHit lost = refineHit(scene, along, {0, kNoHit, nan, nan});
+  EXPECT_GE(lost.u, 0);
+  EXPECT_LE(lost.u + lost.v, 1);
+}
 
 // The surfel that a ray meets, by brute force.
 Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards,
@@ -248,6 +285,30 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   const BruteForce bruteForce(scene);
   EXPECT_FALSE(bruteForce.occluded({{-1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
   EXPECT_TRUE(bruteForce.occluded({{1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
+}
+
+// Every column of the row is the surfel's; a ray that has met nothing has none.
+TEST(FindIntersectionsTwin, IsTheSurfelOfTheHit) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(1, 2, builder.add(test::glassMaterial(1.5f))));
+  const Scene scene = builder.build();
+  test::SmallChunk small(scene, FeatureSet::all().without(Feature::instances));
+  test::setRay(small.chunk.rays, 0, {0.5f, 3, 0.25f}, {0, -1, 0});
+  small.chunk.hits.triangle[0] = kMiss;
+  EXPECT_FALSE(findIntersections(small.world, small.chunk, 0));
+  small.chunk.hits.triangle[0] = 1;
+  small.chunk.hits.t[0] = 2;
+  small.chunk.hits.u[0] = 0.25f;
+  small.chunk.hits.v[0] = 0.5f;
+  const auto row = findIntersections(small.world, small.chunk, 0);
+  ASSERT_TRUE(row);
+  const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, {0, -1, 0});
+  EXPECT_EQ(Vec3d(row->posX, row->posY, row->posZ), s.position);
+  EXPECT_EQ(Vec3d(row->ngX, row->ngY, row->ngZ), Vec3d(0, 1, 0));
+  EXPECT_EQ(row->offset, s.offset);
+  EXPECT_EQ(row->material, s.material);
+  EXPECT_EQ(row->flags, kEntering);
+  EXPECT_EQ(row->mediaBehind, scene.mediumOfMaterial[s.material]);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 #include "core/pixel.h"
 #include "pi.h"
+#include "reference/add_impulses.h"
+#include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/fresnel.h"
-#include "reference/glossy.h"
-#include "reference/shading.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {

@@ -1,13 +1,11 @@
-// Whole pixels and images: sampling, crops, threads, determinism.
+// Whole images: crops, threads, determinism.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
 
-#include "reference/generate_ray.h"
 #include "reference/small_scenes.h"
-#include "sampling/sample_pattern.h"
 
 namespace whit::reference {
 namespace {
@@ -57,64 +55,6 @@ class FailingProgress : public Progress {
     if (fraction > 0.4) throw std::runtime_error("enough");
   }
 };
-
-TEST(GenerateRay, PassesThroughTheImagePlane) {
-  Camera camera;
-  camera.eye = {1, 2, 3};
-  camera.at = {1, 2, -7};
-  camera.fov = 90;
-  const CameraFrame frame = makeCameraFrame(camera, 400, 200);
-  const auto towards = [&](double x, double y) { return generateRay(frame, x, y).direction; };
-  EXPECT_EQ(generateRay(frame, 7, 8).origin, Vec3d(1, 2, 3));
-  // 45 degrees up at the top of the middle column; x counts rightwards, y downwards.
-  EXPECT_LT(length(towards(200, 0) - normalized(Vec3d{0, 1, -1})), 1e-15);
-  EXPECT_LT(length(towards(0, 0) - normalized(Vec3d{-2, 1, -1})), 1e-15);
-  EXPECT_LT(length(towards(400, 200) - normalized(Vec3d{2, -1, -1})), 1e-15);
-  EXPECT_LT(length(towards(200, 100) - Vec3d{0, 0, -1}), 1e-15);
-}
-
-// Hard case H76
-TEST(Pixel, MeanOfEqualSamplesIsExact) {
-  SceneBuilder builder;
-  builder.sky(0.1f);
-  builder.add(test::floorAt(-1, 1, 0));
-  const Scene scene = builder.build();
-  const BruteForce bruteForce(scene);
-  Camera up;
-  up.at = {0, 9, 4};
-  const CameraFrame frame = makeCameraFrame(up, 8, 8);
-  for (const int spp : {1, 2, 3, 5, 16, 1000}) {
-    Settings settings;
-    settings.options.spp = spp;
-    RayCounts counts;
-    EXPECT_EQ(Tracer(scene, bruteForce, settings).pixel(frame, 3, 4, counts), RgbD(Rgb(0.1f)));
-    EXPECT_EQ(counts.primary, static_cast<std::uint64_t>(spp));
-  }
-}
-
-// A pixel that an edge cuts: the share of samples on the bright side.
-TEST(Pixel, IsTheMeanOverTheSamplePattern) {
-  SceneBuilder builder;
-  Material glowing = test::blackMaterial();
-  glowing.emission = Rgb(1.0f);
-  // Everything left of x = 0, at distance 5.
-  builder.add(test::quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, builder.add(glowing)));
-  const Scene scene = builder.build();
-  const BruteForce bruteForce(scene);
-  // An odd number of columns: the edge runs down the middle of column 4.
-  const CameraFrame frame = makeCameraFrame(Camera{}, 9, 9);
-  for (const int spp : {4, 7, 64}) {
-    Settings settings;
-    settings.options.spp = spp;
-    int left = 0;
-    for (const Vec2f& sample : samplePattern(spp)) left += sample.x <= 0.5f;
-    RayCounts counts;
-    const Tracer tracer(scene, bruteForce, settings);
-    EXPECT_NEAR(tracer.pixel(frame, 4, 4, counts).x, static_cast<double>(left) / spp, 1e-14);
-    EXPECT_EQ(tracer.pixel(frame, 3, 4, counts).x, 1);
-    EXPECT_EQ(tracer.pixel(frame, 5, 4, counts).x, 0);
-  }
-}
 
 TEST(Render, DoesNotDependOnThreads) {
   const Scene scene = stillLife();

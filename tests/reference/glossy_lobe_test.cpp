@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pi.h"
-#include "reference/shading.h"
+#include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/generate_ray.h"
+#include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "reference/texture_sampling.h"
 #include "rounding.h"

@@ -1,4 +1,4 @@
-// Rays against triangles in double precision.
+// Rays against triangles in double precision, one by one and by brute force.
 #include "reference/triangle.h"
 
 #include <gtest/gtest.h>
@@ -102,41 +102,6 @@ TEST(Triangle, ClosedMeshHasNoGaps) {
   }
 }
 
-// Hard case H3: the point by weights lies on the triangle, whatever the distance of the eye.
-TEST(Triangle, RefinedHitStaysOnTheTriangle) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(0, 0.5f, 0));
-  const Scene scene = builder.build();
-  Numbers numbers(2);
-  for (int i = 0; i < 1000; ++i) {
-    // Aimed a little past the border as well, as a candidate found in float may be.
-    const Vec3d target{numbers.in(-0.5001, 0.5001), 0, numbers.in(-0.5001, 0.5001)};
-    const Vec3d eye{1e5, numbers.in(1, 100), numbers.in(-1e5, 1e5)};
-    const Ray ray{eye, normalized(target - eye)};
-    const TriangleHit hit = refineHit(scene, ray, {static_cast<std::uint32_t>(i % 2)});
-    EXPECT_GE(hit.u, 0);
-    EXPECT_GE(hit.v, 0);
-    EXPECT_LE(hit.u + hit.v, 1 + 1e-15);
-    EXPECT_GT(hit.t, 0);
-  }
-}
-
-TEST(Triangle, UselessCandidateKeepsItsHint) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(0, 1, 0));
-  const Scene scene = builder.build();
-  // Along the plane: nothing to compute with.
-  const Ray along{{-5, 0, 0}, {1, 0, 0}};
-  const TriangleHit hit = refineHit(scene, along, {0, kNoHit, 0.25, 0.5});
-  EXPECT_EQ(hit.u, 0.25);
-  EXPECT_EQ(hit.v, 0.5);
-  EXPECT_GT(hit.t, 0);
-  const double nan = std::nan("");
-  const TriangleHit lost = refineHit(scene, along, {0, kNoHit, nan, nan});
-  EXPECT_GE(lost.u, 0);
-  EXPECT_LE(lost.u + lost.v, 1);
-}
-
 TEST(BruteForce, FindsTheNearest) {
   SceneBuilder builder;
   for (const float y : {0.0f, 3.0f, 1.0f}) builder.add(test::floorAt(y, 1, 0));
@@ -146,17 +111,6 @@ TEST(BruteForce, FindsTheNearest) {
   ASSERT_TRUE(bruteForce.closest({{0.5, 9, 0.25}, {0, -1, 0}}, candidate));
   EXPECT_EQ(scene.triangles[candidate.triangle].position[1], 3.0f);
   EXPECT_FALSE(bruteForce.closest({{2, 9, 0}, {0, -1, 0}}, candidate));
-}
-
-TEST(BruteForce, OccludersLieBetween) {
-  SceneBuilder builder;
-  builder.add(test::floorAt(1, 1, 0));
-  const Scene scene = builder.build();
-  const BruteForce bruteForce(scene);
-  const Ray down{{0.25, 2, 0.5}, {0, -4, 0}};
-  EXPECT_TRUE(bruteForce.occluded(down, 1));
-  EXPECT_TRUE(bruteForce.occluded(down, 0.2501));
-  EXPECT_FALSE(bruteForce.occluded(down, 0.2499));
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // Reflected impulses: directions, weights, depth and cutoff (hard cases H10, H32, H52, H62, H64,
 // H79).
-#include "reference/impulses.h"
+#include "reference/add_impulses.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
@@ -208,6 +209,38 @@ TEST_F(HallOfMirrors, DisabledMirrorsReflectNothing) {
   RayCounts counts;
   EXPECT_EQ(radianceAlong(hall(1), eye_, direction_, settings, &counts), RgbD(1.0));
   EXPECT_EQ(counts.reflection, 0u);
+}
+
+// Down onto a mirror of 0.5 that a ray of throughput 0.25 has met.
+TEST(AddImpulsesTwin, IsTheChildOfItsKind) {
+  Material mirror = test::blackMaterial();
+  mirror.mirror = mirror.mirrorGrazing = Rgb(0.5f);
+  const Scene scene = sceneOf(mirror);
+  test::SmallChunk small(scene);
+  small.world.effects = EffectSet::all();
+  Chunk& c = small.chunk;
+  const std::size_t slot = 2;
+  test::setRay(c.rays, slot, {0, 1, 0}, {0, -1, 0});
+  c.rays.throughput[slot] = 0.25f;
+  c.rays.path[slot] = 99;
+  c.rays.media[slot] = 0;
+  c.surfels.ngY[slot] = c.surfels.nsY[slot] = 1;
+  c.surfels.cone[slot] = 0.125f;
+  c.children.parent[0] = static_cast<std::uint32_t>(slot);
+  c.children.path[0] = childStream(99, kMirroredBranch);
+  c.childCount = c.childSegmentCount = 1;
+  c.childSegments[0] = {RayKind::reflection, 0, 1};
+  const RayRow mirrored = addImpulses(small.world, c, 0);
+  EXPECT_EQ(mirrored.weightG, 0.5);
+  EXPECT_EQ(mirrored.throughput, 0.125);
+  EXPECT_EQ(mirrored.dirY, 1);
+  EXPECT_EQ(mirrored.parent, slot);
+  EXPECT_EQ(mirrored.cone, 0.125);
+  EXPECT_EQ(mirrored.path, childStream(99, kMirroredBranch));
+  // Not even a dielectric.
+  c.childSegments[0].kind = RayKind::refraction;
+  EXPECT_EQ(addImpulses(small.world, c, 0).weightG, 0);
+  EXPECT_EQ(addImpulses(small.world, c, 0).path, childStream(99, kRefractedBranch));
 }
 
 }  // namespace

@@ -1,0 +1,195 @@
+#include "reference/add_impulses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/fresnel.h"
+#include "reference/ray_origin.h"
+
+namespace whit::reference {
+
+namespace {
+
+Ray reflectedRay(const Surfel& s, const ShadingChoices& choices) {
+  const Vec3d mirrored = reflect(-s.view, s.shadingNormal),
+              origin = rayOrigin(choices.offset, s, 1);
+  if (!choices.bend) return {origin, mirrored, s.cone};
+  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
+}
+
+Ray refractedRay(const Surfel& s, const Interface& interface, double c,
+                 const ShadingChoices& choices) {
+  const Vec3d d = -s.view, origin = rayOrigin(choices.offset, s, -1);
+  if (interface.k == 0) return {origin, d, s.cone};
+  const Vec3d bent = refract(interface, d, s.shadingNormal, c);
+  if (!choices.bend) return {origin, bent, s.cone};
+  // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
+  // change nothing.
+  const double facing = dot(s.view, s.geometricNormal);
+  const double g2 = interface.k + facing * facing;
+  const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
+  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
+}
+
+// The mirror coat's reflectance.
+RgbD coatReflectance(const Material& material, double c) {
+  const RgbD normal(material.mirror), grazing(material.mirrorGrazing);
+  return normal + (grazing - normal) * schlickTerm(c);
+}
+
+// Seen from nearer to the normal than this, as a sine, the plane of incidence is lost in rounding,
+// and any other serves as well.
+constexpr double kLeastSine = 0.01;
+
+// Right-handed, z along the surface's normal, the view in the plane of x and z.
+struct Frame {
+  Vec3d x, y, z;
+  double sine = 0;  // of the view to z
+};
+
+Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
+  const Vec3d along = view - n * dot(n, view);
+  const double sine = length(along);
+  const Vec3d axis = std::fabs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d x = sine > kLeastSine ? along / sine : normalized(cross(n, axis));
+  return {x, cross(n, x), n, sine};
+}
+
+// Of the sample of the lobe that the child's path says it is. None: no weight.
+struct LobeChild {
+  Impulse impulse;
+  int rays = 1;  // that share the lobe
+};
+
+LobeChild sampledChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
+  const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
+  const LobeSampling sampling =
+      lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber);
+  const int rays = lobeRays(surfel, sampling);
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
+    if (chunk.children.path[child] != childStream(path, kFirstGlossyBranch + k)) continue;
+    const UnitPoint at = lobePoint(path, sampling, k);
+    return {glossyImpulse(surfel, mediaOf(chunk, slot), at, chunk.options().shading), rays};
+  }
+  return {};
+}
+
+RayKind kindOf(const Chunk& chunk, std::size_t child) {
+  const auto end = chunk.childSegments.begin() + chunk.childSegmentCount;
+  return std::find_if(chunk.childSegments.begin(), end,
+                      [&](const Segment& s) { return child < s.end; })
+      ->kind;
+}
+
+}  // namespace
+
+double smallestElevation(const Surfel& surfel) {
+  return std::min(0.9 * dot(surfel.view, surfel.geometricNormal), 0.01);
+}
+
+Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation) {
+  const double own = dot(r, normal);
+  return own < elevation ? normalized(r + normal * (elevation - own)) : r;
+}
+
+Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                      const Crossing& crossing, MediaStack stack, const ShadingChoices& choices) {
+  Impulses result;
+  if (crossing.hidden) {
+    result.refracted = {RgbD(1.0),
+                        {rayOrigin(choices.offset, surfel, -1), -surfel.view, surfel.cone},
+                        crossing.stackBehind};
+    return result;
+  }
+  const Material& material = scene.materials[surfel.material];
+  const double c = std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
+  RgbD reflectance;
+  if (effects.has(Effect::mirror)) reflectance = coatReflectance(material, c);
+  if (crossing.dielectric) {
+    const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
+    if (effects.has(Effect::mirror)) reflectance += RgbD(interface.reflectance);
+    if (interface.reflectance < 1) {
+      result.refracted = {RgbD(material.transmission) * (1 - interface.reflectance),
+                          refractedRay(surfel, interface, c, choices), crossing.stackBehind};
+    }
+  }
+  if (maxComponent(reflectance) > 0) {
+    result.reflected = {reflectance, reflectedRay(surfel, choices), stack};
+  }
+  return result;
+}
+
+Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
+  const double u = static_cast<double>(at.u), v = static_cast<double>(at.v);
+  // Of a unit sphere instead of the stretched one: facets that mirror the view into the cap above
+  // the plane that it grazes.
+  const Vec3d seen = normalized(Vec3d(view.x * alpha, view.y * alpha, view.z));
+  const double fall = v * (1 + seen.z);  // how far below the pole
+  const double radius = std::sqrt(std::max(0.0, fall * (2 - fall)));
+  const Vec3d halfway{radius * std::cos(2 * std::numbers::pi * u) + seen.x,
+                      radius * std::sin(2 * std::numbers::pi * u) + seen.y, (1 - v) * (1 + seen.z)};
+  return normalized(Vec3d(halfway.x * alpha, halfway.y * alpha, halfway.z), {0, 0, 1});
+}
+
+int lobeRays(const Surfel& surfel, const LobeSampling& sampling) {
+  return surfel.alpha > double{kSmoothAlpha} ? static_cast<int>(sampling.count) : 1;
+}
+
+Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
+                      const ShadingChoices& choices) {
+  const Frame frame = frameOfIncidence(s.shadingNormal, s.view);
+  const double nv = std::max(dot(s.shadingNormal, s.view), 1e-4);
+  const double alpha = s.alpha > double{kSmoothAlpha} ? s.alpha : 0, a2 = alpha * alpha;
+  const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, at);
+  const Vec3d h = frame.x * m.x + frame.y * m.y + frame.z * m.z;
+  const double vh = dot(s.view, h);
+  const Vec3d mirrored = normalized(h * (2 * vh) - s.view);
+  const double nl = dot(s.shadingNormal, mirrored);
+  if (!(nl > 0)) return {};
+
+  const double maskV = std::sqrt(nv * nv * (1 - a2) + a2),
+               maskL = std::sqrt(nl * nl * (1 - a2) + a2);
+  const double passes = nl * (nv + maskV) / (nl * maskV + nv * maskL);
+  const RgbD f0 = s.specular, f90(std::min(1.0, 25 * maxComponent(f0)));
+  const RgbD fresnel = f0 + (f90 - f0) * schlickTerm(std::clamp(vh, 0.0, 1.0));
+  // Turned back by bent normals only: where both agree the ray is high enough as it is.
+  const Vec3d r =
+      choices.bend ? lifted(mirrored, s.geometricNormal, std::min(0.9 * nl, 0.01)) : mirrored;
+  return {fresnel * passes, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
+}
+
+RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
+  const std::uint32_t slot = chunk.children.parent[child];
+  const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
+  const Surfel surfel = surfelOf(chunk, slot);
+  const bool refracted = kindOf(chunk, child) == RayKind::refraction;
+  std::uint32_t branch = refracted ? kRefractedBranch : kMirroredBranch;
+  LobeChild twin;
+  RayRow row;
+  row.path = childStream(path, branch);
+  if (!refracted && chunk.has(Feature::streams) && chunk.children.path[child] != row.path) {
+    twin = sampledChild(chunk, child, surfel);
+    row.path = chunk.children.path[child];
+  } else {
+    const std::uint32_t stack = mediaOf(chunk, slot);
+    const Crossing crossing =
+        crossMedia(world.scene, world.effects, surfel.material, surfel.entering, stack);
+    const Impulses both =
+        findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading);
+    twin.impulse = refracted ? both.refracted : both.reflected;
+  }
+  const Impulse& impulse = twin.impulse;
+  const double share =
+      isHidden(chunk, slot) ? 1 : double{world.scene.materials[surfel.material].impulseShare()};
+  put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
+  put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);
+  put(impulse.weight / twin.rays, row.weightR, row.weightG, row.weightB);
+  row.throughput = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight) * share;
+  row.parent = slot;
+  row.media = impulse.media;
+  row.cone = impulse.ray.cone.width;
+  return row;
+}
+
+}  // namespace whit::reference

@@ -1,0 +1,58 @@
+// addImpulses: the rays that a surfel sends on, mirrored and refracted (Whitted 1980, "An improved
+// illumination model for shaded display"), and samples of the GGX lobe of a rough one.
+#pragma once
+
+#include "core/shading_choices.h"
+#include "reference/media.h"
+#include "reference/twin.h"
+#include "sampling/random_streams.h"
+
+namespace whit::reference {
+
+// A ray whose radiance, times `weight`, is part of the surfel's. No ray: weight 0.
+struct Impulse {
+  RgbD weight;
+  Ray ray;  // unit direction
+  MediaStack media = 0;
+};
+
+struct Impulses {
+  Impulse reflected, refracted;
+};
+
+// `stack` is that of the incoming ray, `crossing` what it makes of the surfel. A hidden surface
+// lets the ray pass as it is.
+Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                      const Crossing& crossing, MediaStack stack,
+                      const ShadingChoices& choices = {});
+
+// A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
+// below: shading normals would send some through to the wrong side (hard case H32). Less than the
+// viewer's own elevation, so that reflections are left alone where the normals agree; of refracted
+// rays, those are moved that leave a dense medium within 0.6 degrees of the surface.
+double smallestElevation(const Surfel& surfel);
+// The unit direction `r` raised to `elevation` above the plane of `normal` if it lies lower.
+Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation);
+
+// A normal of the microsurface, drawn from those that can be seen along `view`, each as often as it
+// is seen (Heitz 2018, "Sampling the GGX distribution of visible normals", JCGT 7(4); by the
+// spherical cap of Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps",
+// Computer Graphics Forum 42(8)). The surface's normal is z; `view` is a unit vector above it; of
+// width 0 the surface is smooth and the result z.
+Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at);
+
+// The rays of a surfel, each to count for 1 / number of its lobe.
+int lobeRays(const Surfel& surfel, const LobeSampling& sampling);
+
+// The ray mirrored by the visible normal at `at`, with the weight F G2 / G1 (height-correlated
+// Smith masking, as in glossyLobe): its mean over the unit square is what the lobe reflects. Weight
+// 0 for rays that end in the surface: what several bounces between its facets would rescue is lost.
+// `stack` is that of the incoming ray.
+Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
+                      const ShadingChoices& choices = {});
+
+// The twin, of a child. Throughput is what decides whether it is worth tracing; samples of a lobe
+// count there as if each were the whole.
+RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child);
+
+}  // namespace whit::reference

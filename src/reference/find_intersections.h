@@ -1,0 +1,67 @@
+// findIntersections: from the triangle that a ray has met to the surfel that it sees there (after
+// Pharr, Jakob and Humphreys, Physically Based Rendering, chapter 6).
+#pragma once
+
+#include <optional>
+
+#include "core/effects.h"
+#include "core/shading_choices.h"
+#include "reference/surfel.h"
+#include "reference/triangle.h"
+#include "reference/twin.h"
+#include "scene/mip_maps.h"
+#include "scene/scene.h"
+
+namespace whit::reference {
+
+// The hit that a candidate stands for, computed again: u, v >= 0, u + v <= 1, t > 0. Rounding may
+// have put the hit just beside the triangle; it is moved onto it. The candidate's own u and v serve
+// where ray and triangle leave nothing to compute with.
+TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
+
+// How makeSurfel looks textures up.
+struct TextureLookup {
+  TextureFilter filter = TextureFilter::bilinear;
+  const MipMaps* maps = nullptr;  // of the scene, if trilinear
+  RayCone cone{};                 // at the hit: what a ray starts with that goes on from there
+};
+
+// `hit` must lie on the candidate's triangle (refineHit); `direction` is the ray's, unit length.
+//
+// The geometric normal alone decides which side was met, and both normals are turned over for a ray
+// that meets the inside, so that surfaces are two-sided. The shading normal may still point away
+// from the viewer, or disagree with the geometric one about a light; whoever uses it must check.
+//
+// `offset` bounds the rounding error of a float hit point interpolated from float corners:
+// 32 * 2^-24 times the sum of the magnitudes that go into it (hard cases H1-H4; after the error
+// bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
+Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                  const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup = {});
+
+// The area of texture space, spanned by `uvs` (Scene::uvsOf), of which a repeat is 1, that a cone
+// of this width covers about the hit, if it does so alike in all directions: its section by the
+// triangle's plane is that much longer than wide, and counts as if it were as wide (Akenine-Moeller
+// et al. 2019, section 20.3.4). `cosine` is that between ray and plane's normal.
+double textureFootprint(const TriangleRecord& triangle, const float* uvs, const Affine* toWorld,
+                        double coneWidth, double cosine);
+
+// How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
+// are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow
+// terminator", Ray Tracing Gems II, chapter 4). Part of makeSurfel.
+Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                     const TriangleHit& hit, const Surfel& s);
+
+// Texture coordinates at the hit, from those of the corners (Scene::uvsOf).
+struct TexturePoint {
+  double u = 0, v = 0;
+};
+TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
+
+// Whether an alpha mask has cut a hole where the ray meets the triangle.
+bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit);
+
+// The twin, of the hit that Embree has found; none where it has found none.
+std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chunk,
+                                           std::size_t slot);
+
+}  // namespace whit::reference

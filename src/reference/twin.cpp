@@ -1,0 +1,42 @@
+#include "reference/twin.h"
+
+namespace whit::reference {
+
+Ray rayOf(const Chunk& chunk, std::size_t slot) {
+  const RayRow r = RayRow::at(chunk.rays, slot);
+  return {{r.orgX, r.orgY, r.orgZ}, {r.dirX, r.dirY, r.dirZ}, {r.cone, 0}};
+}
+
+Candidate candidateOf(const Chunk& chunk, std::size_t slot) {
+  const HitRow h = HitRow::at(chunk.hits, slot);
+  return {h.triangle, chunk.has(Feature::instances) ? h.instance : kNoHit, h.u, h.v};
+}
+
+Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
+  const SurfelRow r = SurfelRow::at(chunk.surfels, slot);
+  Surfel s;
+  s.position = {r.posX, r.posY, r.posZ};
+  s.view = -rayOf(chunk, slot).direction;
+  s.geometricNormal = {r.ngX, r.ngY, r.ngZ};
+  s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
+  s.lift = {r.liftX, r.liftY, r.liftZ};
+  s.offset = r.offset;
+  s.entering = (r.flags & kEntering) != 0;
+  s.material = r.material;
+  s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};
+  s.specular = {r.specularR, r.specularG, r.specularB};
+  if (chunk.has(Feature::emissionFactors)) s.emission = {r.emissionR, r.emissionG, r.emissionB};
+  if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
+  s.cone.width = r.cone;
+  return s;
+}
+
+std::uint32_t mediaOf(const Chunk& chunk, std::size_t slot) {
+  return chunk.has(Feature::transmission) ? chunk.rays.media[slot] : 0;
+}
+
+bool isHidden(const Chunk& chunk, std::size_t slot) {
+  return chunk.has(Feature::transmission) && (chunk.surfels.flags[slot] & kHidden) != 0;
+}
+
+}  // namespace whit::reference

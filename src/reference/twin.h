@@ -1,0 +1,32 @@
+// The twins of the stages: what a vector step has written of one row of its chunk, computed again
+// in double from what the step has read. A twin has the name of its stage and is in its file.
+#pragma once
+
+#include "reference/intersector.h"
+#include "reference/surfel.h"
+#include "scene/mip_maps.h"
+#include "stages/chunk.h"
+#include "stages/rows.h"
+
+namespace whit::reference {
+
+// What twins know of the frame besides their chunk: what kernels have in float tables.
+struct World {
+  const Scene& scene;
+  EffectSet effects;              // of the plan
+  const MipMaps* maps = nullptr;  // of the scene, where lookups are trilinear
+  CameraFrame camera;
+  const Intersector& intersector;  // for shadow rays
+};
+
+// Slots of the chunk's columns in the reference's own terms.
+Ray rayOf(const Chunk& chunk, std::size_t slot);
+Candidate candidateOf(const Chunk& chunk, std::size_t slot);
+Surfel surfelOf(const Chunk& chunk, std::size_t slot);
+std::uint32_t mediaOf(const Chunk& chunk, std::size_t slot);  // around the ray
+bool isHidden(const Chunk& chunk, std::size_t slot);
+
+// Into three columns of a row.
+inline void put(const Vec3d& v, double& x, double& y, double& z) { x = v.x, y = v.y, z = v.z; }
+
+}  // namespace whit::reference

@@ -1,0 +1,34 @@
+#include "reference/write_emitted_and_reflective_ambient.h"
+
+namespace whit::reference {
+
+RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
+  if (!effects.has(Effect::sky)) return {};
+  if (scene.sky.kind == Sky::Kind::image && !effects.has(Effect::skyImage)) return {};
+  return skyRadiance(scene.sky, direction);
+}
+
+RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
+  RgbD radiance;
+  if (effects.has(Effect::emission)) {
+    radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
+  }
+  if (effects.has(Effect::ambient)) {
+    const RgbD up(scene.ambient.up), down(scene.ambient.down);
+    radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+  }
+  return radiance;
+}
+
+RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,
+                                             std::size_t slot) {
+  RgbD radiance;
+  if (chunk.surfels.material[slot] == kMiss) {
+    radiance = skyAlong(world.scene, world.effects, rayOf(chunk, slot).direction);
+  } else if (!isHidden(chunk, slot)) {
+    radiance = emittedAndAmbient(world.scene, world.effects, surfelOf(chunk, slot));
+  }
+  return {radiance.x, radiance.y, radiance.z};
+}
+
+}  // namespace whit::reference

@@ -1,0 +1,18 @@
+// writeEmittedAndReflectiveAmbient: what a ray brings without lights and without further rays.
+#pragma once
+
+#include "reference/twin.h"
+
+namespace whit::reference {
+
+// Radiance of the sky along the unit direction, black where the effects leave it out.
+RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction);
+
+// Emission, and the ambient light reflected by the diffuse color.
+RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
+
+// The twin.
+RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,
+                                             std::size_t slot);
+
+}  // namespace whit::reference

@@ -1,0 +1,55 @@
+// A chunk of one block of slots, for the twins of the stages.
+#pragma once
+
+#include "reference/reference.h"
+#include "reference/twin.h"
+#include "stages/chunk.h"
+
+namespace whit::test {
+
+// Rays, hits and so on of slot 0 are set one by one; all others are zero.
+class SmallChunk {
+ public:
+  explicit SmallChunk(const Scene& scene, FeatureSet features = FeatureSet::all())
+      : rays_(kBlock, features),
+        children_(kBlock, features),
+        hits_(kBlock, features),
+        surfels_(kBlock, features),
+        unshadowed_(kBlock, features),
+        shadows_(kBlock, features),
+        bruteForce_(scene),
+        world{scene, EffectSet::all(), nullptr, CameraFrame(), bruteForce_} {
+    frame_.features = features;
+    chunk.frame = &frame_;
+    chunk.n = 1;
+    chunk.rays = *rays_;
+    chunk.children = *children_;
+    chunk.hits = *hits_;
+    chunk.surfels = *surfels_;
+    chunk.unshadowed = *unshadowed_;
+    chunk.shadows = *shadows_;
+  }
+  SmallChunk(const SmallChunk&) = delete;
+  SmallChunk& operator=(const SmallChunk&) = delete;
+
+ private:
+  FrameConstants frame_;
+  ColumnStore<RayColumns> rays_, children_;
+  ColumnStore<HitColumns> hits_;
+  ColumnStore<SurfelColumns> surfels_;
+  ColumnStore<UnshadowedColumns> unshadowed_;
+  ColumnStore<ShadowColumns> shadows_;
+  reference::BruteForce bruteForce_;
+
+ public:
+  Chunk chunk;
+  reference::World world;
+};
+
+template <typename Columns>
+void setRay(const Columns& rays, std::size_t i, const Vec3f& origin, const Vec3f& direction) {
+  rays.orgX[i] = origin.x, rays.orgY[i] = origin.y, rays.orgZ[i] = origin.z;
+  rays.dirX[i] = direction.x, rays.dirY[i] = direction.y, rays.dirZ[i] = direction.z;
+}
+
+}  // namespace whit::test

@@ -1,0 +1,74 @@
+// Emission, ambient light and the sky.
+#include "reference/write_emitted_and_reflective_ambient.h"
+
+#include <gtest/gtest.h>
+
+#include "reference/small_chunk.h"
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::SceneBuilder;
+
+TEST(Ambient, FollowsTheNormal) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.ambient = {Rgb(3.0f), Rgb(1.0f)};
+  Surfel s;
+  s.diffuse = {1, 0.5, 0};
+  s.shadingNormal = {0, 1, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(3, 1.5, 0));
+  s.shadingNormal = {0, -1, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(1, 0.5, 0));
+  s.shadingNormal = {1, 0, 0};
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(2, 1, 0));
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::ambient), s), RgbD());
+}
+
+TEST(Emission, AddsToTheRest) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].emission = {1, 2, 3};
+  Surfel s;
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all(), s), RgbD(1, 2, 3));
+  EXPECT_EQ(emittedAndAmbient(scene, EffectSet::all().without(Effect::emission), s), RgbD());
+}
+
+TEST(Sky, NeedsItsEffects) {
+  SceneBuilder builder;
+  builder.sky(2);
+  const Scene plain = builder.build();
+  EXPECT_EQ(skyAlong(plain, EffectSet::all(), {0, 1, 0}), RgbD(2.0));
+  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD(2.0));
+  EXPECT_EQ(skyAlong(plain, EffectSet::all().without(Effect::sky), {0, 1, 0}), RgbD());
+  SceneBuilder withImage;
+  withImage.description.sky.kind = Sky::Kind::image;
+  withImage.description.sky.image = {1, 1, {1}, {2}, {3}};
+  const Scene image = withImage.build();
+  EXPECT_EQ(skyAlong(image, EffectSet::all(), {0, 1, 0}), RgbD(1, 2, 3));
+  EXPECT_EQ(skyAlong(image, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD());
+}
+
+TEST(AmbientTwin, TellsSkySurfelsAndHiddenOnesApart) {
+  SceneBuilder builder;
+  builder.sky(2);
+  Material glowing = test::blackMaterial();
+  glowing.emission = {1, 2, 3};
+  const auto material = builder.add(glowing);
+  builder.add(test::floorAt(0, 1, material));
+  const Scene scene = builder.build();
+  test::SmallChunk small(scene, FeatureSet::all().without(Feature::emissionFactors));
+  test::setRay(small.chunk.rays, 0, {0, 1, 0}, {0, -1, 0});
+  const auto blue = [&](std::uint32_t found, std::uint32_t flags) {
+    small.chunk.surfels.material[0] = found;
+    small.chunk.surfels.flags[0] = flags;
+    return writeEmittedAndReflectiveAmbient(small.world, small.chunk, 0).b;
+  };
+  EXPECT_EQ(blue(kMiss, 0), 2);
+  EXPECT_EQ(blue(scene.triangles[0].material, kEntering), 3);
+  EXPECT_EQ(blue(scene.triangles[0].material, kEntering | kHidden), 0);
+}
+
+}  // namespace
+}  // namespace whit::reference
