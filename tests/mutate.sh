@@ -63,7 +63,7 @@ mutations() {
     'hn::Set(d, -kTowardsViewer), ng), hn::Zero(d), position)'
   plant normal-offset-only src/core/shading_choices.h 'kTowardsViewer = 0.5f' 'kTowardsViewer = 0'
   plant wrong-offset-side simd/add_impulses.cpp \
-    'ChildOrigin(tables, surfels, lanes, i, -1.0f)' 'ChildOrigin(tables, surfels, lanes, i, 1.0f)'
+    'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant unfactored-fresnel simd/fresnel-inl.h \
     'const VF g2 = hn::MulAdd(c, c, k);' \
     'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'
@@ -78,35 +78,35 @@ mutations() {
   plant light-without-radius simd/light-inl.h \
     'hn::Div(nl, hn::Max(distanceSquared, radiusSquared_))' \
     'hn::Div(nl, distanceSquared)'
-  plant flipped-normal simd/interpolate_surfels.cpp \
-    'hn::IfThenElse(entering, one, hn::Set(d, -1.0f))' 'one'
-  plant normal-of-tiny-triangle simd/triangle-inl.h \
+  plant flipped-normal simd/surface-inl.h \
+    'return hn::IfThenElse(entering, hn::Set(d, 1.0f), hn::Set(d, -1.0f));' \
+    'return (void)entering, hn::Set(d, 1.0f);'
+  plant normal-of-tiny-triangle simd/surface-inl.h \
     'const VF scale = InverseExponent(largest);
   const V3 unit' 'const VF scale = hn::Set(FloatTag(), 1.0f); (void)largest;
   const V3 unit'
   plant unmasked-lane simd/add_impulses.cpp \
     'const size_t live = HWY_MIN(hn::Lanes(d), n - i);' 'const size_t live = hn::Lanes(d);'
-  plant dropped-lane simd/impulse-inl.h \
+  plant dropped-lane simd/add_impulses.cpp \
     'return compactor.Count();' 'return compactor.Count() - (compactor.Count() > 3 ? 1 : 0);'
-  plant no-lift simd/impulse-inl.h \
+  plant no-lift simd/add_impulses.cpp \
     'const MF low = hn::Lt(height, lift);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)lift;'
   plant wrong-bend simd/add_impulses.cpp \
     'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
-  plant nan-throughput simd/impulse-inl.h \
-    'hn::And(live, hn::And(hn::Ge(throughput, hn::Set(d, cutoff)), hn::Gt(largest, hn::Zero(d))))' \
-    'hn::AndNot(hn::Lt(throughput, hn::Set(d, cutoff)), live)'
+  plant nan-throughput simd/add_impulses.cpp \
+    'hn::And(live, hn::And(hn::Ge(throughput, cutoff), hn::Gt(largest, hn::Zero(d))))' \
+    'hn::AndNot(hn::Lt(throughput, cutoff), live)'
   plant media-not-removed simd/media-inl.h \
     'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \
     'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
-  plant stale-tfar src/accel/trace_packets.cpp \
-    'packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();' \
-    'if (begin == 0) packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();'
-  plant off-by-one-tail src/accel/trace_packets.cpp \
-    'std::size_t lane = live; lane < kWidth' \
-    'std::size_t lane = live - (live > 1 ? 1 : 0); lane < kWidth'
-  plant bad-rays-traced src/accel/bad_rays.h 'if (good == kWidth) return;' 'return;'
+  plant stale-tfar simd/packets-inl.h \
+    'store(tFar, packet_column::tFar);' 'if (i == 0) store(tFar, packet_column::tFar);'
+  plant off-by-one-tail src/accel/packets.h \
+    'i < rays ? -1 : 0;' 'i + (rays > 1 ? 1 : 0) < rays ? -1 : 0;'
+  plant bad-rays-traced simd/packets-inl.h \
+    'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
     'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
   plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media,' '0,'
