@@ -1,4 +1,5 @@
-// One run: a scene, its settings, and what its frames cost. The common source of tables and JSON.
+// The summary of a run: a scene, its settings, and what its frames cost. The common source of
+// tables and JSON.
 #pragma once
 
 #include <cstdint>
