@@ -12,17 +12,16 @@
 
 namespace whit {
 
-namespace {
-
 // The container of glTF files: JSON text, or JSON and a binary chunk in a .glb file. glTF 2.0
 // specification, section 4 (GLB).
-
 struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string name;  // for errors
   Json json;         // an object
   bool hasBinary = false;
   std::vector<std::uint8_t> binary;  // the chunk of a .glb
 };
+
+namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
