@@ -75,7 +75,7 @@ buildAndTest() {
 # happens inside them is ignored, what our code does is not.
 checkThreads() {
   local areas=(unit render) area
-  local filter='WorkerPool*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
+  local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1

@@ -7,7 +7,7 @@
 #include "cli/interrupt.h"
 #include "core/error.h"
 #include "io/image_file.h"
-#include "viewer/comparison_panel.h"
+#include "viewer/panel.h"
 #include "viewer/edit_settings.h"
 #include "viewer/motion.h"
 

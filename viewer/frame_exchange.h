@@ -1,5 +1,5 @@
-// What the window's thread wants and what the tracing thread has made of it: which picture is begun
-// when. Pure: knows neither threads nor clock; RenderThread locks it.
+// The exchange between the window's thread and the tracing thread: which picture is begun when.
+// Pure: knows neither threads nor clock; RenderThread locks it.
 //
 // Pictures in motion are not queued. One is asked for when the one before is finished and taken, so
 // that what the user has done by then is in it; thus at most two pictures are finished after a key

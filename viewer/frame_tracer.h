@@ -1,4 +1,5 @@
-// Makes what a FrameRequest asks for. Belongs to one thread.
+// The tracer of the viewer's pictures, which makes what a FrameRequest asks for. Belongs to one
+// thread.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// What keys and mouse did since the last frame. Filled by the window or by a script.
+// The input of a frame: what keys and mouse did since the last one. Filled by the window or by a
+// script.
 #pragma once
 
 #include <optional>

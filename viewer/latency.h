@@ -1,4 +1,4 @@
-// How long after a key or a drag the picture has changed.
+// The latency of the viewer: how long after a key or a drag the picture has changed.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What the viewer works out from the scene and the input before it moves the camera.
+// The motion of the viewer's camera, from its input and the size of the scene.
 #pragma once
 
 #include "scene/scene.h"

@@ -3,18 +3,117 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "cli/frame_summary.h"
+#include "scene/light.h"
+#include "scene/material.h"
 #include "viewer/keys.h"
 #include "viewer/knobs.h"
 #include "viewer/resolution_control.h"
-#include "viewer/scene_panel.h"
 
 namespace whit::view {
 
 namespace {
+
+constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
+constexpr float kLargestIntensity = 1e6f, kLargestRadiance = 1e4f;
+
+bool drawColor(const char* label, Rgb& color) {
+  if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
+  color = min(max(color, Rgb(0.0f)), Rgb(1.0f));
+  return true;
+}
+
+// Color and strength of what has no upper limit. The color's largest channel is 1.
+bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
+  float strength = maxComponent(value);
+  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
+  const bool recolored = drawColor(label, color);
+  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
+  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
+  if (!recolored && !turned) return false;
+  value = color * strength;
+  return true;
+}
+
+// A direction that was dragged to nowhere stays as it was.
+bool drawDirection(Vec3f& direction) {
+  Vec3f turned = normalized(direction, {0, -1, 0});
+  if (!ImGui::DragFloat3("direction", &turned.x, 0.005f, -1, 1)) return false;
+  direction = normalized(turned, direction);
+  return true;
+}
+
+bool drawCone(Light& light) {
+  constexpr float kLeastOuter = 0.5f, kLargestOuter = 90;
+  bool changed = ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeastOuter, kLargestOuter,
+                                    "%.1f", ImGuiSliderFlags_AlwaysClamp);
+  changed |= ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargestOuter, "%.1f",
+                                ImGuiSliderFlags_AlwaysClamp);
+  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
+  return changed;
+}
+
+bool drawLight(Light& light) {
+  const bool directional = light.kind == Light::Kind::directional;
+  bool changed = drawBright("color", directional ? "irradiance" : "intensity", kLargestIntensity,
+                            light.intensity);
+  if (light.kind != Light::Kind::point) changed |= drawDirection(light.direction);
+  if (light.kind == Light::Kind::spot) changed |= drawCone(light);
+  if (directional) return changed;
+  const float step = 0.002f * std::max(1.0f, maxComponent(abs(light.position)));
+  constexpr float kFarthest = 1e18f;
+  return ImGui::DragFloat3("position", &light.position.x, step, -kFarthest, kFarthest, "%.3f",
+                           kClamp) ||
+         changed;
+}
+
+bool drawMaterial(Material& m) {
+  constexpr float kLeastIor = 1, kLargestIor = 3, kLargestAbsorption = 100;
+  bool changed = drawColor("diffuse", m.diffuse);
+  changed |= drawColor("specular", m.specular);
+  if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1, "%.3f", kClamp);
+  changed |= drawColor("mirror", m.mirror);
+  changed |= drawColor("mirror, grazing", m.mirrorGrazing);
+  changed |= drawColor("transmission", m.transmission);
+  if (m.hasTransmission()) {
+    changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f", kClamp);
+    changed |= drawBright("absorption", "absorption per unit", kLargestAbsorption, m.absorption);
+  }
+  changed |= drawBright("emission", "radiance", kLargestRadiance, m.emission);
+  return changed;
+}
+
+// A foldable node for each item, under its name or number.
+template <typename Item, typename Draw>
+bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
+  bool changed = false;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string number = std::string(kind) + " " + std::to_string(i + 1);
+    const std::string name = items[i].name.empty() ? number : items[i].name;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::TreeNode(kind, "%s", name.c_str())) {
+      changed |= draw(items[i]);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+  ImGui::PopItemWidth();
+  if (items.empty()) ImGui::TextDisabled("none");
+  return changed;
+}
+
+// Between ImGui's Begin and End. Each returns whether something was changed.
+bool drawLights(std::vector<Light>& lights) { return drawItems(lights, "light", drawLight); }
+
+bool drawMaterials(std::vector<Material>& materials) {
+  return drawItems(materials, "material", drawMaterial);
+}
 
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
@@ -131,6 +230,56 @@ void placeAtBottom() {
   ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
 }
 
+constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
+
+void drawLabel(ImDrawList& list, const ImVec2& at, const char* text) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  constexpr float kMargin = 3;
+  list.AddRectFilled(ImVec2(at.x - kMargin, at.y - kMargin),
+                     ImVec2(at.x + size.x + kMargin, at.y + size.y + kMargin), kShade, kMargin);
+  list.AddText(at, kWhite, text);
+}
+
+// The line behind the panels, over the picture; the words above all: in a small window a panel may
+// lie where they belong.
+void drawSplit(double split, bool labels) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float x = static_cast<float>(split) * window.x, gap = ImGui::GetFontSize();
+  const float y = window.y - 5 * gap;
+  list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
+  list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
+  if (!labels) return;
+  ImDrawList& above = *ImGui::GetForegroundDrawList();
+  drawLabel(above, ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
+  drawLabel(above, ImVec2(x + gap, y), "reference");
+}
+
+// In short lines, which have room beside the panel in a small window.
+void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
+  const ImageDifference& d = *comparison.difference;
+  ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
+  ImGui::Text("FLIP  %.2g", d.flipMean);
+  ImGui::Text("8-bit codes: largest %d", d.maxCode);
+  ImGui::Text("             over 1 in %.3f %%", d.pixelsGe2CodesPct);
+  ImGui::Text("packets   %.1f ms", frame.stats.frameMs);
+  ImGui::Text("reference %.0f ms", comparison.referenceMs);
+}
+
+void drawFindings(const TracedFrame& frame, bool heat) {
+  ImGui::TextUnformatted(heat ? "differences in 8-bit codes" : "packets against the reference");
+  if (!frame.comparison) {
+    ImGui::TextDisabled("waits until nothing moves");
+  } else if (frame.comparison->complete()) {
+    drawDifference(frame, *frame.comparison);
+  } else {
+    char text[48];
+    std::snprintf(text, sizeof text, "reference: %.0f %%", 100 * frame.comparison->progress());
+    ImGui::ProgressBar(static_cast<float>(frame.comparison->progress()),
+                       ImVec2(ImGui::GetFontSize() * 15, 0), text);
+  }
+}
+
 }  // namespace
 
 void Panel::remember(const TracedFrame& frame) {
@@ -234,6 +383,55 @@ bool Panel::drawError(const std::string& error) {
   }
   ImGui::End();
   return open;
+}
+
+void FrameGraph::add(double ms) {
+  times_[next_] = static_cast<float>(ms);
+  next_ = (next_ + 1) % times_.size();
+  count_ = std::min(count_ + 1, times_.size());
+}
+
+void FrameGraph::draw(double rate) const {
+  const auto budget = static_cast<float>(1000 / rate);
+  const float highest = *std::max_element(times_.begin(), times_.end());
+  const float scale = 1.25f * std::max(highest, budget);
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
+  const int oldest = count_ < times_.size() ? 0 : static_cast<int>(next_);
+  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest,
+                   count_ == 0 ? "nothing has moved yet" : nullptr, 0, scale, size);
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  const auto heightOf = [&](float ms) {
+    return to.y - padding.y - ms / scale * (to.y - from.y - 2 * padding.y);
+  };
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const float y = heightOf(budget);
+  list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
+  char text[48];
+  std::snprintf(text, sizeof text, "%.1f ms for %.0f/s", static_cast<double>(budget), rate);
+  // Below its line, unless that lies low.
+  const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
+  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text).x, below), color, text);
+  if (count_ == 0) return;
+  std::snprintf(text, sizeof text, "%.1f ms at most", static_cast<double>(highest));
+  list.AddText(ImVec2(from.x + padding.x, from.y), color, text);
+}
+
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
+  const bool under = frame.comparison.has_value();
+  const bool heat = mode == CompareMode::heatMap && under && frame.comparison->complete();
+  if (under && !heat) drawSplit(split, words);
+  if (!words) return;
+  const float gap = 10;
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
+                          ImVec2(1, 0));
+  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_AlwaysAutoResize |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("comparison", nullptr, kFlags)) drawFindings(frame, heat);
+  ImGui::End();
 }
 
 }  // namespace whit::view

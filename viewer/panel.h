@@ -1,10 +1,11 @@
-// The panel over the picture: what a frame costs and what goes into it.
+// The panel over the picture: what a frame costs and what goes into it; and what is drawn over the
+// picture while it is compared with the reference.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
-#include "viewer/frame_graph.h"
 #include "viewer/knob_costs.h"
 
 namespace whit::view {
@@ -28,6 +29,19 @@ struct PanelSettings {
   bool measureKnobs = false;  // until it is done
 };
 
+// What the last frames in motion took, as a graph.
+class FrameGraph {
+ public:
+  void add(double ms);
+  // Between ImGui's Begin and End: the newest at the right, and a line at the time that a frame may
+  // take when there are to be `rate` a second.
+  void draw(double rate) const;
+
+ private:
+  std::array<float, 120> times_{};  // milliseconds, a ring
+  std::size_t next_ = 0, count_ = 0;
+};
+
 class Panel {
  public:
   void remember(const TracedFrame& frame);
@@ -47,5 +61,9 @@ class Panel {
   KnobCosts costs_;
   FrameGraph graph_;
 };
+
+// Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
+// window's width; with `words` also what is what, and what is known about their difference.
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
 
 }  // namespace whit::view

@@ -1,5 +1,5 @@
-// Tracing apart from the window's thread: frames are handed over by exchanging buffers, so that
-// neither thread waits for the other.
+// The tracing thread, apart from the window's: frames are handed over by exchanging buffers, so
+// that neither thread waits for the other.
 #pragma once
 
 #include <condition_variable>

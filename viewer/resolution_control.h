@@ -1,4 +1,5 @@
-// How finely to trace the next frame. Pure: knows neither window nor clock.
+// The control of the resolution: how finely to trace the next frame. Pure: knows neither window nor
+// clock.
 //
 // In motion, a scale of the window's size that holds the wanted frame rate, judged by what recent
 // samples cost; fewer samples where the coarsest scale does not. At rest, step by step: all pixels,

@@ -1,4 +1,4 @@
-// What is asked of the tracing thread, and what comes back.
+// Requests to the tracing thread, and the frames that come back.
 #pragma once
 
 #include <array>

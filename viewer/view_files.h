@@ -1,5 +1,5 @@
-// What the viewer writes and reads: saved pictures, cameras, and the command that makes a picture
-// again.
+// Files that the viewer writes and reads: saved pictures, cameras, and the command that makes a
+// picture again.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the viewer is told on its command line.
+// The options of the viewer's command line.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How far a point's picture is off, apart by cause.
+// The errors of a sweep's points against the scalar reference, apart by cause.
 #pragma once
 
 #include <map>

@@ -24,19 +24,19 @@ bool collides(const Box& box, const std::vector<Box>& taken) {
 std::vector<Box> candidates(const LabelRequest& r, double gap) {
   const double w = r.width, h = r.height;
   std::vector<Box> boxes;
-  const auto centerd = [&](double x, double y) {
+  const auto centered = [&](double x, double y) {
     boxes.push_back({x - w / 2, y - h / 2, x + w / 2, y + h / 2});
   };
-  centerd(r.x + gap + w / 2, r.y);
-  centerd(r.x - gap - w / 2, r.y);
-  centerd(r.x, r.y - gap - h / 2);
-  centerd(r.x, r.y + gap + h / 2);
+  centered(r.x + gap + w / 2, r.y);
+  centered(r.x - gap - w / 2, r.y);
+  centered(r.x, r.y - gap - h / 2);
+  centered(r.x, r.y + gap + h / 2);
   for (int ring = 0; ring < 24; ++ring) {
     const double away = gap + 4 + 6 * ring;
     for (int step = 0; step < 16; ++step) {
       const double angle = step * 3.14159265358979 / 8;
       const double c = std::cos(angle), s = std::sin(angle);
-      centerd(r.x + c * (away + w / 2), r.y + s * (away + h / 2));
+      centered(r.x + c * (away + w / 2), r.y + s * (away + h / 2));
     }
   }
   return boxes;

@@ -1,4 +1,4 @@
-// Where the labels of a chart go.
+// Places for the labels of a chart, beside their points and apart from one another.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a sweep finds out, point by point: the common source of table, CSV, charts and report.
+// The results of a sweep, point by point: the common source of table, CSV, charts and report.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How far a sweep has come, and how long it will still take.
+// The progress of a sweep: how far it has come, and how long it will still take.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// The points that no other beats in both time and error.
+// The Pareto front: the points that no other beats in both time and error.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What accuracy costs, as a picture.
+// The chart of a sweep, error over time, as SVG.
 #pragma once
 
 #include <string>

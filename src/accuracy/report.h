@@ -1,4 +1,4 @@
-// A sweep as a page.
+// Sweeps as an HTML page.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The pieces of the report; private to this folder.
+// Sections, style and script of the HTML report; private to this folder.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a sweep takes on: how many samples its reference has, and which points it leaves out so as
+// The scope of a sweep: how many samples its reference has, and which points it leaves out so as
 // to end in time.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Measures one scene with one choice of options after the other.
+// The sweep of a scene: measures it with one choice of options after the other.
 #pragma once
 
 #include <cstdint>

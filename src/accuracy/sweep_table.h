@@ -1,4 +1,4 @@
-// A sweep for people at a terminal.
+// A sweep as a table of text, for people at a terminal.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Times that mean something on a machine that is busy with other things as well.
+// The timing of a sweep's points, in turns with the baseline: so that times mean something on a
+// machine that is busy with other things as well.
 #pragma once
 
 #include <vector>

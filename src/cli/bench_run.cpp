@@ -1,7 +1,6 @@
 #include "cli/bench_run.h"
 
 #include "accuracy/digest.h"
-#include "cli/info_rows.h"
 #include "render/floor.h"
 
 namespace whit::cli {

@@ -1,4 +1,5 @@
-// One run: a scene, its settings, and what its frames cost. The common source of tables and JSON.
+// The summary of a run: a scene, its settings, and what its frames cost. The common source of
+// tables and JSON.
 #pragma once
 
 #include <cstdint>
@@ -51,5 +52,17 @@ double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);
 
 std::vector<std::string> effectNames(EffectSet effects);
+
+struct EffectRow {
+  std::string name;
+  bool on = false;
+  std::string because;
+};
+// Every effect, in the order of core/effects.h; "disabled by --disable" overrides the scene's
+// reason.
+std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options);
+
+// Scene, tables, queues and acceleration structure, in 10^6 bytes.
+double memoryMb(const Scene& scene, const Renderer& renderer);
 
 }  // namespace whit::cli

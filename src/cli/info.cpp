@@ -4,35 +4,12 @@
 
 #include "cli/commands.h"
 #include "cli/image_output.h"
-#include "cli/info_rows.h"
 #include "cli/json_report.h"
 #include "cli/open_scene.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
 
 namespace whit::cli {
-
-std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options) {
-  std::vector<EffectRow> rows;
-  for (int i = 0; i < kEffectCount; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const EffectReason& reason = scene.reasons[index];
-    const auto effect = static_cast<Effect>(i);
-    const bool disabled = options.disable.has(effect);
-    if (effect == Effect::glossyReflection && reason.on && !disabled && options.glossy == 0) {
-      rows.push_back(
-          {std::string(kEffectNames[index].name), false, reason.because + ", but --glossy is 0"});
-      continue;
-    }
-    rows.push_back({std::string(kEffectNames[index].name), reason.on && !disabled,
-                    reason.on && disabled ? "disabled by --disable" : reason.because});
-  }
-  return rows;
-}
-
-double memoryMb(const Scene& scene, const Renderer& renderer) {
-  return static_cast<double>(scene.memoryBytes() + renderer.memoryBytes()) / 1e6;
-}
 
 namespace {
 

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "cli/info_rows.h"
 #include "cli/interrupt.h"
 #include "cli/machine_facts.h"
 #include "core/option_table.h"

@@ -1,5 +1,5 @@
-// Results for machines. The keys are a contract: adding is fine, renaming is not. Units are in the
-// names; megabytes are 10^6 bytes.
+// Results as JSON, for other programs. The keys are a contract: adding is fine, renaming is not.
+// Units are in the names; megabytes are 10^6 bytes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

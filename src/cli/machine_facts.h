@@ -1,4 +1,4 @@
-// What measurements are worth nothing without: on what they were made.
+// The machine and the build on which measurements are made.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The tables that people read: where a frame's time went, and how its rays filled the packets.
+// Tables of text about a run: where a frame's time went, and how its rays filled the packets.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Suggestions for misspelt names.
+// Suggestions for misspelt names: the nearest of those there are.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How an image is cut into what one rank of a farm traces at a time.
+// The blocks of an image: what one rank of a farm traces at a time.
 #pragma once
 
 #include <vector>

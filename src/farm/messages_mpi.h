@@ -1,4 +1,4 @@
-// What the ranks of a farm say to each other. Every wait sleeps between looks: MPI's own spin, and
+// The messages between the ranks of a farm. Every wait sleeps between looks: MPI's own spin, and
 // would take the processor from those who trace.
 #pragma once
 

@@ -12,7 +12,8 @@
 
 namespace whit {
 
-// The file as it was read.
+// The container of glTF files: JSON text, or JSON and a binary chunk in a .glb file. glTF 2.0
+// specification, section 4 (GLB).
 struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string name;  // for errors
   Json json;         // an object
@@ -21,10 +22,6 @@ struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not 
 };
 
 namespace {
-
-// The container of glTF files: JSON text, or JSON and a binary chunk in a .glb file. glTF 2.0
-// specification, section 4 (GLB).
-
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;

@@ -1,4 +1,5 @@
-// What glTF asks of each property that is read here: its kind, its range, and that an index exists.
+// The check of a glTF file's JSON against what the format's schemas ask of each property that is
+// read here: its kind, its range, and that what an index names exists.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// What a glTF material becomes here. glTF 2.0 specification, appendix B; KHR_materials_*.
+// A glTF material as a Material of this renderer. glTF 2.0 specification, appendix B;
+// KHR_materials_*.
 #pragma once
 
 #include "core/vec3.h"

@@ -1,4 +1,4 @@
-// Where glTF's materials name a texture: which image it is and how it is looked up. glTF 2.0
+// References to textures in glTF's materials: which image it is and how it is looked up. glTF 2.0
 // specification, section 3.8; KHR_texture_transform.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The beginning of OpenEXR files; for the files of this folder that link OpenEXR.
+// The headers of OpenEXR files; for the files of this folder that link OpenEXR.
 #pragma once
 
 #include <ImfHeader.h>

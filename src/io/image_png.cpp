@@ -22,18 +22,19 @@ namespace {
 constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
 
 // Nothing here has a destructor, because libpng reports errors by longjmp.
-struct Writer {
+struct Libpng {
   png_structp png = nullptr;
   png_infop info = nullptr;
+  int passes = 1;  // of what is read
   char message[160] = "";
 };
 
-void onWriteError(png_structp png, png_const_charp message) {
-  auto* writer = static_cast<Writer*>(png_get_error_ptr(png));
-  std::snprintf(writer->message, sizeof writer->message, "%s", message);
+void onError(png_structp png, png_const_charp message) {
+  auto* own = static_cast<Libpng*>(png_get_error_ptr(png));
+  std::snprintf(own->message, sizeof own->message, "%s", message);
   png_longjmp(png, 1);
 }
-void onWriteWarning(png_structp, png_const_charp) {}
+void onWarning(png_structp, png_const_charp) {}
 
 bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
@@ -58,10 +59,9 @@ std::vector<png_text> textChunks(const ImageMetadata& metadata,
 }
 
 // False: `writer.message` says why.
-bool write(Writer& writer, std::FILE* file, const DisplayImage& image, const png_text* texts,
+bool write(Libpng& writer, std::FILE* file, const DisplayImage& image, const png_text* texts,
            int textCount) {
-  writer.png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onWriteError, onWriteWarning);
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
   if (writer.png == nullptr) return false;
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   writer.info = png_create_info_struct(writer.png);
@@ -84,24 +84,9 @@ bool write(Writer& writer, std::FILE* file, const DisplayImage& image, const png
 
 constexpr png_uint_32 kSideLimit = kImageSideLimit;
 
-// Nothing here has a destructor, because libpng reports errors by longjmp.
-struct PngTextReader {
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  int passes = 1;
-  char message[160] = "";
-};
-
-void onReadError(png_structp png, png_const_charp message) {
-  auto* reader = static_cast<PngTextReader*>(png_get_error_ptr(png));
-  std::snprintf(reader->message, sizeof reader->message, "%s", message);
-  png_longjmp(png, 1);
-}
-void onReadWarning(png_structp, png_const_charp) {}
-
 // False: `reader.message` says why.
-bool readHeader(PngTextReader& reader, std::FILE* file) {
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, onReadError, onReadWarning);
+bool readHeader(Libpng& reader, std::FILE* file) {
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, onError, onWarning);
   if (reader.png == nullptr) return false;
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   reader.info = png_create_info_struct(reader.png);
@@ -114,7 +99,7 @@ bool readHeader(PngTextReader& reader, std::FILE* file) {
   return true;
 }
 
-bool readRows(PngTextReader& reader, png_bytep row) {
+bool readRows(Libpng& reader, png_bytep row) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   const png_uint_32 height = png_get_image_height(reader.png, reader.info);
   for (int pass = 0; pass < reader.passes; ++pass) {
@@ -133,7 +118,7 @@ void writeTo(std::FILE* file, const std::string& what, const DisplayImage& image
              const ImageMetadata& metadata) {
   std::vector<std::string> keywords;
   const std::vector<png_text> texts = textChunks(metadata, keywords);
-  Writer writer;
+  Libpng writer;
   const bool written = write(writer, file, image, texts.data(), static_cast<int>(texts.size()));
   const int error = errno;  // of the last write, if that was what failed
   png_destroy_write_struct(&writer.png, &writer.info);
@@ -178,11 +163,9 @@ ImageMetadata readPngMetadata(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) throwIo("cannot open '" + path + "': " + std::strerror(errno));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closing(file, &std::fclose);
-  PngTextReader reader;
-  const auto release = [](PngTextReader* r) {
-    png_destroy_read_struct(&r->png, &r->info, nullptr);
-  };
-  const std::unique_ptr<PngTextReader, decltype(release)> releasing(&reader, release);
+  Libpng reader;
+  const auto release = [](Libpng* r) { png_destroy_read_struct(&r->png, &r->info, nullptr); };
+  const std::unique_ptr<Libpng, decltype(release)> releasing(&reader, release);
   if (!readHeader(reader, file)) throwBadScene(path, std::string("no PNG: ") + reader.message);
   std::vector<png_byte> row(png_get_rowbytes(reader.png, reader.info));
   if (!readRows(reader, row.data())) {

@@ -1,4 +1,4 @@
-// JSON files: syntax only.
+// JSON texts: their syntax only.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// From a name on the command line to a scene description.
+// The reader of scenes: from a name on the command line to a scene description.
 #pragma once
 
 #include <cstdint>

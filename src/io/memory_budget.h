@@ -1,4 +1,4 @@
-// How much a scene may take while it is loaded. Thread-safe, because textures are decoded in
+// A budget of memory for the loading of a scene. Thread-safe, because textures are decoded in
 // parallel.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where files may lie, and where shipped scenes are found.
+// Paths that scenes name: which of them may be read, and where shipped scenes are found.
 #pragma once
 
 #include <cstdint>

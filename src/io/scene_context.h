@@ -1,4 +1,4 @@
-// What the parts of the scene reader share.
+// The state of a scene's reading, which the readers of its sections share.
 #pragma once
 
 #include <filesystem>

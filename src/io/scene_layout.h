@@ -1,4 +1,4 @@
-// What stands where while a scene file is read: bodies that hold meshes and other bodies.
+// The layout of a scene while its file is read: bodies that hold meshes and other bodies.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How far two images are apart.
+// Measures of the difference between two images.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// How much memory shapes and patterns may take while they are made: a few words in a scene file can
-// ask for terabytes.
+// The limit of the memory that shapes and patterns take while they are made: a few words in a scene
+// file can ask for terabytes.
 #pragma once
 
 #include <cstdint>

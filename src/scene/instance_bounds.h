@@ -1,4 +1,4 @@
-// Where the instances of a scene lie, and how far rays may start that are carried into their space.
+// The bounds of a scene's instances, and of the rays that can be carried into their space.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The same scene without some of its effects: what remains calls for all the others and for none of
+// Leaving effects out of a scene: what remains calls for all the others and for none of
 // those; and the order in which `whit effects` adds them one after the other. Measures and tests
 // compare a scene with itself in this way.
 #pragma once

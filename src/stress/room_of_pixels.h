@@ -1,3 +1,4 @@
+// A room whose corners lie exactly in the middles of pixels.
 #pragma once
 
 #include "scene/camera.h"

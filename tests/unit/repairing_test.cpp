@@ -118,7 +118,7 @@ TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
 }
 
 // H68: whole numbers off, so the picture is the same, with all bits for the fraction.
-TEST(Repairing, FarTextureCoordinatesAreRecenterdWhereTheyRepeat) {
+TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
   Mesh mesh = square();
   mesh.uvs = {{1000000.25f, -20.5f}, {1000001.5f, -17}, {1000000, -30}, {1000002, -18}};
   const auto firstUv = [&](Wrap wrapU, Wrap wrapV) {

@@ -1,5 +1,5 @@
-// From formulas over the unit square to textures. Patterns repeat seamlessly: f(u + 1, v) = f(u, v)
-// and the same in v; v points up.
+// Textures painted by formulas over the unit square. Patterns repeat seamlessly: f(u + 1, v) = f(u,
+// v) and the same in v; v points up.
 #pragma once
 
 #include <functional>

@@ -30,7 +30,7 @@ Shape flatSheet(ShapeParameters& parameters, int nx, int nz, const char* name) {
 
 }  // namespace
 
-// Faces up, centerd on the origin: width along x, depth along z.
+// Faces up, centered on the origin: width along x, depth along z.
 Shape makeQuad(ShapeParameters& parameters) { return flatSheet(parameters, 1, 1, "quad"); }
 
 Shape makeGrid(ShapeParameters& parameters) {

@@ -5,7 +5,7 @@
 
 namespace whit::procedural {
 
-// round.cpp: turned and tessellated solids about the y axis, centerd on the origin.
+// round.cpp: turned and tessellated solids about the y axis, centered on the origin.
 Shape makeSphere(ShapeParameters& parameters);
 Shape makeIcosphere(ShapeParameters& parameters);
 Shape makeCylinder(ShapeParameters& parameters);

@@ -40,7 +40,7 @@ Vec3d Ground::normal(double x, double z, double step) const {
   return normalized(Vec3d{-dx, 2 * step, -dz}, Vec3d{0, 1, 0});
 }
 
-// A square of `triangles` triangles (rounded down to 2 n^2), centerd on the origin.
+// A square of `triangles` triangles (rounded down to 2 n^2), centered on the origin.
 Shape makeTerrain(ShapeParameters& parameters) {
   const Ground ground(parameters);
   const double triangles = parameters.number("triangles", 131072, 2, 2e8);

@@ -43,7 +43,7 @@ void addGroinBay(MeshBuilder& builder, const Vec3d& center, double a, double b, 
 
 }  // namespace
 
-// Ceilings seen from below, springing from y = 0, centerd on the origin: `groin` has baysX x baysZ
+// Ceilings seen from below, springing from y = 0, centered on the origin: `groin` has baysX x baysZ
 // crossed barrels, `barrel` one tunnel along z.
 Shape makeVault(ShapeParameters& parameters) {
   const std::string kind = parameters.word("kind", "groin", {"groin", "barrel"});

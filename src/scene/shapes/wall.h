@@ -1,4 +1,4 @@
-// Walls with rows of openings, in the x-y plane, centerd on x = 0 and z = 0, standing on y = 0.
+// Walls with rows of openings, in the x-y plane, centered on x = 0 and z = 0, standing on y = 0.
 #pragma once
 
 #include "scene/mesh.h"
