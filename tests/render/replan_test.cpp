@@ -27,7 +27,7 @@ TEST(Replan, OnlyOptionsOfTheTablesChangeWhatTablesAreMadeFrom) {
         setOption(options, std::string(spec.name), value);
         const Plan other = makePlan(scene, options);
         EXPECT_EQ(other.effects, plan.effects) << spec.name << " " << value;
-        EXPECT_EQ(other.groups.cones, plan.groups.cones) << spec.name << " " << value;
+        EXPECT_EQ(other.features, plan.features) << spec.name << " " << value;
       }
     });
   }
