@@ -242,7 +242,7 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on
   }
 }
 
-// The scalar twin is terminatorLift in src/reference/surfel.cpp.
+// The scalar twin is terminatorLift in src/reference/find_intersections.cpp.
 void LiftShadowOrigins(Chunk& c) noexcept {
   const FloatTag d;
   const ShadingTables& tables = c.tables();
