@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/interrupt.h"
+#include "app/interrupt.h"
 #include "core/error.h"
 #include "io/image_file.h"
-#include "viewer/panel.h"
 #include "viewer/edit_settings.h"
 #include "viewer/motion.h"
+#include "viewer/panel.h"
 
 namespace whit::view {
 

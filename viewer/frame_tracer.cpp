@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/image_output.h"
+#include "app/image_output.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
 
@@ -18,13 +18,6 @@ ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.he
 void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
   if (filmSizeOf(film) == size && film.image.window == window) return;
   film.image = Image(size.width, size.height, window);
-}
-
-// For a film that is filled band by band.
-void sizeDisplay(Film& film) {
-  film.display.width = film.image.width;
-  film.display.height = film.image.height;
-  film.display.rgba.resize(film.image.pixels.size() * 4);
 }
 
 // Copies a band of whole rows to its place.

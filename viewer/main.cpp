@@ -1,10 +1,10 @@
 // whit-view: the viewer.
 #include <cstdio>
 
-#include "cli/man_page.h"
-#include "cli/open_scene.h"
-#include "cli/program.h"
-#include "cli/progress_bar.h"
+#include "app/man_page.h"
+#include "app/open_scene.h"
+#include "app/program.h"
+#include "app/progress_bar.h"
 #include "core/error.h"
 #include "io/paths.h"
 #include "viewer/app.h"

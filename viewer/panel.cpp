@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/frame_summary.h"
+#include "app/frame_summary.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "viewer/keys.h"

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "cli/frame_summary.h"
-#include "cli/image_output.h"
-#include "cli/open_scene.h"
+#include "app/frame_summary.h"
+#include "app/image_output.h"
+#include "app/open_scene.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "render/describe_image.h"

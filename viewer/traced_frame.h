@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/open_scene.h"
+#include "app/open_scene.h"
 #include "io/image_file.h"
 #include "render/debug_view.h"
 #include "viewer/comparison.h"

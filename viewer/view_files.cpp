@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/image_output.h"
-#include "cli/interrupt.h"
+#include "app/image_output.h"
+#include "app/interrupt.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/parse_options.h"
+#include "app/parse_options.h"
 #include "render/debug_view.h"
 #include "viewer/resolution_control.h"
 

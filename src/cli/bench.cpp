@@ -3,11 +3,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/image_output.h"
+#include "app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
-#include "cli/image_output.h"
 #include "cli/json_report.h"
-#include "cli/progress_bar.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
 

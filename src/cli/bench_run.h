@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "cli/frame_summary.h"
-#include "cli/open_scene.h"
+#include "app/frame_summary.h"
+#include "app/open_scene.h"
 
 namespace whit::cli {
 

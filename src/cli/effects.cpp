@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/interrupt.h"
+#include "app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/effects_report.h"
-#include "cli/interrupt.h"
-#include "cli/progress_bar.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/load_scene.h"

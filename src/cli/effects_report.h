@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/frame_summary.h"
+#include "app/frame_summary.h"
 
 namespace whit::cli {
 

@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/image_output.h"
+#include "app/open_scene.h"
+#include "app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/image_output.h"
 #include "cli/json_report.h"
-#include "cli/open_scene.h"
-#include "cli/progress_bar.h"
 #include "core/error.h"
 
 namespace whit::cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/frame_summary.h"
+#include "app/frame_summary.h"
 #include "core/warnings.h"
 #include "metrics/metrics.h"
 #include "render/stage_comparison.h"

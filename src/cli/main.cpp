@@ -1,9 +1,9 @@
 // whit: the command line program.
 #include <cstdio>
 
+#include "app/man_page.h"
+#include "app/program.h"
 #include "cli/commands.h"
-#include "cli/man_page.h"
-#include "cli/program.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/version.h"

@@ -3,10 +3,10 @@
 
 #include <limits>
 
+#include "app/image_output.h"
+#include "app/interrupt.h"
+#include "app/open_scene.h"
 #include "cli/commands.h"
-#include "cli/image_output.h"
-#include "cli/interrupt.h"
-#include "cli/open_scene.h"
 
 namespace whit::cli {
 

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "accuracy/digest.h"
+#include "app/image_output.h"
+#include "app/open_scene.h"
+#include "app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/image_output.h"
 #include "cli/json_report.h"
-#include "cli/open_scene.h"
-#include "cli/progress_bar.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
 #include "core/image.h"

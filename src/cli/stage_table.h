@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/frame_summary.h"
+#include "app/frame_summary.h"
 
 namespace whit::cli {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "app/image_output.h"
+#include "app/interrupt.h"
+#include "app/parse_options.h"
+#include "app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/image_output.h"
-#include "cli/interrupt.h"
-#include "cli/parse_options.h"
-#include "cli/progress_bar.h"
 #include "cli/stress_report.h"
 #include "core/display.h"
 #include "core/error.h"

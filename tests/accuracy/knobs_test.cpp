@@ -6,7 +6,7 @@
 #include <set>
 
 #include "accuracy/digest.h"
-#include "cli/parse_options.h"
+#include "app/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "cli/interrupt.h"
+#include "app/interrupt.h"
 
 namespace whit::cli {
 namespace {

@@ -1,8 +1,8 @@
 // Option values, presets, and the parser, without running the program.
 #include <gtest/gtest.h>
 
-#include "cli/image_output.h"
-#include "cli/parse_options.h"
+#include "app/image_output.h"
+#include "app/parse_options.h"
 #include "core/error.h"
 #include "core/option_values.h"
 #include "core/quality.h"

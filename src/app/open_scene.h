@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/parse_options.h"
+#include "app/parse_options.h"
 #include "core/warnings.h"
 #include "farm/farm.h"
 #include "render/renderer.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/option_list.h"
+#include "app/option_list.h"
 
 namespace whit::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/open_scene.h"
+#include "app/open_scene.h"
 
 #include <cstdio>
 

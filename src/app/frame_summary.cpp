@@ -1,4 +1,4 @@
-#include "cli/frame_summary.h"
+#include "app/frame_summary.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "cli/image_output.h"
+#include "app/image_output.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "cli/interrupt.h"
+#include "app/interrupt.h"
 #include "core/display.h"
 #include "core/error.h"
 

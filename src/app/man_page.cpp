@@ -1,10 +1,10 @@
-#include "cli/man_page.h"
+#include "app/man_page.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "cli/parse_options.h"
-#include "cli/program.h"
+#include "app/parse_options.h"
+#include "app/program.h"
 #include "core/version.h"
 
 namespace whit::cli {

@@ -1,11 +1,11 @@
-#include "cli/program.h"
+#include "app/program.h"
 
 #include <signal.h>
 
 #include <cstdio>
 #include <exception>
 
-#include "cli/interrupt.h"
+#include "app/interrupt.h"
 #include "core/error.h"
 
 namespace whit::cli {

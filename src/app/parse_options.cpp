@@ -1,9 +1,9 @@
-#include "cli/parse_options.h"
+#include "app/parse_options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "cli/man_page.h"
+#include "app/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/quality.h"

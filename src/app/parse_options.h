@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/option_list.h"
+#include "app/option_list.h"
 #include "core/options.h"
 #include "io/load_scene.h"
 
