@@ -31,6 +31,8 @@ commit=$(git -C "$root" rev-parse --short HEAD 2>/dev/null) || cannot "this is n
 
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
+logs=$root/build-fresh
+mkdir -p "$logs"
 objects=
 if ! $cold && command -v ccache >/dev/null; then
   objects=$(ccache --get-config=cache_dir)
@@ -76,14 +78,15 @@ within() {
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "${settings[@]}" "$@" </dev/null
 }
 
-# timed WHO LOG COMMAND...: its time, and the end of what it says when it fails.
+# timed WHO COMMAND...: its time, and the end of what it says when it fails.
 timed() {
-  local who=$1 log=$2 start=$SECONDS status=0
-  shift 2
+  local who=$1 start=$SECONDS status=0 log
+  log=$logs/$(tr -c 'a-z\n' - <<<"$1").log
+  shift
   "$@" >"$log" 2>&1 || status=$?
   if [ $status -ne 0 ]; then
     tail -40 "$log" | cut -c 1-200
-    echo "!! $who: ended with $status" >&2
+    echo "!! $who: ended with $status, see $log" >&2
   fi
   echo "$who: $((SECONDS - start)) s"
   return $status
@@ -113,11 +116,11 @@ visit() {
   mkdir "$system$home/whit"
   git -C "$root" archive HEAD | tar -x -C "$system$home/whit"
   within "$system" root chown -R "$user:$user" "$home/whit"
-  timed "$visitor: scenes/demo.sh" "$work/demo.log" within "$system" "$user" whit/scenes/demo.sh &&
-    timed "$visitor: cmake --install" "$work/install.log" \
+  timed "$visitor scenes/demo.sh" within "$system" "$user" whit/scenes/demo.sh &&
+    timed "$visitor cmake --install" \
       within "$system" "$user" cmake --install whit/build --prefix "$home/installed" || status=1
-  timed "$visitor: tests/run.sh" "$work/run.log" within "$system" "$user" whit/tests/run.sh || status=1
-  grep -E 'tests passed|^NOT CHECKED|^-- release' "$work/run.log" | sed 's/^/   /' || true
+  timed "$visitor tests/run.sh" within "$system" "$user" whit/tests/run.sh || status=1
+  grep -E 'tests passed|^NOT CHECKED|^-- release' "$logs/$visitor-tests-run-sh.log" | sed 's/^/   /' || true
   rm -rf --one-file-system "$system"
   return $status
 }

@@ -53,7 +53,7 @@ buildAndTest() {
   local preset=$1
   shift
   cmake --preset "$preset" "$@" >/dev/null && cmake --build --preset "$preset" --parallel "$(nproc)" &&
-    ctest --preset "$preset" --parallel $((2 * $(nproc)))
+    ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc)))
 }
 
 # The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, and its
@@ -101,10 +101,14 @@ fuzzReaders() {
   return "$status"
 }
 
-groups=(build view test)
+# Tests that miss a program are left out.
+installTestPrograms() { scenes/install_packages.sh test || return 77; }
+
+groups=(build view)
 if $full; then groups+=(clean check); fi
 if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
+step "programs that tests start" installTestPrograms
 useCompilerCache "$root"
 step "format" tests/format.sh --check
 if $full; then
