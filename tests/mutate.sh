@@ -11,6 +11,8 @@ set -uo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 copy=${WHIT_MUTATE_DIR:-$root/build/mutate}
+. "$root/tests/compiler_cache.sh"
+useCompilerCache "$copy"
 planted=0
 red=
 survived=()
@@ -147,8 +149,8 @@ if [ "$mode" = run ]; then
   mkdir -p "$copy"
   (cd "$root" && cp -ru CMakeLists.txt src simd scenes viewer tests "$copy/") || exit 1
   # shellcheck disable=SC2086  # a list of words
-  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_UNITY=OFF \
-    -DWHIT_SIMD_TARGETS=TWO ${WHIT_MUTATE_CMAKE:-} >/dev/null || exit 1
+  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_SIMD_TARGETS=TWO \
+    ${WHIT_MUTATE_CMAKE:-} >/dev/null || exit 1
   if ! try; then
     echo "unchanged: not all green, see $copy/build.log and test.*.log beside it: $red" >&2
     exit 1
