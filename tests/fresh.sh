@@ -55,7 +55,7 @@ if [ -n "$objects" ]; then
   mount --bind "$objects" "$system/var/cache/ccache"
 fi
 cd /
-exec chroot "$@"
+chroot "$@"  # as a child: the first process of its own kind would take no notice of interruptions
 END
 
 # within SYSTEM USER COMMAND...
@@ -126,10 +126,11 @@ visit() {
 }
 failed=()
 for visitor in "${visitors[@]}"; do
-  # Not as a condition of &&: the shell would then go on after what fails within.
-  visit "$visitor" &
-  status=0
-  wait $! || status=$?
+  # Not as a condition: the shell would then go on after what fails within.
+  set +e
+  (set -e; visit "$visitor")
+  status=$?
+  set -e
   case $status in
     0) ;;
     77) exit 77 ;;
