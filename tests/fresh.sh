@@ -81,7 +81,7 @@ within() {
 # timed WHO COMMAND...: its time, and the end of what it says when it fails.
 timed() {
   local who=$1 start=$SECONDS status=0 log
-  log=$logs/$(tr -c 'a-z\n' - <<<"$1").log
+  log=$logs/$(tr -cs 'a-z\n' - <<<"$1").log
   shift
   "$@" >"$log" 2>&1 || status=$?
   if [ $status -ne 0 ]; then
