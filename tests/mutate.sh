@@ -122,7 +122,8 @@ mutations() {
   plant stale-tfar simd/packets.cpp \
     'from.tFar ? load(from.tFar) : hn::Inf(d);' \
     'from.tFar ? load(from.tFar)
-        : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);'
+        : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
+    if (!from.tFar) tFar = hn::IfThenElse(hn::Gt(tFar, hn::Zero(d)), tFar, hn::Inf(d));'
   plant stale-hit src/accel/trace_packets.cpp \
     'forgetHits<kWidth>(group.packets.data(), count);' \
     'if (begin == 0) forgetHits<kWidth>(group.packets.data(), count);'
