@@ -53,6 +53,10 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
   const LightLanes<kBits> lanes(light);
   const V3 intensity = Broadcast3(light.intensity);
   size_t count = 0;
+  // One point of several of a light with a radius.
+  const bool sampled = c.lightSamples > 1;
+  const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
+  const VF share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU material = hn::Load(du, surfels.material + i);
     MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
@@ -64,8 +68,16 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
-    const V3 toLight = lanes.Towards(position);
-    const VF distanceSquared = Dot(toLight, toLight);
+    V3 toLight = lanes.Towards(position);
+    VF distanceSquared = Dot(toLight, toLight), area = lanes.Area(distanceSquared);
+    if (HWY_UNLIKELY(sampled)) {
+      const VU path = hn::Load(du, rays.path + i);
+      const auto view =
+          lanes.Look(toLight, LightPoints(path, points, c.lightNumber, c.lightSample));
+      toLight = view.toPoint;
+      area = view.area;
+      distanceSquared = Dot(toLight, toLight);
+    }
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
     if (lifted) {
@@ -98,14 +110,15 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
         bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
       }
     }
-    const V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, distanceSquared));
+    const V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
     const VF largest = MaxComponent(radiance);
     live = hn::And(live, hn::Gt(largest, zero));
     if (choices.lightCutoff > 0) {
       const VF contribution = hn::Mul(hn::Load(d, rays.throughput + i), largest);
       live = hn::And(live, hn::Ge(contribution, hn::Set(d, choices.lightCutoff)));
     }
-    Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
+    Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.r, unshadowed.g, unshadowed.b,
+           i);
     if (!traced) {
       hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
       continue;
@@ -116,7 +129,8 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
                   hn::Load(d, surfels.offset + i), 1.0f);
     const Compactor lit(live);
     lit.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
-    lit.Store(lanes.Towards(origin), shadows.dirX, shadows.dirY, shadows.dirZ, count);
+    const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
+    lit.Store(way, shadows.dirX, shadows.dirY, shadows.dirZ, count);
     lit.Store(lanes.Reach(inverseDistance), shadows.tFar + count);
     lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
     count += lit.Count();

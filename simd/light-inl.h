@@ -10,7 +10,9 @@
 #include <limits>
 
 #include "core/effects.h"
+#include "hwy/contrib/math/math-inl.h"
 #include "scene/light.h"
+#include "simd/random_streams-inl.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,6 +23,15 @@ namespace whit::simd::HWY_NAMESPACE {
 HWY_INLINE float LightBound(const Light& light) {
   const Vec3f p = abs(light.position);
   return 0x1p-19f * (p.x + p.y + p.z);
+}
+
+// lightPoint(): the lattice of each lane's own stream.
+HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
+                                  uint32_t k) {
+  const UintTag du;
+  const VU shared = hn::Sub(path, hn::Set(du, sampling.unshift));
+  const VU stream = Mixed(hn::Xor(shared, hn::Set(du, (light + 1) * kLightStep)));
+  return LobePoints(stream, {sampling.count, sampling.first, 0}, k);
 }
 
 template <uint32_t kBits>
@@ -67,12 +78,49 @@ class LightLanes {
     return live;
   }
 
+  // What the intensity is divided by at this distance.
+  HWY_INLINE VF Area(VF distanceSquared) const { return hn::Max(distanceSquared, radiusSquared_); }
+
+  // Of lights with a radius a point for each lane: the way to it, and what the intensity is divided
+  // by (the scalar twin, with its source: viewOf in
+  // src/reference/find_radiance_and_shadow_rays.cpp). Not inlined: frames whose lights are points
+  // shall not carry it along.
+  struct View {
+    V3 toPoint;
+    VF area;
+  };
+  HWY_NOINLINE View Look(const V3& toCenter, const UnitPoints& at) const {
+    const FloatTag d;
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+    const VF squared = Dot(toCenter, toCenter);
+    const MF outside = hn::Gt(squared, radiusSquared_);
+    const VF safe = hn::IfThenElse(outside, squared, one);
+    const VF distance = hn::Sqrt(safe);
+    const VF sine2 = hn::Div(hn::IfThenElseZero(outside, radiusSquared_), safe);
+    const VF height = hn::Div(sine2, hn::Add(one, hn::Sqrt(hn::Sub(one, sine2))));
+    const VF h = hn::Mul(at.u, height), turn = hn::Mul(at.v, hn::Set(d, 6.28318531f));
+    const VF s = hn::Sqrt(hn::Mul(h, hn::Sub(two, h)));
+    const V3 z = Scale3(toCenter, hn::Div(one, distance));
+    const MF useX = hn::Lt(hn::Abs(z.x), hn::Set(d, 0.5f));
+    const V3 axis{hn::IfThenElseZero(useX, one), hn::IfThenElse(useX, zero, one), zero};
+    const V3 x = NormalizeOr(Cross(z, axis), axis), y = Cross(z, x);
+    const V3 l = MulAdd3(x, hn::Mul(s, hn::Cos(d, turn)),
+                         MulAdd3(y, hn::Mul(s, hn::Sin(d, turn)), Scale3(z, hn::Sub(one, h))));
+    const VF far = hn::Mul(hn::Sub(one, at.u), hn::NegMulAdd(height, hn::Add(one, at.u), two));
+    const VF inside = hn::Sqrt(hn::Div(far, hn::Sub(two, height)));
+    const VF way =
+        hn::NegMulAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
+    const VF area = hn::Div(radiusSquared_, hn::Add(height, height));
+    return {Select3(outside, Scale3(l, way), toCenter),
+            hn::IfThenElse(outside, area, Area(squared))};
+  }
+
   // What a surface receives of the intensity; `nl` is the cosine at it, `l` the direction.
-  HWY_INLINE VF Falloff(VF nl, const V3& l, VF distanceSquared) const {
+  HWY_INLINE VF Falloff(VF nl, const V3& l, VF area) const {
     if constexpr (kDirectional) {
       if (directional_) return nl;
     }
-    const VF falloff = hn::Div(nl, hn::Max(distanceSquared, radiusSquared_));
+    const VF falloff = hn::Div(nl, area);
     if constexpr (kSpots) {
       if (spot_) return hn::Mul(falloff, Cone(l));
     }

@@ -28,6 +28,7 @@ namespace whit {
   X(spotLights, "cones of spot lights")                        \
   X(directionalLights, "directional lights")                   \
   X(shadows, "shadows of lights")                              \
+  X(softShadows, "penumbras of lights with a radius")          \
   X(mirror, "reflected impulses")                              \
   X(transmission, "refracted impulses")                        \
   X(absorption, "absorption inside dielectrics")               \

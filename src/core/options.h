@@ -27,6 +27,9 @@ enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
 
+inline constexpr Need kNeedsSoftShadows{EffectSet().with(Effect::softShadows),
+                                        "no light has a radius and a shadow"};
+
 struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
@@ -52,6 +55,7 @@ struct RenderOptions {
   int depth = kDepthLimit;
   int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
   float cutoff = 1.0e-4f;
+  int lightSamples = 1;  // points of a light with a radius; 1: its center
   ShadingChoices shading;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
@@ -162,6 +166,14 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .crossed = "1e-4 1e-3 4e-3", .spare = "3e-4", .endless = true,
                                .needs = {kNeedsImpulses}}},
              o.cutoff},
+      Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
+              .help = "points of a light with a radius that a surface is lit from, each with its "
+                      "shadow ray; 1: its center",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "1",
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
+                               .needs = {kNeedsSoftShadows}}},
+             o.lightSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "smallest contribution of a light to the pixel that is still added, and its "
                       "shadow traced",
@@ -316,8 +328,9 @@ struct AskedFor {
   bool asked;
   std::string_view otherwise;  // what is said where it is not
 };
-inline std::array<AskedFor, 1> effectsAskedFor(const RenderOptions& o) {
-  return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"}}};
+inline std::array<AskedFor, 2> effectsAskedFor(const RenderOptions& o) {
+  return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
+           {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"}}};
 }
 // Those that the options do not ask for.
 inline EffectSet notAskedFor(const RenderOptions& o) {

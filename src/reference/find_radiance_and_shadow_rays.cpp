@@ -22,8 +22,43 @@ double shadowReach(const Light& light, double distance) {
 }
 
 LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
+  LightPoint point;
+  if (chunk.lightSamples > 1) {
+    const LobeSampling sampling =
+        lightSampling(chunk.depth, chunk.lightSamples, chunk.sampleNumber);
+    point = {false,
+             lightPoint(chunk.rays.path[slot], sampling, chunk.lightNumber, chunk.lightSample)};
+  }
   return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
-                           chunk.options().shading);
+                           chunk.options().shading, point);
+}
+
+// What a surfel sees of a light: the way to a point of it, and what the intensity is divided by for
+// the biradiance that all of it would bring from there.
+struct LightView {
+  Vec3d toPoint;
+  double area = 1;
+};
+
+LightView viewOf(const Light& light, const Vec3d& position, const LightPoint& point) {
+  const Vec3d toCenter = towards(light, position);
+  if (light.kind == Light::Kind::directional) return {toCenter, 1};
+  const double squared = dot(toCenter, toCenter), radius = light.radius;
+  if (point.center || squared <= radius * radius) {
+    return {toCenter, std::max(squared, radius * radius)};
+  }
+  const double distance = std::sqrt(squared), sine2 = radius * radius / squared;
+  // 1 - cos of the cone that the sphere fills, without cancellation.
+  const double height = sine2 / (1 + std::sqrt(1 - sine2));
+  const double u = point.at.u, turn = 2 * std::numbers::pi * double{point.at.v};
+  const double h = u * height, s = std::sqrt(h * (2 - h));
+  const Vec3d z = toCenter / distance;
+  const Vec3d axis = std::fabs(z.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d x = normalized(cross(z, axis)), y = cross(z, x);
+  const Vec3d l = x * (s * std::cos(turn)) + y * (s * std::sin(turn)) + z * (1 - h);
+  // The root of 1 - s^2 / sine2, likewise.
+  const double inside = std::sqrt((1 - u) * (2 - height * (1 + u)) / (2 - height));
+  return {l * (distance * (1 - h) - radius * inside), radius * radius / (2 * height)};
 }
 
 }  // namespace
@@ -47,11 +82,11 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
 }
 
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
-                               const ShadingChoices& choices) {
+                               const ShadingChoices& choices, const LightPoint& point) {
   LightArrival arrival;
   const bool directional = light.kind == Light::Kind::directional;
   if (directional && !effects.has(Effect::directionalLights)) return arrival;
-  const Vec3d toLight = towards(light, surfel.position);
+  const auto [toLight, area] = viewOf(light, surfel.position, point);
   const double squaredDistance = dot(toLight, toLight);
   if (!(squaredDistance > 0)) return arrival;
   const double distance = std::sqrt(squaredDistance);
@@ -62,9 +97,8 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   const bool front = lifted || dot(surfel.geometricNormal, l) > 0;
   if (!(front && cosine > 0)) return arrival;
 
-  const double radius = light.radius;
   RgbD biradiance(light.intensity);
-  if (!directional) biradiance = biradiance / std::max(squaredDistance, radius * radius);
+  if (!directional) biradiance = biradiance / area;
   if (light.kind == Light::Kind::spot && effects.has(Effect::spotLights)) {
     biradiance *= coneOf(light).falloff(l);
   }
@@ -76,7 +110,8 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   Surfel start = surfel;
   if (lifted) start.position += surfel.lift;
   const Vec3d origin = rayOrigin(choices.offset, start, 1);
-  arrival.shadowRay = {origin, towards(light, origin)};
+  arrival.shadowRay = {origin,
+                       point.center ? towards(light, origin) : surfel.position + toLight - origin};
   arrival.tFar = shadowReach(light, distance);
   return arrival;
 }
@@ -86,7 +121,7 @@ std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk
   const LightArrival arrival = arrivalAt(world, chunk, slot);
   if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
   UnshadowedRow row;
-  put(arrival.radiance, row.r, row.g, row.b);
+  put(arrival.radiance / chunk.lightSamples, row.r, row.g, row.b);
   // Shadow rays have yet to find out.
   row.visible = chunk.has(Feature::shadows) ? 0 : 1;
   return row;

@@ -6,6 +6,7 @@
 
 #include "core/shading_choices.h"
 #include "reference/twin.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 
@@ -16,13 +17,23 @@ namespace whit::reference {
 // "Moving Frostbite to PBR", section 3.1).
 RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight);
 
+// Which point of a light that has a radius: that which covers `at` of the light as the surfel sees
+// it, where (u, v) run evenly over the solid angle (Shirley, Wang and Zimmerman 1996, "Monte Carlo
+// techniques for direct lighting calculations", section 3.2). Its shadow ray ends on the sphere. A
+// surfel inside of the sphere is lit from the center.
+struct LightPoint {
+  bool center = true;
+  UnitPoint at;
+};
+
 struct LightArrival {
-  RgbD radiance;    // towards the viewer if nothing is in between; all 0: no need to look
+  RgbD radiance;    // towards the viewer if nothing is in between, of the whole light as if all of
+                    // it were at that point; all 0: no need to look
   Ray shadowRay;    // from the surfel to the light, not normalized
   double tFar = 0;  // a little before the light; infinite where it is directional
 };
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
-                               const ShadingChoices& choices = {});
+                               const ShadingChoices& choices = {}, const LightPoint& point = {});
 
 // The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light
 // lies in the surface's plane, or behind it.

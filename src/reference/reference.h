@@ -59,7 +59,8 @@ class Tracer {
  private:
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
-  RgbD radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const;
+  RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
+                          Path path) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
                        std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,

@@ -55,7 +55,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
     if (effects_.has(Effect::lights)) {
-      radiance += radianceFromLights(surfel, left, counts);
+      radiance += radianceFromLights(surfel, depth, left, counts, path);
     }
   }
   if (depth < options_.depth) {
@@ -104,17 +104,28 @@ RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::u
          traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
 }
 
-RgbD Tracer::radianceFromLights(const Surfel& surfel, double throughput, RayCounts& counts) const {
+// Each point of a light is looked at as if it were the whole light, so that their number does not
+// decide which light is worth its shadow rays.
+RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughput,
+                                RayCounts& counts, Path path) const {
   RgbD sum;
-  for (const Light& light : scene_.lights) {
-    const LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading);
-    const double largest = maxComponent(arrival.radiance);
-    if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
-    if (effects_.has(Effect::shadows)) {
-      ++counts.shadow;
-      if (!isVisible(intersector_, arrival.shadowRay, arrival.tFar)) continue;
+  for (std::uint32_t number = 0; number < scene_.lights.size(); ++number) {
+    const Light& light = scene_.lights[number];
+    const bool soft = effects_.has(Effect::softShadows) && hasExtent(light);
+    const LobeSampling points = lightSampling(
+        depth, static_cast<std::uint32_t>(soft ? options_.lightSamples : 1), path.sample);
+    for (std::uint32_t k = 0; k < points.count; ++k) {
+      const LightPoint point{points.count == 1, lightPoint(path.number, points, number, k)};
+      const LightArrival arrival =
+          radianceFromLight(effects_, surfel, light, options_.shading, point);
+      const double largest = maxComponent(arrival.radiance);
+      if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
+      if (effects_.has(Effect::shadows)) {
+        ++counts.shadow;
+        if (!isVisible(intersector_, arrival.shadowRay, arrival.tFar)) continue;
+      }
+      sum += points.count == 1 ? arrival.radiance : arrival.radiance / points.count;
     }
-    sum += arrival.radiance;
   }
   return sum;
 }

@@ -19,6 +19,7 @@ EffectSet consistent(EffectSet e) {
     e = e.without(Effect::spotLights).without(Effect::directionalLights);
     if (!e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
   }
+  if (!e.has(Effect::shadows)) e = e.without(Effect::softShadows);
   if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
@@ -36,7 +37,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::vertexColors, e.has(Effect::vertexColors))
       .with(Feature::sky, e.has(Effect::sky))
       .with(Feature::glossy, e.has(Effect::glossy))
-      .with(Feature::streams, e.has(Effect::glossyReflection))
+      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows))
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
@@ -93,7 +94,7 @@ class Planner {
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
     if (has(Effect::lights)) {
-      for (std::size_t i = 0; i < scene_.lights.size(); ++i) addLight(i);
+      for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
     addImpulses();
     plan_.perTile = {updateImageStep()};
@@ -114,8 +115,14 @@ class Planner {
     }
   }
 
+  void addSamplesOf(std::size_t index) {
+    const bool soft = has(Effect::softShadows) && hasExtent(scene_.lights[index]);
+    const auto count = static_cast<std::uint32_t>(soft ? options_.lightSamples : 1);
+    for (std::uint32_t k = 0; k < count; ++k) addLight(index, k, count);
+  }
+
   // A light needs the code of its own kind only, and surfels that do not shine need less again.
-  void addLight(std::size_t index) {
+  void addLight(std::size_t index, std::uint32_t sample, std::uint32_t samples) {
     const Light& light = scene_.lights[index];
     EffectSet effects = plan_.effects;
     if (light.kind != Light::Kind::spot) effects = effects.without(Effect::spotLights);
@@ -125,6 +132,8 @@ class Planner {
       return;
     }
     LightSteps lightSteps{.light = index,
+                          .sample = sample,
+                          .samples = samples,
                           .steps = {stepOf(simd::kFindRadianceAndShadowRays, effects)}};
     Step& find = lightSteps.steps[0];
     if (has(Effect::glossy)) {

@@ -125,6 +125,11 @@ inline double ofSurfels(const Place<RadianceRow>& p) {
   return p.chunk.surfels.material[p.slot] == kMiss ? kNotHere : 0;
 }
 
+// A point on a light is found from its center by a sine, a cosine, three roots and a change of
+// frame: its direction is off by up to four ulps more than that of the center, which is one
+// difference.
+inline double byPointOfLight(const Chunk& chunk) { return chunk.lightSamples > 1 ? 4 : 1; }
+
 // What the radiance would be without the cosine, whose rounding error is absolute. An ulp of the
 // half vector, over the width of the lobe, is how much a highlight moves.
 inline double byGrazing(const Place<UnshadowedRow>& p) {
@@ -132,8 +137,8 @@ inline double byGrazing(const Place<UnshadowedRow>& p) {
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
   const Vec3d l = normalized(towards(light, s.position));
   const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
-  const double scale =
-      std::max({p.twin.r, p.twin.g, p.twin.b}) / (std::max(dot(l, s.shadingNormal), 1e-4) * width);
+  const double scale = byPointOfLight(p.chunk) * std::max({p.twin.r, p.twin.g, p.twin.b}) /
+                       (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   if (light.kind != Light::Kind::spot) return scale;
   // Likewise the cosine to the cone's axis, over the width of its edge.
   const SpotCone cone = coneOf(light);
@@ -143,8 +148,9 @@ inline double byGrazing(const Place<UnshadowedRow>& p) {
 inline double byBothEnds(const Place<ShadowRow>& p) {
   const Light& light = *p.chunk.light;
   if (light.kind == Light::Kind::directional) return 1;
-  return maxComponent(abs(Vec3d(light.position))) +
-         maxComponent(abs(Vec3d{p.twin.orgX, p.twin.orgY, p.twin.orgZ}));
+  return byPointOfLight(p.chunk) *
+         (maxComponent(abs(Vec3d(light.position))) +
+          maxComponent(abs(Vec3d{p.twin.orgX, p.twin.orgY, p.twin.orgZ})));
 }
 
 inline std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }

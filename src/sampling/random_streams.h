@@ -63,4 +63,21 @@ constexpr UnitPoint lobePoint(std::uint32_t path, const LobeSampling& sampling, 
   return {static_cast<float>(u >> 8) * 0x1p-24f, static_cast<float>(v >> 8) * 0x1p-24f};
 }
 
+// Likewise of a light with a radius, at every depth: all samples of a light are of one surfel.
+constexpr LobeSampling lightSampling(int depth, std::uint32_t count, std::uint32_t sample) {
+  return depth > 0 ? LobeSampling{count, 0, 0}
+                   : LobeSampling{count, sample * count, sample * kSampleStep};
+}
+// Where the lattice of a light begins for the surfel that `path` has led to.
+inline constexpr std::uint32_t kLightStep = 0x7feb352du;
+constexpr std::uint32_t lightStream(std::uint32_t path, const LobeSampling& sampling,
+                                    std::uint32_t light) {
+  return mixed((path - sampling.unshift) ^ ((light + 1) * kLightStep));
+}
+// Point k of it.
+constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
+                               std::uint32_t light, std::uint32_t k) {
+  return lobePoint(lightStream(path, sampling, light), {sampling.count, sampling.first, 0}, k);
+}
+
 }  // namespace whit

@@ -132,12 +132,13 @@ void Gatherer::surroundings() {
 }
 
 void Gatherer::lights() {
-  std::uint64_t shining = 0, spots = 0, directional = 0, casting = 0;
+  std::uint64_t shining = 0, spots = 0, directional = 0, wide = 0, casting = 0;
   for (const Light& light : scene_.lights) {
     if (isBlack(light.intensity)) continue;
     ++shining;
     spots += light.kind == Light::Kind::spot;
     directional += light.kind == Light::Kind::directional;
+    wide += hasExtent(light);
   }
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     if (scene_.materials[i].castsShadow) casting += uses_[i];
@@ -152,6 +153,8 @@ void Gatherer::lights() {
       counted(shining, "light") + ", " + counted(casting, "triangle") +
           (casting == 1 ? " casts shadows" : " cast shadows"),
       shining > 0 ? "no triangle casts a shadow" : dark);
+  set(Effect::softShadows, wide > 0 && casting > 0, counted(wide, "light") + " with a radius",
+      wide > 0 ? "no triangle casts a shadow" : "no light has a radius");
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ void leaveOutOfLights(std::vector<Light>& lights, EffectSet effects) {
   for (Light& light : lights) {
     const bool wide = effects.has(Effect::spotLights) && light.kind == Light::Kind::spot;
     if (wide) light.kind = Light::Kind::point;
+    if (effects.has(Effect::softShadows)) light.radius = kPointRadius;
   }
   if (!effects.has(Effect::directionalLights)) return;
   std::erase_if(lights, [](const Light& light) { return light.kind == Light::Kind::directional; });

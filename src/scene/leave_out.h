@@ -27,7 +27,7 @@ inline constexpr std::array kAddedEffects{
     Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
     Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
     Effect::glossy,       Effect::glossyReflection,  Effect::instances,     Effect::mirror,
-    Effect::transmission, Effect::absorption,
+    Effect::transmission, Effect::absorption,        Effect::softShadows,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

@@ -9,7 +9,8 @@
 namespace whit {
 
 // What arrives at a surface that faces the light, with nothing in between:
-// - point, at distance d: intensity / max(d^2, radius^2); `radius` only bounds it near the light;
+// - point, at distance d: intensity / max(d^2, radius^2). It is a sphere of this radius that shines
+//   evenly in all directions; its center stands for it, unless --light-samples asks for more;
 // - spot: the same within its cone, see SpotCone;
 // - directional: `intensity`, everywhere.
 struct Light {
@@ -25,6 +26,13 @@ struct Light {
   float innerConeAngle = 0, outerConeAngle = 45;
   std::string pointer{};  // as of a Material
 };
+
+// The least radius there is: of a point.
+inline constexpr float kPointRadius = 1.1e-18f;
+// Whether it is more than a point, so that its shadows have penumbras.
+inline bool hasExtent(const Light& light) {
+  return light.kind != Light::Kind::directional && light.radius > kPointRadius;
+}
 
 // From `position` to the light: all the way, or a unit vector where the light is directional.
 Vec3d towards(const Light& light, const Vec3d& position);

@@ -19,7 +19,12 @@ EffectSet withDependents(Effect effect) {
   const EffectSet set = EffectSet().with(effect);
   switch (effect) {
     case Effect::lights:
-      return set.with(Effect::shadows).with(Effect::spotLights).with(Effect::directionalLights);
+      return set.with(Effect::shadows)
+          .with(Effect::softShadows)
+          .with(Effect::spotLights)
+          .with(Effect::directionalLights);
+    case Effect::shadows:
+      return set.with(Effect::softShadows);
     case Effect::textures:
     case Effect::emission:
       return set.with(Effect::emissionMaps);
@@ -38,6 +43,7 @@ EffectSet withDependents(Effect effect) {
 RenderOptions glossyOptions() {
   RenderOptions o = smallOptions();
   o.glossy = 2;
+  o.lightSamples = 2;
   return o;
 }
 
@@ -109,6 +115,7 @@ template <typename Columns>
 std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool instances) {
   const FeatureSet features = FeatureSet()
                                   .with(Feature::emissionFactors)
+                                  .with(Feature::streams)
                                   .with(Feature::glossy, glossy)
                                   .with(Feature::transmission, transmission)
                                   .with(Feature::instances, instances);

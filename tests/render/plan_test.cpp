@@ -137,7 +137,9 @@ TEST(Plans, EndEachStageWithItsLastStep) {
   const Plan plan = planOf(EffectSet::all());
   const Step* before = nullptr;
   plan.forEachStep([&](const Step& step) {
-    if (before && before->stage != step.stage) EXPECT_TRUE(before->endsStage) << before->name;
+    if (before && before->stage != step.stage) {
+      EXPECT_TRUE(before->endsStage) << before->name;
+    }
     EXPECT_NE(step.run, nullptr) << step.name;
     before = &step;
   });
