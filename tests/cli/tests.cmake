@@ -8,11 +8,13 @@ if(TARGET whit-view)
 endif()
 add_test(NAME manual.says_what_help_says
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/manual_test.sh ${programs})
-# What README.md says does not depend on sanitizers, under which it would take minutes.
+# What the pages say does not depend on sanitizers, under which it would take minutes.
 if(NOT WHIT_SANITIZE)
   add_test(NAME readme.commands_work
-           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/readme_test.sh ${CMAKE_SOURCE_DIR}/README.md
-                   ${programs})
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/readme_test.sh
+                   ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/viewer/README.md
+                   ${CMAKE_SOURCE_DIR}/scenes/README.md ${CMAKE_SOURCE_DIR}/tests/bench/README.md
+                   ${CMAKE_SOURCE_DIR}/src/accuracy/README.md ${programs})
   # Takes longest: begins first.
   set_tests_properties(readme.commands_work PROPERTIES TIMEOUT 600 COST 1000)
 endif()
