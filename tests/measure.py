@@ -137,14 +137,17 @@ def measure_accuracy():
         try:
             text = run([BUILD / "whit", "compare", scene, "--size", "480x300", "--depth", "8",
                         "--cutoff", "3e-4", "--stages", "--json", "-", "--quiet"])
-        except subprocess.CalledProcessError as error:  # a stage is beyond its limit: it shows
+        except subprocess.CalledProcessError as error:  # a stage is beyond its limit, as it shows
             complain(f"{scene}: whit compare ends with {error.returncode}")
             text = error.stdout
         compared.append({"scene": scene, **json.loads(text)})
     keep("compare.json", {"machine": bench("matte", "--size", "8x8", "--frames", "1")["machine"],
                           "runs": compared})
     run([BUILD / "whit", "accuracy", *here(SWEPT), "--quick", "--out", OUT / "accuracy", "--quiet"])
-    keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
+    try:
+        keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
+    except subprocess.CalledProcessError:
+        complain("tests/targets.sh fails: its table stays as it is")
 
 
 # Tables.
