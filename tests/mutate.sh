@@ -1,57 +1,75 @@
 #!/usr/bin/env bash
 # Plants known mistakes one at a time in a copy of the sources, builds the tests of the hard cases,
-# and sees that some test turns red. Slow: each mistake rebuilds a kernel for every target.
+# and sees that some test turns red. Slow: most mistakes rebuild kernels.
 #   tests/mutate.sh              all
 #   tests/mutate.sh NAME...      these
 #   tests/mutate.sh --list       their names
-# Exits 1 when a mistake survives. The copy is $WHIT_MUTATE_DIR, else build/mutate; it is kept, so
-# that the next run is faster.
+#   tests/mutate.sh --check      only sees that the place of each is there, once; builds nothing
+# Exits 1 when a mistake survives or has lost its place. The copy is $WHIT_MUTATE_DIR, else build/mutate;
+# it is kept, so that the next run is faster.
 set -uo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 copy=${WHIT_MUTATE_DIR:-$root/build/mutate}
-names=()
+. "$root/tests/compiler_cache.sh"
+useCompilerCache "$copy"
+planted=0
+red=
 survived=()
 
 # plant NAME FILE OLD NEW: OLD occurs once in FILE.
 plant() {
-  names+=("$1")
-  if [ "${#wanted[@]}" -gt 0 ] && [[ ! " ${wanted[*]} " =~ " $1 " ]]; then return; fi
-  if [ "$mode" = list ]; then echo "$1"; return; fi
-  # An interrupted run must not leave its mistake to the next.
-  trap "cp '$root/$2' '$copy/$2'" EXIT
-  cp "$root/$2" "$copy/$2"
-  if ! OLD=$3 NEW=$4 perl -0pi -e '$n = s/\Q$ENV{OLD}\E/$ENV{NEW}/g; END { exit($n != 1) }' \
-      "$copy/$2"; then
-    echo "$1: the place is not there once in $2" >&2
-    survived+=("$1 (not planted)")
-  else
-    try "$1"
-  fi
-  cp "$root/$2" "$copy/$2"
-}
-
-# Builds and tests the copy as it is now.
-try() {
-  if ! cmake --build "$copy/build" --target hard_test >"$copy/build.log" 2>&1; then
-    echo "$1: does not build, see $copy/build.log"
-    survived+=("$1 (not built)")
+  local name=$1 file=$2 old=$3 new=$4 text rest count
+  if [ "${#wanted[@]}" -gt 0 ] && [[ ! " ${wanted[*]} " =~ " $name " ]]; then return; fi
+  planted=$((planted + 1))
+  if [ "$mode" = list ]; then echo "$name"; return; fi
+  text=
+  if [ -f "$root/$file" ]; then text=$(<"$root/$file"); fi
+  rest=${text//"$old"/}
+  count=$(((${#text} - ${#rest}) / ${#old}))
+  if [ $count -ne 1 ]; then
+    echo "$name: its place is found $count times in $file, not once: $old" >&2
+    survived+=("$name (no place)")
     return
   fi
-  WHIT_SOURCE_DIR=$copy timeout 600 "$copy/build/tests/hard_test" >"$copy/test.log" 2>&1
-  local status=$?
-  local red
+  if [ "$mode" = check ]; then return; fi
+  # An interrupted run must not leave its mistake to the next.
+  # shellcheck disable=SC2064  # the file of now
+  trap "cp '$root/$file' '$copy/$file'" EXIT
+  printf '%s\n' "${text%%"$old"*}$new${text#*"$old"}" >"$copy/$file"
+  try
+  case $? in
+    0) echo "$name: SURVIVED"; survived+=("$name") ;;
+    1) echo "$name: caught by $red" ;;
+    2) echo "$name: does not build, see $copy/build.log"; survived+=("$name (not built)") ;;
+  esac
+  cp "$root/$file" "$copy/$file"
+}
+
+# hardCases SHARD: half of the tests.
+hardCases() {
+  WHIT_SOURCE_DIR=$copy GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$1 \
+    timeout 600 "$copy/build/tests/hard_test" >"$copy/test.$1.log" 2>&1
+}
+
+# Builds and tests the copy as it is now: 0 all green, 1 red, 2 not built. What is red goes to $red.
+try() {
+  local shard status=0
+  cmake --build "$copy/build" --target hard_test >"$copy/build.log" 2>&1 || return 2
+  hardCases 0 &
+  hardCases 1 || status=$?
+  wait $! || status=$?
   red=$(sed -n 's|^\[  FAILED  \] Hard/CaseTest.Holds/\([A-Za-z0-9]*\), where.*|\1|p' \
-    "$copy/test.log" | sort -Vu | paste -sd' ')
-  if [ $status -eq 0 ]; then
-    echo "$1: SURVIVED"
-    survived+=("$1")
-  elif [ -n "$red" ]; then
-    echo "$1: caught by $red"
-  else
-    red=$(sed -n 's|^\[ RUN      \] Hard/CaseTest.Holds/||p' "$copy/test.log" | tail -1)
-    echo "$1: caught by $red (the program ended with status $status)"
-  fi
+    "$copy"/test.?.log | sort -Vu | paste -sd' ')
+  # A program that was ended has no list of what failed: it was at the last test that it began.
+  for shard in 0 1; do
+    if ! grep -q '^\[  PASSED  \]' "$copy/test.$shard.log"; then
+      red+=" $(sed -n 's|^\[ RUN      \] Hard/CaseTest.Holds/||p' "$copy/test.$shard.log" | tail -1)"
+      red+=" (the program ended with status $status)"
+    fi
+  done
+  red=${red# }
+  [ $status -eq 0 ] || return 1
 }
 
 mutations() {
@@ -102,14 +120,20 @@ mutations() {
   plant far-texture-coordinate simd/texture-inl.h \
     'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
   plant stale-tfar simd/packets-inl.h \
-    'store(tFar, packet_column::tFar);' 'if (i == 0) store(tFar, packet_column::tFar);'
-  plant off-by-one-tail src/accel/packets.h \
-    'i < rays ? -1 : 0;' 'i + (rays > 1 ? 1 : 0) < rays ? -1 : 0;'
+    'from.tFar ? load(from.tFar) : hn::Inf(d);' \
+    'from.tFar ? load(from.tFar)
+        : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
+    if (!from.tFar) tFar = hn::IfThenElse(hn::Gt(tFar, hn::Zero(d)), tFar, hn::Inf(d));'
+  plant stale-hit src/accel/find_hits.cpp \
+    'forgetHits<kWidth>(group.packets.data(), count);' \
+    'if (begin == 0) forgetHits<kWidth>(group.packets.data(), count);'
+  plant off-by-one-tail simd/packets-inl.h \
+    'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'
   plant bad-rays-traced simd/packets-inl.h \
     'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
-    'options.retry && isEnclosed(scene, *p.accel)' 'false && isEnclosed(scene, *p.accel)'
-  plant eye-in-vacuum src/render/tile_tracer.cpp 'camera.media,' '0,'
+    'options.retry && isEnclosed(scene, *accel_)' 'false && isEnclosed(scene, *accel_)'
+  plant eye-in-vacuum src/render/frame_setup.cpp '.media = camera.media,' '.media = 0,'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
 }
 
@@ -117,20 +141,30 @@ mode=run
 wanted=()
 for word in "$@"; do
   case $word in
-    --list) mode=list ;;
-    -*) echo "tests/mutate.sh: unknown option '$word' (--list)" >&2; exit 2 ;;
+    --list | --check) mode=${word#--} ;;
+    -*) echo "tests/mutate.sh: unknown option '$word' (--list, --check)" >&2; exit 2 ;;
     *) wanted+=("$word") ;;
   esac
 done
 if [ "$mode" = run ]; then
   mkdir -p "$copy"
   (cd "$root" && cp -ru CMakeLists.txt src simd scenes viewer tests "$copy/") || exit 1
-  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_UNITY=OFF \
+  # shellcheck disable=SC2086  # a list of words
+  cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_SIMD_TARGETS=TWO \
     ${WHIT_MUTATE_CMAKE:-} >/dev/null || exit 1
-  try "unchanged" | sed 's/SURVIVED/all green, as it must be/'
+  if ! try; then
+    echo "unchanged: not all green, see $copy/build.log and test.*.log beside it: $red" >&2
+    exit 1
+  fi
+  echo "unchanged: all green, as it must be"
 fi
 mutations
-if [ "$mode" = run ] && [ "${#survived[@]}" -gt 0 ]; then
-  echo "SURVIVED: ${survived[*]}" >&2
+if [ "${#wanted[@]}" -gt $planted ]; then
+  echo "tests/mutate.sh: some of these are not known: ${wanted[*]} (--list)" >&2
+  exit 2
+fi
+if [ "${#survived[@]}" -gt 0 ]; then
+  echo "NOT CAUGHT: ${survived[*]}" >&2
   exit 1
 fi
+if [ "$mode" = check ]; then echo "mutations: $planted places, each found once"; fi

@@ -1,23 +1,26 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
-#   tests/run.sh           formatting, clang-tidy, thread sanitizer, address and undefined-behavior
-#                          sanitizers with Clang (unit and reference with g++, too), fuzzing, MPI,
-#                          Embree 4 with Clang in Release, the Debian package in a clean system,
-#                          Release with warnings as errors
-#   tests/run.sh --quick   Release only
-#   tests/run.sh --all     every test of Clang's and g++'s other builds, a deeper clang-tidy and
-#                          64-bit ARM under emulation as well (an hour more)
+#   tests/run.sh           Release with warnings as errors and every test of it; formatting where
+#                          clang-format is: ten minutes on two cores
+#   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
+#                          Clang (unit and reference with g++, too), fuzzing, MPI, the Debian package
+#                          and both commands of README.md in clean systems, Embree 4 with Clang in
+#                          Release as well: forty minutes
+#   tests/run.sh --deep    every test of Clang's and g++'s other builds, a deeper clang-tidy and
+#                          64-bit ARM under emulation as well: an hour more
+# What this system has no way to is named at the end.
 set -uo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root" || exit 1
-quick=false
-all=false
+. tests/compiler_cache.sh
+full=false
+deep=false
 for word in "$@"; do
   case $word in
-    --quick) quick=true ;;
-    --all) all=true ;;
-    *) echo "tests/run.sh: unknown option '$word' (--quick, --all)" >&2; exit 2 ;;
+    --full) full=true ;;
+    --deep) full=true deep=true ;;
+    *) echo "tests/run.sh: unknown option '$word' (--full, --deep)" >&2; exit 2 ;;
   esac
 done
 failed=()
@@ -44,30 +47,13 @@ step() {
   echo "-- $name: $((SECONDS - start)) s"
 }
 
-# Formatting differs from one version to the next; the one of Debian 12 counts.
-checkFormat() {
-  if ! command -v clang-format >/dev/null; then
-    echo "!! clang-format is not installed: formatting is NOT checked" >&2
-    [ -z "${CI:-}" ]
-    return
-  fi
-  local version
-  version=$(clang-format --version | sed 's/.*version \([0-9]*\).*/\1/')
-  if [ "$version" != 14 ]; then
-    echo "!! clang-format $version instead of 14: formatting is NOT checked" >&2
-    return 0
-  fi
-  find src simd tests viewer \( -name '*.cpp' -o -name '*.h' \) -print0 2>/dev/null |
-    xargs -0 --no-run-if-empty clang-format --dry-run -Werror
-}
-
 # buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
 # a process or the disk.
 buildAndTest() {
   local preset=$1
   shift
   cmake --preset "$preset" "$@" >/dev/null && cmake --build --preset "$preset" --parallel "$(nproc)" &&
-    ctest --preset "$preset" --parallel $((2 * $(nproc)))
+    ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc)))
 }
 
 # The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, and its
@@ -89,15 +75,6 @@ checkThreads() {
   for area in "${areas[@]}"; do
     WHIT_SOURCE_DIR=$root "build-tsan/tests/${area}_test" --gtest_filter="$filter" || return 1
   done
-}
-
-# Builds that share sources and options share their objects, wherever they are.
-useCompilerCache() {
-  if command -v ccache >/dev/null; then
-    export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
-    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
-    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
-  fi
 }
 
 # One image on several ranks: the rest of the program is that of the other builds.
@@ -124,33 +101,39 @@ fuzzReaders() {
   return "$status"
 }
 
+# Tests that miss a program are left out.
+installTestPrograms() { scenes/install_packages.sh test || return 77; }
+
 groups=(build view)
-if ! $quick; then groups+=(check); fi
-if $all; then groups+=(wide); fi
+if $full; then groups+=(clean check); fi
+if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
-useCompilerCache
-deep=
-if $all; then deep=--deep; fi
-if ! $quick; then
-  step "format" checkFormat
-  step "tidy" tests/tidy.sh $deep
+step "programs that tests start" installTestPrograms
+useCompilerCache "$root"
+step "format" tests/format.sh --check
+if $full; then
+  tidiness=()
+  if $deep; then tidiness=(--deep); fi
+  step "tidy" tests/tidy.sh "${tidiness[@]}"
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
   step "MPI" checkRanks
   step "package" tests/package.sh
 fi
-if $all; then
+if $deep; then
   step "Embree 4" tests/embree4.sh
   step "Clang" buildAndTest clang -DWHIT_WERROR=ON
   step "g++ sanitizers" buildAndTest gcc-sanitize -DWHIT_WERROR=ON
   step "64-bit ARM" tests/aarch64.sh
-elif ! $quick; then
+elif $full; then
   # Neither is that of the Release build below: both at once save a build.
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
   # The rest is left to Clang's: g++ takes as long again for each.
   step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
 fi
+# After the builds whose objects it shares, and before the one that shares its own.
+if $full; then step "fresh systems" tests/fresh.sh; fi
 # Last, so that the last line is that of the tests as they are shipped.
 step "release" buildAndTest release -DWHIT_WERROR=ON
 

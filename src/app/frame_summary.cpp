@@ -74,13 +74,14 @@ std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& optio
     const EffectReason& reason = scene.reasons[index];
     const auto effect = static_cast<Effect>(i);
     const bool disabled = options.disable.has(effect);
-    if (effect == Effect::glossyReflection && reason.on && !disabled && options.glossy == 0) {
-      rows.push_back(
-          {std::string(kEffectNames[index].name), false, reason.because + ", but --glossy is 0"});
-      continue;
-    }
     rows.push_back({std::string(kEffectNames[index].name), reason.on && !disabled,
                     reason.on && disabled ? "disabled by --disable" : reason.because});
+  }
+  for (const AskedFor& a : effectsAskedFor(options)) {
+    EffectRow& row = rows[static_cast<std::size_t>(a.effect)];
+    if (a.asked || !row.on) continue;
+    row.on = false;
+    row.because += ", " + std::string(a.otherwise);
   }
   return rows;
 }

@@ -57,7 +57,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
-    const bool left = effect == Effect::glossyReflection && job.common.render.glossy == 0;
+    const bool left = notAskedFor(job.common.render).has(effect);
     if (has.has(effect) && !left) add(kEffectNames[static_cast<std::size_t>(effect)].name, kept);
   }
   takeTurns(runs, Turns{3, job.frames, false}, progress);

@@ -4,8 +4,10 @@
 // the entry.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/effects.h"
 #include "core/option_spec.h"
@@ -306,6 +308,24 @@ decltype(auto) withOptions(Options& o, Use&& use) {
 template <typename Options, typename Visitor>
 void forEachOption(Options& o, Visitor&& visit) {
   withOptions(o, [&](const auto&... option) { (visit(option.spec, option.field), ...); });
+}
+
+// Effects that a scene's contents alone do not turn on: an option has to ask for them as well.
+struct AskedFor {
+  Effect effect;
+  bool asked;
+  std::string_view otherwise;  // what is said where it is not
+};
+inline std::array<AskedFor, 1> effectsAskedFor(const RenderOptions& o) {
+  return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"}}};
+}
+// Those that the options do not ask for.
+inline EffectSet notAskedFor(const RenderOptions& o) {
+  EffectSet set;
+  for (const AskedFor& a : effectsAskedFor(o)) {
+    if (!a.asked) set = set.with(a.effect);
+  }
+  return set;
 }
 
 }  // namespace whit

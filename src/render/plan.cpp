@@ -12,8 +12,8 @@ namespace whit {
 namespace {
 
 // Effects that mean nothing without another one go with it.
-EffectSet consistent(EffectSet e, int glossySamples) {
-  if (!e.has(Effect::glossy) || glossySamples == 0) e = e.without(Effect::glossyReflection);
+EffectSet consistent(EffectSet e) {
+  if (!e.has(Effect::glossy)) e = e.without(Effect::glossyReflection);
   if (!e.has(Effect::lights)) {
     e = e.without(Effect::shadows);
     e = e.without(Effect::spotLights).without(Effect::directionalLights);
@@ -83,8 +83,8 @@ class Planner {
  public:
   Planner(const Scene& scene, const RenderOptions& options) : scene_(scene), options_(options) {
     const bool all = options.effects == EffectChoice::all;
-    plan_.effects = consistent((all ? EffectSet::all() : scene.effects).without(options.disable),
-                               options.glossy);
+    const EffectSet called = all ? EffectSet::all() : scene.effects;
+    plan_.effects = consistent(called.without(options.disable).without(notAskedFor(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
   }
 

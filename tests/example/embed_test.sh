@@ -1,13 +1,14 @@
 #!/bin/sh
 # Builds the example against what is installed and compares its picture with the program's:
-# embed_test.sh BUILD-FOLDER CMAKE C++-COMPILER
+# embed_test.sh BUILD-FOLDER CMAKE C++-COMPILER GENERATOR MAKE-PROGRAM
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$2" --install "$1" --prefix "$work/usr" >/dev/null
-"$2" -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/usr" -DCMAKE_CXX_COMPILER="$3" \
+"$2" -G "$4" -DCMAKE_MAKE_PROGRAM="$5" -S "$here" -B "$work/build" \
+  -DCMAKE_PREFIX_PATH="$work/usr" -DCMAKE_CXX_COMPILER="$3" \
   -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >"$work/log" || { cat "$work/log"; exit 1; }
 "$2" --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }
 

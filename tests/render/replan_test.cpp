@@ -27,7 +27,8 @@ TEST(Replan, OnlyOptionsOfTheTablesChangeWhatTablesAreMadeFrom) {
         setOption(options, std::string(spec.name), value);
         const Plan other = makePlan(scene, options);
         EXPECT_EQ(other.effects, plan.effects) << spec.name << " " << value;
-        EXPECT_EQ(other.features, plan.features) << spec.name << " " << value;
+        EXPECT_EQ(other.features.has(Feature::cones), plan.features.has(Feature::cones))
+            << spec.name << " " << value;
       }
     });
   }

@@ -1,0 +1,25 @@
+# For scripts that try things in a clean Debian beside this system; to be sourced after debian13.sh.
+
+# Ends the script where there is no way to another system within this one.
+needCleanSystems() {
+  [ "$(id -u)" = 0 ] || cannot "chroot needs root"
+  chroot / true 2>/dev/null || cannot "chroot is not allowed here"
+  "$root/scenes/install_packages.sh" clean || cannot "debootstrap cannot be installed"
+  command -v debootstrap >/dev/null || cannot "there is no debootstrap here"
+}
+
+# apart COMMAND...: with mounts and processes of its own, which are gone when it ends, however it ends.
+# As it is where the system does not allow that.
+apart() {
+  if unshare --mount --pid --fork true 2>/dev/null; then
+    unshare --mount --propagation private --pid --fork --kill-child "$@"
+  else
+    "$@"
+  fi
+}
+
+# makeCleanSystem RELEASE FOLDER LOG: the least that Debian has.
+makeCleanSystem() {
+  apart debootstrap --variant=minbase "$1" "$2" "$(mirror)" >"$3" 2>&1 ||
+    { tail -5 "$3"; cannot "debootstrap did not finish"; }
+}
