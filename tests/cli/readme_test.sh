@@ -1,11 +1,16 @@
 #!/usr/bin/env bash
-# The commands of README.md, as they stand there but for sizes and counts that would take long:
-# readme_test.sh README WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and code within
-# text that has arguments. Those of the programs and of scenes/farm are run; those that install,
+# The commands of README.md and other pages, as they stand there but for sizes and counts that would
+# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and
+# code within text that has arguments. Those of the programs and of scenes/farm are run; those that install,
 # build or test the whole are named, and so is whatever this machine lacks something for.
 set -uo pipefail
 
-readme=$(readlink -f "$1") whit=$(readlink -f "$2") view=${3:+$(readlink -f "$3")}
+pages=()
+while [[ ${1:-} == *.md ]]; do
+  pages+=("$(readlink -f "$1")")
+  shift
+done
+whit=$(readlink -f "$1") view=${2:+$(readlink -f "$2")}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 display=
@@ -52,9 +57,9 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=no
 
 # One command a line: first those of code blocks, without their comments, then those within text.
 commandsOf() {
-  awk '/^```/ { inside = !inside; next } inside' "$1" | sed -E 's/ +#( .*)?$//' |
+  awk '/^```/ { inside = !inside; next } inside' "$@" | sed -E 's/ +#( .*)?$//' |
     grep -E '^([A-Z]+=[^ ]+ )*((build|scenes|tests)/[a-z]|mpirun |cmake |cpack )'
-  awk '/^```/ { inside = !inside; next } !inside' "$1" | tr '\n' ' ' |
+  awk '/^```/ { inside = !inside; next } !inside' "$@" | tr '\n' ' ' |
     grep -oE '`((build|scenes|tests)/|mpirun |cmake |cpack |whit |whit-view )[^` ]*[^`]* [^`]+`' |
     tr -d '`' | sed -E 's/^(whit|whit-view) /build\/&/'
 }
@@ -64,7 +69,8 @@ cheap() {
   sed -E -e 's/ *(&& ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
     -e 's/COMMAND/render/' -e '/--crop|--frames|--record|mpirun|--widths/s/atrium/whitted/g' \
     -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
-    -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/1\.\.48/1..2/' \
+    -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/--depth N/--depth 4/' \
+    -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) FILE/\1 whitted/' -e 's/1\.\.48/1..2/' \
     -e 's/mpirun -n [0-9]+/mpirun -n 2/' \
     -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
@@ -116,10 +122,10 @@ while IFS= read -r line; do
   echo "$command"
   if ! bash -euo pipefail -c "$command" >said 2>&1 </dev/null; then
     cat said
-    echo "README.md: this fails: $line" >&2
+    echo "this fails: $line" >&2
     exit 1
   fi
   runs=$((runs + 1))
-done < <(commandsOf "$readme")
-test $runs -gt 10 || { echo "README.md: only $runs commands were found" >&2; exit 1; }
+done < <(commandsOf "${pages[@]}")
+test $runs -gt 10 || { echo "only $runs commands were found" >&2; exit 1; }
 echo "readme: $runs commands passed, $left left out"

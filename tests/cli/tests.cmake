@@ -8,10 +8,13 @@ if(TARGET whit-view)
 endif()
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/cli)
 whit_program_test(cli manual.says_what_help_says ${folder}/manual_test.sh ${programs})
-# What README.md says does not depend on sanitizers, under which it would take minutes.
+# What the pages say does not depend on sanitizers, under which it would take minutes.
 if(NOT WHIT_SANITIZE)
   whit_program_test(cli readme.commands_work
-                    ${folder}/readme_test.sh ${CMAKE_SOURCE_DIR}/README.md ${programs})
+                    ${folder}/readme_test.sh
+                    ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/viewer/README.md
+                    ${CMAKE_SOURCE_DIR}/scenes/README.md ${CMAKE_SOURCE_DIR}/tests/bench/README.md
+                    ${CMAKE_SOURCE_DIR}/src/accuracy/README.md ${programs})
   # Takes longest: begins first.
   set_tests_properties(readme.commands_work PROPERTIES TIMEOUT 600 COST 1000)
 endif()

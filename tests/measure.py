@@ -1,0 +1,508 @@
+#!/usr/bin/env python3
+"""Measures speed and accuracy and writes the tables of the pages that state them.
+
+  tests/measure.py                 both, on a machine at rest: some eleven minutes on two cores
+  tests/measure.py --speed         speed: tests/bench/README.md and the table in README.md (6 min)
+  tests/measure.py --accuracy      accuracy: src/accuracy/README.md and the table in README.md (5 min)
+  tests/measure.py --tables-only   only the tables, from what was measured before
+
+What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
+comments of its name; the text around them is written by hand. All figures of a page are of one commit
+and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
+its model ($WHIT_DATA), the viewer's figures a display or Xvfb; without them they are left out, loudly.
+"""
+import argparse
+import csv
+import datetime
+import json
+import os
+import pathlib
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build"
+OUT = BUILD / "measured"
+PICTURES = ROOT / "scenes/pictures"
+SPEED_PAGE, ACCURACY_PAGE = "tests/bench/README.md", "src/accuracy/README.md"
+
+FRAME = ["--depth", "8", "--floor", "--frames", "20"]
+SIZES = ["480x300", "1280x720"]
+FRAME_SCENES = ["sponza-mirror", "atrium", "landscape", "whitted"]
+CHOICE_SCENES = ["sponza-mirror", "atrium"]
+CHOICES = ["--batch frame", "--robust off", "--threads 1", "--threads 8", "--mode reference"]
+ROUNDS = 3
+DEPTHS = [0, 1, 2, 4, 8, 64]
+TRIANGLES = [1000000, 20000000]
+LONG_PATHS = ["matte", "mirrors", "whitted", "glass"]
+COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "sponza-mirror"]
+SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
+STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
+          "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
+KERNELS = [("generateRays",), ("packRays", "unpackHits"), ("interpolateSurfels",),
+           ("liftShadowOrigins",), ("writeEmittedAndReflectiveAmbient",),
+           ("findRadianceAndShadowRays",), ("packShadowRays", "unpackVisibility"), ("addShading",),
+           ("addReflections",), ("addRefractions",), ("addGlossyReflections",), ("returnImpulses",)]
+
+
+def complain(text):
+    print("!! " + text, file=sys.stderr)
+
+
+def here(scenes):
+    """Those scenes whose files are here."""
+    if os.environ.get("WHIT_DATA"):
+        return scenes
+    return [scene for scene in scenes if scene != "sponza-mirror"]
+
+
+def run(words, **options):
+    print("$ " + " ".join(str(word) for word in words), flush=True)
+    return subprocess.run([str(word) for word in words], cwd=ROOT, check=True, text=True,
+                          stdout=subprocess.PIPE, **options).stdout
+
+
+def bench(*words):
+    return json.loads(run([BUILD / "whit", "bench", *words, "--json", "-", "--quiet"]))
+
+
+def keep(name, data):
+    (OUT / name).write_text(json.dumps(data, indent=1) + "\n")
+
+
+def merged(parts):
+    """Several answers of whit bench as one; each comes with what its runs are to be called."""
+    whole = {"machine": parts[0][0]["machine"], "runs": []}
+    for answer, notes in parts:
+        whole["runs"] += [{**one, **notes} for one in answer["runs"]]
+    return whole
+
+
+# Measuring.
+
+def measure_choices():
+    """The default, each other choice, the default again: what drifts touches all of them."""
+    parts = []
+    for scene in here(CHOICE_SCENES):
+        for turn in range(ROUNDS):
+            for choice in ["", *CHOICES, ""]:
+                frames = "2" if "reference" in choice else "10"
+                parts.append((bench(scene, "--size", "480x300", "--depth", "8", "--frames", frames,
+                                    *choice.split()), {"choice": choice, "turn": turn}))
+    keep("choices.json", merged(parts))
+
+
+def measure_viewer():
+    if not (BUILD / "whit-view").exists():
+        return complain("the viewer was not built: its figures are left out")
+    front = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
+    if front and not shutil.which(front[0]):
+        return complain("neither a display nor xvfb-run: the viewer's figures are left out")
+    said = [run([*front, BUILD / "whit-view", scene, "--size", "420x300", "--benchmark"],
+                stderr=subprocess.DEVNULL) for scene in here(CHOICE_SCENES)]
+    keep("viewer.json", {"text": "\n".join(text.rstrip() for text in said)})
+
+
+def measure_speed():
+    for size in SIZES:
+        keep(f"frames-{size}.json", bench(*here(FRAME_SCENES), "--size", size, *FRAME))
+    keep("widths.json",
+         merged([(bench(scene, "--size", "480x300", *FRAME, "--widths"), {})
+                 for scene in here(CHOICE_SCENES)]))
+    measure_choices()
+    keep("effects-kernels.json",
+         bench("matte", "--ab-effects", "--size", "480x300", "--frames", "40"))
+    keep("depths.json",
+         merged([(bench("mirrors", "--size", "480x300", "--frames", "5", "--depth", depth),
+                  {"depth": depth}) for depth in DEPTHS]))
+    keep("triangles.json",
+         merged([(bench(f"landscape?triangles={n}", "--size", "480x300", "--frames", "5"), {})
+                 for n in TRIANGLES]))
+    keep("long-paths.json",
+         merged([(bench(*LONG_PATHS, "--size", "480x300", "--frames", "3", "--quality", quality),
+                  {"quality": quality}) for quality in ["standard", "draft"]]))
+    run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
+    keep("kernels.json", json.loads(run(
+        [BUILD / "tests/kernels_bench", "--benchmark_format=json", "--benchmark_min_time=0.02"],
+        env={**os.environ, "WHIT_SOURCE_DIR": str(ROOT)})))
+    measure_viewer()
+
+
+def measure_accuracy():
+    compared = []
+    for scene in here(COMPARED):
+        try:
+            text = run([BUILD / "whit", "compare", scene, "--size", "480x300", "--depth", "8",
+                        "--cutoff", "3e-4", "--stages", "--json", "-", "--quiet"])
+        except subprocess.CalledProcessError as error:  # a stage is beyond its limit, as it shows
+            complain(f"{scene}: whit compare ends with {error.returncode}")
+            text = error.stdout
+        compared.append({"scene": scene, **json.loads(text)})
+    keep("compare.json", {"machine": bench("matte", "--size", "8x8", "--frames", "1")["machine"],
+                          "runs": compared})
+    run([BUILD / "whit", "accuracy", *here(SWEPT), "--quick", "--out", OUT / "accuracy", "--quiet"])
+    try:
+        keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
+    except subprocess.CalledProcessError:
+        complain("tests/targets.sh fails: its table stays as it is")
+
+
+# Tables.
+
+def read(name):
+    path = OUT / name
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def number(value, digits=1):
+    return "" if value is None else f"{value:,.{digits}f}"
+
+
+def scene_of(row):
+    return row["scene"].split("/")[-1].removesuffix(".json")
+
+
+def million_rays(row):
+    return sum(row["rays"].values()) / 1e6
+
+
+def frame_table(data):
+    runs = data["runs"]
+    cells = [[f"`{stage}`"] + [number(r["stages_ms"][stage], 2) for r in runs] for stage in STAGES]
+    cells += [["**" + "frame" + "**"] + ["**" + number(r["frame_ms"]["median"]) + "**" for r in runs]]
+    for name, value in [
+            ("95 % of the frames within", lambda r: number(r["frame_ms"]["p95"])),
+            ("frames a second", lambda r: number(r["fps"])),
+            ("Embree alone, same rays", lambda r: number(r["floor_ms"])),
+            ("frame over that floor", lambda r: number(r["frame_over_floor"], 2)),
+            ("million rays", lambda r: number(million_rays(r), 2)),
+            ("Mray/s", lambda r: number(r["mrays_per_s"])),
+            ("lanes filled, shadow rays", lambda r: number(r["lanes_filled"]["shadow"], 3)),
+            ("lanes filled, reflections", lambda r: number(r["lanes_filled"]["reflection"], 3)),
+            ("reading and decoding, ms", lambda r: number(r["load_ms"], 0)),
+            ("building the BVH, ms", lambda r: number(r["build_ms"], 0))]:
+        cells.append([name] + [value(r) for r in runs])
+    return table(["ms a frame", *[scene_of(r) for r in runs]], cells)
+
+
+def width_table(data):
+    scenes = list(dict.fromkeys(scene_of(r) for r in data["runs"]))
+    rows = []
+    for packet in sorted({r["packet"] for r in data["runs"]}):
+        rows.append([str(packet)])
+        for scene in scenes:
+            one = next(r for r in data["runs"] if r["packet"] == packet and scene_of(r) == scene)
+            rows[-1] += [number(one["frame_ms"]["median"]), number(one["frame_over_floor"], 2)]
+    head = ["packets of"] + [word for scene in scenes for word in (scene + ", ms", "over floor")]
+    return table(head, rows)
+
+
+def choice_table(data):
+    scenes = list(dict.fromkeys(scene_of(r) for r in data["runs"]))
+
+    def ratio(scene, choice):
+        ratios = []
+        for turn in range(ROUNDS):
+            times = {}
+            for one in data["runs"]:
+                if scene_of(one) == scene and one["turn"] == turn:
+                    times.setdefault(one["choice"], []).append(one["frame_ms"]["median"])
+            ratios.append(times[choice][0] / statistics.mean(times[""]))
+        return number(statistics.median(ratios), 2)
+
+    return table(["", *scenes],
+                 [[f"`{choice}`"] + [ratio(scene, choice) for scene in scenes] for choice in CHOICES])
+
+
+def kernel_table(data):
+    least, targets = {}, []
+    for one in data["benchmarks"]:
+        if "per_ray" not in one:
+            continue
+        kernel, scene, target = one["name"].split("/")[:3]
+        if target not in targets:
+            targets.append(target)
+        key = kernel, target
+        least[key] = min(one["per_ray"] * 1e9, least.get(key, float("inf")))
+    known = {name for names in KERNELS for name in names}
+    others = [(k,) for k in dict.fromkeys(k for k, _ in least)
+              if k not in known and k not in ("findHits", "checkShadows")]
+
+    def cell(names, target):
+        times = [least[name, target] for name in names if (name, target) in least]
+        return number(sum(times), 2) if times else ""
+
+    rows = [[", ".join(f"`{name}`" for name in names)] + [cell(names, target) for target in targets]
+            for names in KERNELS + others]
+    return table(["ns a ray", *targets], [row for row in rows if any(row[1:])])
+
+
+def effect_table(rows):
+    cells = [[("+ " if i else "") + f"`{row['effect']}`"] +
+             [number(float(row[column]), digits) for column, digits in [
+                 ("frame_ms", 2), ("added_ms", 2), ("added_outside_embree_ms", 2),
+                 ("added_rays", 0), ("added_memory_mb", 2)]] for i, row in enumerate(rows)]
+    return table(["effect", "frame, ms", "added, ms", "of it outside Embree", "added rays",
+                  "added MB"], cells)
+
+
+def depth_table(data):
+    return table(["`--depth`", "ms", "million rays", "Mray/s"],
+                 [[str(r["depth"]), number(r["frame_ms"]["median"]), number(million_rays(r), 2),
+                   number(r["mrays_per_s"])] for r in data["runs"]])
+
+
+def triangle_table(data):
+    return table(["million triangles", "ms", "Mray/s", "building the BVH, ms", "peak memory, MB"],
+                 [[number(r["triangles"] / 1e6, 2), number(r["frame_ms"]["median"]),
+                   number(r["mrays_per_s"]), number(r["build_ms"], 0), number(r["peak_rss_mb"], 0)]
+                  for r in data["runs"]])
+
+
+def long_path_table(data):
+    draft = {r["scene"]: r for r in data["runs"] if r["quality"] == "draft"}
+    return table(["", "ms", "million rays", "ms with `--quality draft`"],
+                 [[scene_of(r), number(r["frame_ms"]["median"]), number(million_rays(r), 2),
+                   number(draft[r["scene"]]["frame_ms"]["median"])]
+                  for r in data["runs"] if r["quality"] == "standard"])
+
+
+def compare_table(data):
+    def row(r):
+        worst = max(s["worst_ulp"] / s["limit_ulp"] if s["limit_ulp"] else s["worst_ulp"]
+                    for s in r["stages"])
+        return [r["scene"], f"{100 - r['pixels_ge_2_codes_pct']:.3f} %", f"{r['flip_mean']:.5f}",
+                f"{r['rmse']:.1e}", number(r["path_flips_per_mpx"], 0), number(worst, 2),
+                str(r["nonfinite"])]
+    return table(["scene", "within one code", "FLIP", "RMSE", "path divergences a Mpixel",
+                  "worst stage, share of its limit", "not finite"], [row(r) for r in data["runs"]])
+
+
+def sweep():
+    path = OUT / "accuracy/sweep.csv"
+    return list(csv.DictReader(path.open())) if path.exists() else []
+
+
+def value(row, column):
+    return float(row[column]) if row and row[column] else None
+
+
+def name_of(row):
+    if row["kind"] in ("baseline", "preset"):
+        return f"`{row['value']}`"
+    return f"`{row['knob']}={row['value']}`" if row["knob"] else f"`{row['value']}`"
+
+
+def sweep_scenes(rows):
+    return list(dict.fromkeys(scene_of(r) for r in rows))
+
+
+def find(rows, scene, knob, wanted):
+    for row in rows:
+        if scene_of(row) == scene and row["knob"] == knob and row["value"] == wanted:
+            return row
+    return None
+
+
+def baseline(rows, scene):
+    return next(r for r in rows if scene_of(r) == scene and r["kind"] == "baseline")
+
+
+def rays(row):
+    return sum(value(row, kind + "_rays") for kind in
+               ["primary", "shadow", "reflection", "refraction"])
+
+
+def knob_table(rows):
+    chosen = [r for r in rows if scene_of(r) == "whitted"]
+    return table(["whitted", "time", "FLIP", "FLIP, equal samples"],
+                 [[name_of(r), number(value(r, "x_baseline"), 2), number(value(r, "total_flip"), 5),
+                   number(value(r, "same_samples_flip"), 5)] for r in chosen])
+
+
+def preset_table(rows):
+    scenes = sweep_scenes(rows)
+    cells = []
+    for preset in ["draft", "standard", "fine", "reference"]:
+        cells.append([f"`{preset}`"])
+        for scene in scenes:
+            row = (baseline(rows, scene) if preset == "standard"
+                   else find(rows, scene, "quality", preset))
+            cells[-1].append(f"{number(value(row, 'x_baseline'), 2)}, "
+                             f"{number(value(row, 'total_flip'), 4)}" if row else "")
+    return table(["time, FLIP", *scenes], cells)
+
+
+def standard_table(rows):
+    cells = []
+    for scene in sweep_scenes(rows):
+        row, eight = baseline(rows, scene), find(rows, scene, "depth", "8")
+        cells.append([scene, f"{value(row, 'same_samples_ge2_pct'):.3f} %",
+                      number(value(row, "same_samples_flip"), 4),
+                      number(value(row, "path_flips_per_mpx"), 0),
+                      number(value(row, "arithmetic_max_code"), 0),
+                      number(rays(row) / rays(eight), 2) if eight else ""])
+    return table(["", "two codes or more", "FLIP", "path divergences a Mpixel",
+                  "largest difference on the same path, codes", "rays over those of `--depth 8`"],
+                 cells)
+
+
+def adaptive_table(rows):
+    cells = []
+    for scene in sweep_scenes(rows):
+        all16 = find(rows, scene, "spp", "16")
+        for knob, wanted in [("adaptive", "on"), ("contrast", "4"), ("contrast", "16"),
+                             ("contrast", "24")]:
+            row = find(rows, scene, knob, wanted)
+            if row is None or all16 is None:
+                continue
+            contrast = "8" if knob == "adaptive" else wanted
+            cells.append([f"{scene}, `--contrast {contrast}`", number(rays(row) / rays(all16), 2),
+                          number(value(row, "x_baseline") / value(all16, "x_baseline"), 2),
+                          f"{value(row, 'total_relmse'):.1e}", f"{value(all16, 'total_relmse'):.1e}",
+                          number(value(row, "total_flip"), 4), number(value(all16, "total_flip"), 4)])
+    return table(["`--adaptive on --spp 24`", "rays", "time", "relMSE", "of 16 samples", "FLIP",
+                  "of 16 samples"], cells)
+
+
+def home_speed(frames):
+    """README.md: two sizes of three scenes."""
+    rows = []
+    for size, data in frames:
+        for r in data["runs"]:
+            if scene_of(r) != "whitted":
+                rows.append([f"{scene_of(r)}, {size}", number(r["frame_ms"]["median"]),
+                             number(r["fps"]), number(r["frame_over_floor"], 2),
+                             number(r["mrays_per_s"])])
+    first = frames[0][1]["runs"][0]
+    return (f"{first['threads']} threads, packets of {first['packet']}, {machine_text(frames[0][1])}:"
+            "\n\n" + table(["", "ms a frame", "frames a second", "frame over floor", "Mray/s"], rows))
+
+
+def home_accuracy(data):
+    rows = [[r["scene"], f"{100 - r['pixels_ge_2_codes_pct']:.3f} %", f"{r['flip_mean']:.5f}",
+             number(r["path_flips_per_mpx"], 0)] for r in data["runs"]]
+    return (f"480x300, {machine_text(data)}:\n\n" +
+            table(["", "within one 8-bit code", "FLIP", "path divergences a Mpixel"], rows))
+
+
+def machine_text(data):
+    m = data["machine"]
+    return (f"{m['cpu']}, {m['cores']} cores, kernels {m['simd']}, Embree {m['embree'].split()[0]}, "
+            f"{m['compiler']}, commit {m['commit']}")
+
+
+def machine_line(data, name):
+    day = datetime.datetime.fromtimestamp((OUT / name).stat().st_mtime, datetime.timezone.utc)
+    line = machine_text(data)
+    if "packet" in data["runs"][0]:
+        line += f", {data['runs'][0]['threads']} threads, packets of {data['runs'][0]['packet']}"
+    return f"Measured on {day:%Y-%m-%d}: {line}."
+
+
+def require_one_machine(parts):
+    parts = [(name, machine) for name, machine in parts if machine]
+    for name, machine in parts:
+        if machine != parts[0][1]:
+            sys.exit(f"tests/measure.py: {name} is of {machine}, {parts[0][0]} of {parts[0][1]}: "
+                     "measure again")
+
+
+def put(page, tables):
+    """Replaces what stands between the comments of each table's name."""
+    path = ROOT / page
+    text = path.read_text()
+    for name, body in tables.items():
+        pattern = re.compile(rf"(<!-- {re.escape(name)} -->\n).*?(<!-- /{re.escape(name)} -->)", re.S)
+        text, count = pattern.subn(lambda m, body=body: m[1] + body.rstrip() + "\n" + m[2], text)
+        if count != 1:
+            sys.exit(f"tests/measure.py: {page} has {count} places for <!-- {name} -->")
+    path.write_text(text)
+    print(f"{page}: {', '.join(tables)}")
+
+
+def write_speed():
+    made = {"widths": width_table, "choices": choice_table, "depths": depth_table,
+            "triangles": triangle_table, "long-paths": long_path_table}
+    files = {name: read(name + ".json") for name in [*made, "effects-kernels"]}
+    frames = [(size, read(f"frames-{size}.json")) for size in SIZES]
+    if not all(data for _, data in frames):
+        return complain(f"{OUT} has no frames: the tables of speed stay as they are")
+    require_one_machine([(f"frames-{size}.json", data["machine"]) for size, data in frames] +
+                        [(name, data["machine"]) for name, data in files.items() if data])
+    tables = {"machine": machine_line(frames[0][1], f"frames-{SIZES[0]}.json")}
+    for size, data in frames:
+        tables["frames-" + size] = frame_table(data)
+    tables |= {name: make(files[name]) for name, make in made.items() if files[name]}
+    if files["effects-kernels"]:
+        ratio = files["effects-kernels"]["all_over_auto"][0]
+        tables["effects-kernels"] = (
+            f"With every effect compiled in, a frame of matte takes {ratio['frame']:.2f} times as "
+            f"long, its part outside Embree {ratio['outside_embree']:.2f} times.")
+    kernels = read("kernels.json")
+    if kernels:
+        tables["kernels"] = kernel_table(kernels)
+    viewer = read("viewer.json")
+    if viewer:
+        tables["viewer"] = "```\n" + viewer["text"] + "\n```"
+    effects = OUT / "effects/effects.csv"
+    if effects.exists():
+        tables["effects"] = effect_table(list(csv.DictReader(effects.open())))
+        shutil.copy(OUT / "effects/effects.svg", PICTURES / "effects.svg")
+    put(SPEED_PAGE, tables)
+    put("README.md", {"speed": home_speed(frames)})
+
+
+def write_accuracy():
+    compared, targets, rows = read("compare.json"), read("targets.json"), sweep()
+    if not compared:
+        return complain(f"{OUT} has no comparisons: the tables of accuracy stay as they are")
+    swept = {key: rows[0][key] for key in compared["machine"]} if rows else None
+    if swept:
+        swept["cores"] = int(swept["cores"])
+    require_one_machine([("compare.json", compared["machine"]), ("sweep.csv", swept)])
+    tables = {"machine": machine_line(compared, "compare.json"), "compare": compare_table(compared)}
+    if targets:
+        tables["targets"] = targets["text"][targets["text"].index("| scene"):]
+    if rows:
+        tables |= {"presets": preset_table(rows), "knobs": knob_table(rows),
+                   "standard": standard_table(rows), "adaptive": adaptive_table(rows)}
+        shutil.copy(OUT / "accuracy/pareto-whitted.svg", PICTURES / "accuracy-whitted.svg")
+    put(ACCURACY_PAGE, tables)
+    put("README.md", {"accuracy": home_accuracy(compared)})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--speed", action="store_true")
+    parser.add_argument("--accuracy", action="store_true")
+    parser.add_argument("--tables-only", action="store_true")
+    job = parser.parse_args()
+    both = not job.speed and not job.accuracy
+    if not job.tables_only:
+        if not (BUILD / "whit").exists():
+            sys.exit("tests/measure.py: there is no build/whit; scenes/demo.sh makes it")
+        if not os.environ.get("WHIT_DATA"):
+            complain("WHIT_DATA is not set: sponza-mirror is left out")
+        OUT.mkdir(parents=True, exist_ok=True)
+        if job.speed or both:
+            measure_speed()
+        if job.accuracy or both:
+            measure_accuracy()
+    if job.speed or both:
+        write_speed()
+    if job.accuracy or both:
+        write_accuracy()
+
+
+if __name__ == "__main__":
+    main()
