@@ -10,7 +10,7 @@
 
 namespace whit {
 
-// Two cache lines a material; offsets are in floats.
+// Two cache lines a material.
 struct alignas(64) MaterialRecord {
   float diffuse[3];
   std::int32_t diffuseMap;  // index into textures, kNoTexture
@@ -31,7 +31,6 @@ struct alignas(64) MaterialRecord {
   float spare2[5];
 };
 static_assert(sizeof(MaterialRecord) == 128);
-inline constexpr int kMaterialStride = sizeof(MaterialRecord) / sizeof(float);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
                                kMaterialGlossy = 8, kMaterialScatters = 16,
                                kMaterialTintsSpecular = 32, kMaterialTintsEmission = 64;
@@ -50,7 +49,6 @@ struct TextureRecord {
   std::int32_t width, height;
   std::uint32_t wrap;  // wrapU | wrapV << 8 (Wrap's values)
 };
-inline constexpr int kTextureStride = sizeof(TextureRecord) / sizeof(std::uint32_t);
 // Records of a texture's mip levels. The last level fills what it leaves empty, so that every level
 // has one above it.
 inline constexpr int kMipStride = kMipLevels + 1;
@@ -63,13 +61,11 @@ struct alignas(64) InstanceTransform {
   float spare[7];
 };
 static_assert(sizeof(InstanceTransform) == 128);
-inline constexpr int kInstanceStride = sizeof(InstanceTransform) / sizeof(float);
 
 // Per medium: ior, absorption, priority.
 struct MediumRecord {
   float ior, absorption[3], priority, spare[3];
 };
-inline constexpr int kMediumStride = sizeof(MediumRecord) / sizeof(float);
 
 struct SkyTable {
   Sky::Kind kind = Sky::Kind::none;
