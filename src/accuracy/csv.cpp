@@ -72,7 +72,8 @@ void writeTiming(CsvWriter& csv, const Point& point) {
   csv.number("x_baseline", t.ratio);
   csv.number("settled_ms", t.settledMs);
   for (std::size_t k = 0; k < kRayKindCount; ++k) {
-    csv.text(std::string(kRayKindNames[k]) + "_rays", std::to_string(point.stats.meter.tally[k].rays));
+    csv.text(std::string(kRayKindNames[k]) + "_rays",
+             std::to_string(point.stats.meter.tally[k].rays));
   }
 }
 

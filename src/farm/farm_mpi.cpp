@@ -13,7 +13,7 @@
 #include "farm/blocks.h"
 #include "farm/farm.h"
 #include "farm/messages_mpi.h"
-#include "render/renderer_parts.h"
+#include "render/frame_setup.h"
 
 namespace whit {
 

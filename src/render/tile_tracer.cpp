@@ -30,7 +30,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     } else {
       traceSamples(frame, watch);
     }
-    work_.returnTo(0, chunk_);
+    work_.returnToPixels(chunk_);
     for (const Step& step : plan_.perTile) run(step, stats);
     stats.nonFinitePixels += countNonFinite(chunk_);
     clock.lap(Stage::updateImage, 0);
@@ -50,7 +50,7 @@ void TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
     chunk_.sample = frame.samples[s];
     chunk_.sampleNumber = static_cast<std::uint32_t>(s);
     traceSample(watch);
-    work_.returnTo(0, chunk_);
+    work_.returnToPixels(chunk_);
     const RadianceColumns& radiance = chunk_.radiance;
     for (std::size_t i = 0; i < n; ++i) {
       sums_[i] += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});

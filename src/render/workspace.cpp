@@ -67,6 +67,11 @@ void Workspace::returnTo(int depth, Chunk& chunk) const {
   chunk.codes = const_cast<std::uint32_t*>(codes_.data());
 }
 
+void Workspace::returnToPixels(Chunk& chunk) {
+  level(0).cursor = 0;
+  returnTo(0, chunk);
+}
+
 void Workspace::reserveChildren(std::size_t count, Chunk& chunk) {
   reserveRays(chunk.depth + 1, count);
   chunk.children = *level(chunk.depth + 1).rays;

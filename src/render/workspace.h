@@ -34,6 +34,8 @@ class Workspace {
   void takeChunk(int depth, Chunk& chunk);
   // The depth's chunk as it was taken in hand, for when the queues below it are drained.
   void returnTo(int depth, Chunk& chunk) const;
+  // The chunk of depth 0, once all queues are drained: the batch's pixels.
+  void returnToPixels(Chunk& chunk);
   // Room for so many children, which become the queue of the next depth.
   void reserveChildren(std::size_t count, Chunk& chunk);
   // Notes that the chunk has got children of this kind since it had `before` of them.

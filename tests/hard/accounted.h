@@ -14,8 +14,9 @@ struct Accounted {
 };
 
 inline constexpr std::array kAccounted{
-    Accounted{11, "instances are their meshes, moved", "tests/reference/find_intersections_test.cpp",
-              "Surfel.InstancesMatchBakedGeometry", ""},
+    Accounted{11, "instances are their meshes, moved",
+              "tests/reference/find_intersections_test.cpp", "Surfel.InstancesMatchBakedGeometry",
+              ""},
     Accounted{23, "degenerate triangles are counted", "tests/unit/repairing_test.cpp",
               "Repairing.DegenerateTrianglesAreDroppedAndCounted", ""},
     Accounted{27, "bad corners are counted and refused by --strict",

@@ -1,6 +1,6 @@
+#include "io/texture_from_image.h"
 #include "core/srgb.h"
 #include "image_samples.h"
-#include "io/texture_from_image.h"
 
 namespace whit {
 namespace {
