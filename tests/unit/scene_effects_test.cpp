@@ -122,8 +122,14 @@ const std::vector<Rule>& rules() {
          first(d).castsShadow = false;
        },
        "1 directional light", EffectSet().with(Effect::lights)},
-      {Effect::shadows, [](auto& d) { addLight(d); }, "1 light, 2 triangles cast shadows",
-       EffectSet().with(Effect::lights)},
+      {Effect::shadows,
+       [](auto& d) {
+         addLight(d);
+         d.lights[0].radius = kPointRadius;
+       },
+       "1 light, 2 triangles cast shadows", EffectSet().with(Effect::lights)},
+      {Effect::softShadows, [](auto& d) { addLight(d); }, "1 light with a radius",
+       EffectSet().with(Effect::lights).with(Effect::shadows)},
       {Effect::mirror,
        [](auto& d) { first(d).mirrorGrazing = Rgb(1.0f); },
        "1 material with a mirror or a reflecting dielectric, 2 triangles use it",
