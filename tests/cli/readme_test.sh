@@ -82,7 +82,7 @@ cheap() {
 
 openDisplay() {
   [ -z "$display" ] || return 0
-  Xvfb -displayfd 3 -screen 0 800x600x24 3>number >/dev/null 2>&1 &
+  Xvfb -noreset -displayfd 3 -screen 0 800x600x24 3>number >/dev/null 2>&1 &
   display=$!
   for _ in $(seq 100); do [ -s number ] && break; sleep 0.1; done
   DISPLAY=:$(cat number)

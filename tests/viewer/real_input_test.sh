@@ -23,7 +23,7 @@ export HOME=$work XDG_CONFIG_HOME=$work XDG_CACHE_HOME=$work  # nobody's setting
 
 fail() {
   echo "real_input_test: $*" >&2
-  cat "$work/out" "$work/err" >&2
+  cat "$work/out" "$work/err" >&2 || true  # neither is there before the viewer is
   exit 1
 }
 # within COMMAND...: until it succeeds; the seconds are for machines that do other work as well.
@@ -35,7 +35,7 @@ within() {
   done
 }
 has() { [ -s "$1" ]; }
-managed() { xdotool get_num_desktops >/dev/null; }  # only a window manager knows
+managed() { xdotool get_num_desktops >/dev/null 2>&1; }  # only a window manager knows
 printed() { [ "$(grep -c '^whit render' "$work/out")" -ge "$1" ]; }
 # The view as the viewer prints it when asked; into $view_now.
 prints=0
@@ -55,14 +55,16 @@ shows() {
 # changed OPTION BEFORE WHAT
 changed() { [ "$(option "$1")" != "$2" ] || fail "$3 did not change --$1 $2"; }
 
-Xvfb -displayfd 3 -screen 0 1024x700x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
+# -noreset: when its only client leaves, as xdotool does, the server would otherwise begin anew and drop a
+# window manager that is just connecting.
+Xvfb -noreset -displayfd 3 -screen 0 1024x700x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
 children+=($!)
 within has "$work/display"
 DISPLAY=:$(cat "$work/display")
 export DISPLAY
 openbox >/dev/null 2>&1 &
 children+=($!)
-within managed 2>/dev/null
+within managed
 "$view" matte --size 320x200 --quiet >"$work/out" 2>"$work/err" &
 viewer=$!
 children+=($viewer)

@@ -23,7 +23,8 @@ class VirtualDisplay {
       const int nowhere = open("/dev/null", O_WRONLY);
       dup2(nowhere, STDERR_FILENO);
       const std::string number = std::to_string(ends[1]);
-      execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
+      // It lives on between one viewer and the next, without beginning anew in between.
+      execlp("Xvfb", "Xvfb", "-noreset", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
              "-nolisten", "tcp", static_cast<char*>(nullptr));
       _exit(127);
     }
