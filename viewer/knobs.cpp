@@ -6,8 +6,8 @@
 #include <array>
 #include <type_traits>
 
+#include "core/option_table.h"
 #include "core/option_values.h"
-#include "core/quality.h"
 
 namespace whit::view {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "accuracy/digest.h"
-#include "core/quality.h"
+#include "core/option_table.h"
 
 namespace whit::accuracy {
 

@@ -6,7 +6,7 @@
 #include "app/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "core/quality.h"
+#include "core/option_table.h"
 
 namespace whit::cli {
 

@@ -2,13 +2,9 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <fstream>
-#include <thread>
 
-#ifdef __linux__
-#include <sched.h>
-#endif
+#include "core/usable_threads.h"
 
 namespace whit::cli {
 
@@ -24,14 +20,6 @@ std::string cpuName() {
   return "unknown";
 }
 
-int usableCores() {
-#ifdef __linux__
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-#endif
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
 std::string compilerName() {
 #if defined(__clang__)
   return std::string("clang++ ") + __clang_version__;
@@ -45,7 +33,7 @@ std::string compilerName() {
 
 }  // namespace
 
-MachineFacts machineFacts() { return {cpuName(), usableCores(), compilerName(), WHIT_COMMIT}; }
+MachineFacts machineFacts() { return {cpuName(), affinityThreads(), compilerName(), WHIT_COMMIT}; }
 
 double peakRssMb() {
   rusage usage{};

@@ -1,5 +1,5 @@
-// Scalar post-processing: from linear radiance to 8-bit display codes. The scalar twin of
-// updateImage's encoding.
+// Scalar post-processing: from linear radiance to what the film keeps of it, and to 8-bit display
+// codes. The scalar twin of updateImage's encoding.
 #pragma once
 
 #include <array>
@@ -9,6 +9,13 @@
 #include "core/srgb.h"
 
 namespace whit {
+
+// The nearest half (IEEE 754 binary16, ties to even) as a float. What is finite stays finite: at
+// most 65504.
+float roundedToHalf(float x);
+
+// A pixel as the film keeps it. 8-bit film holds nothing outside [0, 1], and no NaN.
+Rgb quantized(FilmPrecision precision, const Rgb& pixel);
 
 // Tone curve on linear values at or above 0. `none` is the identity, reinhard x / (1 + x), filmic
 // Hable's curve as published by J. Hable, "Filmic Tonemapping Operators" (2010), white point 11.2.

@@ -1,6 +1,7 @@
-// Questions to the table of options in core/options.h.
+// Questions to the table of options in core/options.h, and presets of what it holds.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,9 @@ std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOpti
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b);
 // The options that need no more than `most` made anew.
 void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
+
+// Sets what options.quality stands for, leaving alone the options named in `given` (as in
+// forEachOption): what the user says counts for more than a preset.
+void applyQuality(RenderOptions& options, const std::set<std::string>& given);
 
 }  // namespace whit

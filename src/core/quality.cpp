@@ -1,4 +1,5 @@
-#include "core/quality.h"
+// Presets of the options that trade time for accuracy.
+#include "core/option_table.h"
 
 namespace whit {
 

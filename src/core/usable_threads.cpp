@@ -9,7 +9,6 @@
 #include <iterator>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <thread>
 
 namespace whit {
@@ -43,22 +42,6 @@ double quotaUpTo(const fs::path& mount, const fs::path& group) {
   return least;
 }
 
-bool listsCpu(std::string_view controllers) {
-  for (std::size_t begin = 0; begin <= controllers.size();) {
-    const std::size_t end = std::min(controllers.find(',', begin), controllers.size());
-    if (controllers.substr(begin, end - begin) == "cpu") return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
-int affinityThreads() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof(set), &set) == 0) return CPU_COUNT(&set);
-  return static_cast<int>(std::thread::hardware_concurrency());
-}
-
 std::string readWhole(const char* file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -75,14 +58,23 @@ double cgroupQuota(const std::string& membership, const fs::path& root) {
     if (second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1);
     if (controllers.empty()) v2Group = line.substr(second + 1);
-    if (listsCpu(controllers)) v1Group = line.substr(second + 1);
+    const bool cpu = ("," + controllers + ",").find(",cpu,") != std::string::npos;
+    if (cpu) v1Group = line.substr(second + 1);
   }
   const double v2 = quotaUpTo(root, v2Group);
   return v2 > 0 ? v2 : quotaUpTo(root / "cpu", v1Group);
 }
 
+int affinityThreads() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  const bool known = sched_getaffinity(0, sizeof(set), &set) == 0;
+  return std::max(1,
+                  known ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 int usableThreads() {
-  const int threads = std::max(1, affinityThreads());
+  const int threads = affinityThreads();
   const double quota = cgroupQuota(readWhole("/proc/self/cgroup"), "/sys/fs/cgroup");
   if (quota <= 0) return threads;
   return std::clamp(static_cast<int>(std::floor(quota + 0.001)), 1, threads);

@@ -8,6 +8,8 @@ namespace whit {
 
 // Its affinity mask, bounded by the CPU quota of its control groups.
 int usableThreads();
+// The affinity mask alone; at least 1.
+int affinityThreads();
 
 // The processor time that the control groups of a process grant it, in processors: the least that
 // any group above grants as well; 0 where none sets a limit. `membership` is the text of

@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "core/option_table.h"
-#include "core/quality.h"
 #include "core/version.h"
 #include "io/image_file.h"
 #include "io/load_scene.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/display.h"
-#include "core/film.h"
 #include "core/pixel.h"
 #include "core/worker_pool.h"
 #include "reference/find_intersections.h"

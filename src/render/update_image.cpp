@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/film.h"
+#include "core/display.h"
 #include "core/pixel.h"
 #include "core/srgb.h"
 #include "render/film.h"

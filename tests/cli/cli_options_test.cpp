@@ -4,8 +4,8 @@
 #include "app/image_output.h"
 #include "app/parse_options.h"
 #include "core/error.h"
+#include "core/option_table.h"
 #include "core/option_values.h"
-#include "core/quality.h"
 
 namespace whit::cli {
 namespace {

@@ -1,5 +1,4 @@
 // The precision that a picture is kept in.
-#include "core/film.h"
 
 #include <gtest/gtest.h>
 
