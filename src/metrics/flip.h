@@ -1,4 +1,4 @@
-// LDR-FLIP of pictures as they are displayed; private to this folder.
+// LDR-FLIP of pictures as they are displayed.
 #pragma once
 
 #include <vector>

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/quantile.h"
-#include "metrics/flip.h"
 #include "metrics/metrics.h"
 
 namespace whit {
@@ -61,26 +60,18 @@ FlipSide sideAt(const Image& image, double exposure) {
 
 }  // namespace
 
-struct HdrFlip::Sides {
-  std::vector<FlipSide> of;  // one an exposure
-};
-
 double hdrFlipToneCurve(double x) {
   const double y = std::max(x, 0.0);
   return std::clamp((kA * y * y + kB * y) / (kC * y * y + kD * y + kE), 0.0, 1.0);
 }
 
-HdrFlip::HdrFlip(const Image& reference)
-    : exposures_(exposuresFor(reference)), sides_(std::make_unique<Sides>()) {
+HdrFlip::HdrFlip(const Image& reference) : exposures_(exposuresFor(reference)) {
   checkComparable(reference, reference);
   shape_.width = reference.width;
   shape_.height = reference.height;
   shape_.window = reference.window;
-  for (const double exposure : exposures_) sides_->of.push_back(sideAt(reference, exposure));
+  for (const double exposure : exposures_) sides_.push_back(sideAt(reference, exposure));
 }
-
-HdrFlip::HdrFlip(HdrFlip&&) noexcept = default;
-HdrFlip::~HdrFlip() = default;
 
 std::vector<float> HdrFlip::map(const Image& image) const {
   if (image.width != shape_.width || image.height != shape_.height ||
@@ -89,7 +80,7 @@ std::vector<float> HdrFlip::map(const Image& image) const {
   }
   std::vector<float> worst(image.pixels.size());
   for (std::size_t k = 0; k < exposures_.size(); ++k) {
-    const std::vector<float> flip = flipBetween(sideAt(image, exposures_[k]), sides_->of[k]);
+    const std::vector<float> flip = flipBetween(sideAt(image, exposures_[k]), sides_[k]);
     for (std::size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], flip[i]);
   }
   return worst;

@@ -2,10 +2,10 @@
 // Rendered High Dynamic Range Images", Eurographics 2021 short papers.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "core/image.h"
+#include "metrics/flip.h"
 
 namespace whit {
 
@@ -18,8 +18,6 @@ class HdrFlip {
  public:
   // Prepares the reference, whose pixels must be finite, once for all comparisons with it.
   explicit HdrFlip(const Image& reference);
-  HdrFlip(HdrFlip&&) noexcept;
-  ~HdrFlip();
 
   // Per pixel, in [0, 1]; of the reference's size and window, else Error(usage). A pixel that is
   // not finite counts as black.
@@ -29,10 +27,9 @@ class HdrFlip {
   const std::vector<double>& exposures() const { return exposures_; }  // EV
 
  private:
-  struct Sides;
   Image shape_;  // without pixels
   std::vector<double> exposures_;
-  std::unique_ptr<Sides> sides_;
+  std::vector<FlipSide> sides_;  // one an exposure
 };
 
 // The tone curve of HDR-FLIP: K. Narkowicz's fit of ACES (2016), without its exposure of 0.6,
