@@ -88,7 +88,7 @@ int run(const std::vector<std::string>& words) {
 
   const Display display;  // before a scene is loaded in vain
   const cli::CommonOptions& common = options.common;
-  auto progress = cli::makeProgressBar(!common.quiet && common.progress == "auto");
+  auto progress = cli::makeProgressBar(common);
   const std::shared_ptr<cli::OpenScene> scene =
       cli::openScene(options.scene, common, progress.get());
   progress.reset();

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/formatted.h"
+#include "core/option_table.h"
 
 namespace whit::accuracy {
 
@@ -100,7 +101,7 @@ void writeErrors(CsvWriter& csv, const Point& point) {
 
 void writeRun(CsvWriter& csv, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
   std::string options;
-  for (const auto& [name, value] : facts.describe(point.options)) {
+  for (const auto& [name, value] : pictureOptions(point.options)) {
     options += (options.empty() ? "" : " ") + name + "=" + value;
   }
   csv.text("options", options);

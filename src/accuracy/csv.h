@@ -1,7 +1,6 @@
 // A sweep as rows of text, and such rows compared with earlier ones.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,8 +16,6 @@ struct RunFacts {
   std::uint32_t seed = 1;
   bool full = false;
   std::string hardCases;  // a <table> of what `whit stress` found; empty: it did not run
-  // Every option that shapes a picture, by name and value.
-  std::function<std::vector<std::pair<std::string, std::string>>(const RenderOptions&)> describe;
 };
 
 // One row a point. Errors come in groups: total_ (against the reference of all), same_samples_,

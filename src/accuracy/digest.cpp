@@ -3,12 +3,12 @@
 #include <xxhash.h>
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <new>
 #include <optional>
 #include <vector>
 
+#include "core/formatted.h"
 #include "core/options.h"
 
 namespace whit::accuracy {
@@ -39,11 +39,8 @@ void Digester::text(std::string_view text) {
 
 std::string Digester::hex() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
-  char digits[33];
-  std::snprintf(digits, sizeof digits, "%016llx%016llx",
-                static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return digits;
+  return formatted("%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                   static_cast<unsigned long long>(hash.low64));
 }
 
 namespace {

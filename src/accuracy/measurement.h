@@ -58,7 +58,7 @@ struct Point {
   std::optional<ArithmeticError> arithmetic;
   bool onFront = false;             // of `total` over time
   bool onFrontSameSamples = false;  // of `sameSamples` over time
-  // PNG files, with pictures: the image as it is displayed, its difference from the reference of
+  // PNG files: the image as it is displayed, its difference from the reference of
   // all, and from that with as many samples. Empty where the picture is the baseline's, and of
   // combinations off the front.
   std::string imagePng, totalMapPng, sameSamplesMapPng;
@@ -85,7 +85,7 @@ struct SceneSweep {
   std::vector<std::string> order;  // labels in the order in which they were measured
   std::vector<IdleKnob> idle;
   std::vector<StageDifference> stages;  // of the baseline
-  std::string referencePng;             // with pictures
+  std::string referencePng;
 };
 
 }  // namespace whit::accuracy

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 
-#include "accuracy/pareto_svg.h"
-#include "accuracy/report_parts.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {
@@ -58,6 +56,23 @@ const char* const kIntroduction =
     "rounding do.</p>\n";
 
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += c;
+  }
+  return safe;
+}
 
 std::string dataUri(const std::string& png) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

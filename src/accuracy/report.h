@@ -1,7 +1,8 @@
-// Sweeps as an HTML page.
+// Sweeps told to people: as text for a terminal, and as an HTML page.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accuracy/csv.h"
@@ -9,8 +10,28 @@
 
 namespace whit::accuracy {
 
+// A line about the scene, the machine and the reference; a row a point; what the causes are for the
+// baseline; what was left out, and why.
+std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
+// One line about the reference that everything is measured against.
+std::string referenceText(const SceneSweep& sweep);
+
 // One self-contained HTML page: charts, pictures and tables of every scene, nothing loaded from
 // anywhere. Light and dark as the reader has it; prints.
 std::string reportHtml(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
+
+// The parts of the page.
+extern const char* const kReportStyle;   // the content of <style>
+extern const char* const kReportScript;  // the content of <script>
+std::string sceneSection(const SceneSweep& sweep, std::size_t number);
+std::string verdictList(const SceneSweep& sweep);
+std::string pointTable(const SceneSweep& sweep);
+std::string causeTable(const SceneSweep& sweep);
+std::string stageTable(const SceneSweep& sweep);
+
+// "data:image/png;base64,..."
+std::string dataUri(const std::string& png);
+// Text for XML content and attributes.
+std::string escaped(std::string_view text);
 
 }  // namespace whit::accuracy

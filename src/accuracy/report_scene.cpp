@@ -1,9 +1,8 @@
 // A scene's section of the report: verdicts, charts, pictures.
 #include <algorithm>
 
-#include "accuracy/pareto_svg.h"
-#include "accuracy/report_parts.h"
-#include "accuracy/sweep_table.h"
+#include "accuracy/pareto.h"
+#include "accuracy/report.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {

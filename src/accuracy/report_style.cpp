@@ -1,4 +1,4 @@
-#include "accuracy/report_parts.h"
+#include "accuracy/report.h"
 
 namespace whit::accuracy {
 

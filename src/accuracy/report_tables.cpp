@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/pareto_svg.h"
-#include "accuracy/report_parts.h"
+#include "accuracy/report.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {

@@ -112,10 +112,8 @@ class SceneSweeper {
       const Film scratch = makeFilm(scene_, scope_.longFrames() ? middleQuarter() : base_);
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
-    if (settings_.pictures) {
-      meter.depict(point, baseline_->film.image);
-      sweep_.referencePng = meter.pngOf(meter.reference().image);
-    }
+    meter.depict(point, baseline_->film.image);
+    sweep_.referencePng = meter.pngOf(meter.reference().image);
     pace_.end();
   }
 
@@ -179,7 +177,7 @@ class SceneSweeper {
     }
     meter.measure(point, frames, scope_.comparesPaths(point));
     if (point.cause == Cause::arithmetic) takeErrorsOfRays(point, sweep_.points.front());
-    if (settings_.pictures) meter.depict(point, frames.film.image);
+    meter.depict(point, frames.film.image);
     return true;
   }
 

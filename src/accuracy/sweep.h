@@ -14,8 +14,7 @@ struct SweepSettings {
   std::vector<std::string> knobs;  // none: all
   std::uint32_t seed = 1;          // of the order of the points
   std::string cacheFolder;
-  std::string program;   // what identifies the code that renders
-  bool pictures = true;  // keeps those that the report shows
+  std::string program;  // what identifies the code that renders
 };
 
 // `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8 or 2,

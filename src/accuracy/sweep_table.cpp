@@ -1,7 +1,7 @@
-#include "accuracy/sweep_table.h"
-
+// A sweep as a table of text.
 #include <algorithm>
 
+#include "accuracy/report.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {

@@ -57,6 +57,12 @@ void requireJsonWritable(const std::string& path) {
   if (!path.empty() && path != "-") requireWritable(path, {});
 }
 
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
+}
+
 void addSettings(const std::vector<std::string>& settings, ImageMetadata& metadata) {
   std::string text;
   for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;

@@ -15,7 +15,9 @@ std::string extensionOf(const std::string& path);  // in lower case, ".exr"
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
-// The same for the value of --json: empty and "-" are fine.
+// Makes the folder of results if it is not there. Throws Error(io).
+void makeFolder(const std::string& path);
+// As requireWritable() for the value of --json: empty and "-" are fine.
 void requireJsonWritable(const std::string& path);
 
 // Says with which settings of LoadOptions the scene was read; nothing without any.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "app/parse_options.h"
 #include "app/program.h"
@@ -14,40 +15,13 @@ namespace {
 // As running text: one line that troff takes as it is, characters that it would make typographical
 // kept as they are typed.
 std::string roff(const std::string& text) {
-  std::string out;
+  static const std::map<char, std::string> kWritten{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                    {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"},
+                                                    {'~', "\\(ti"}, {'\n', " "}};
+  std::string out = text.starts_with('.') ? "\\&" : "";
   for (const char c : text) {
-    const bool first = out.empty();
-    switch (c) {
-      case '\\':
-        out += "\\e";
-        break;
-      case '-':
-        out += "\\-";
-        break;
-      case '\'':
-        out += "\\(aq";
-        break;
-      case '"':
-        out += "\\(dq";
-        break;
-      case '`':
-        out += "\\(ga";
-        break;
-      case '^':
-        out += "\\(ha";
-        break;
-      case '~':
-        out += "\\(ti";
-        break;
-      case '\n':
-        out += ' ';
-        break;
-      case '.':
-        out += first ? "\\&." : ".";
-        break;
-      default:
-        out += c;
-    }
+    const auto found = kWritten.find(c);
+    out += found == kWritten.end() ? std::string(1, c) : found->second;
   }
   return out;
 }

@@ -7,12 +7,13 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/formatted.h"
+
 namespace whit::cli {
 
 namespace {
 
-constexpr int kBarWidth = 20;
-constexpr std::size_t kPhaseWidth = 30;
+constexpr std::size_t kBarWidth = 20, kPhaseWidth = 30;
 constexpr std::chrono::milliseconds kBetweenDrawings{50};
 
 class ProgressBar : public Progress {
@@ -41,16 +42,13 @@ class ProgressBar : public Progress {
 
 std::string progressText(const std::string& phase, double fraction) {
   const double done = fraction > 0 ? std::min(fraction, 1.0) : 0.0;  // NaN too is no progress
-  const int filled = static_cast<int>(done * kBarWidth);
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(done * 100));
-  return "[" + std::string(static_cast<std::size_t>(filled), '#') +
-         std::string(static_cast<std::size_t>(kBarWidth - filled), '-') + "] " + percent + " " +
-         phase.substr(0, kPhaseWidth);
+  const auto filled = static_cast<std::size_t>(done * kBarWidth);
+  return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '-') +
+         formatted("] %3d %% ", static_cast<int>(done * 100)) + phase.substr(0, kPhaseWidth);
 }
 
-std::unique_ptr<Progress> makeProgressBar(bool wanted) {
-  if (!wanted || !isatty(STDERR_FILENO)) return nullptr;
+std::unique_ptr<Progress> makeProgressBar(const CommonOptions& common) {
+  if (common.quiet || common.progress != "auto" || !isatty(STDERR_FILENO)) return nullptr;
   return std::make_unique<ProgressBar>();
 }
 

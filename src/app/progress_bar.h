@@ -3,13 +3,14 @@
 
 #include <memory>
 
+#include "app/parse_options.h"
 #include "core/progress.h"
 
 namespace whit::cli {
 
-// Null when nobody would see it: not `wanted`, or standard error is no terminal. The bar removes
+// Null when nobody would see it: not wanted, or standard error is no terminal. The bar removes
 // itself when destroyed.
-std::unique_ptr<Progress> makeProgressBar(bool wanted);
+std::unique_ptr<Progress> makeProgressBar(const CommonOptions& common);
 
 // The text of the bar, at most 60 columns: "[#####---------------]  25 % decoding textures".
 std::string progressText(const std::string& phase, double fraction);

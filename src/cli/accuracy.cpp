@@ -5,13 +5,14 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
-#include "accuracy/pareto_svg.h"
+#include "accuracy/pareto.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
-#include "accuracy/sweep_table.h"
+#include "app/image_output.h"
 #include "app/interrupt.h"
 #include "app/open_scene.h"
 #include "app/progress_bar.h"
@@ -19,7 +20,6 @@
 #include "cli/machine_facts.h"
 #include "cli/stress_report.h"
 #include "core/error.h"
-#include "core/option_table.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
 
@@ -44,10 +44,9 @@ struct AccuracyJob {
 
   std::vector<std::string> knobNames() const {
     std::vector<std::string> names;
-    for (std::size_t begin = 0; begin < knobs.size();) {
-      const std::size_t end = std::min(knobs.find(',', begin), knobs.size());
-      if (end > begin) names.push_back(knobs.substr(begin, end - begin));
-      begin = end + 1;
+    std::istringstream words(knobs);
+    for (std::string name; std::getline(words, name, ',');) {
+      if (!name.empty()) names.push_back(name);
     }
     return names;
   }
@@ -87,9 +86,7 @@ void checkJob(AccuracyJob& job) {
   }
   accuracy::chooseKnobs(job.knobNames());
   if (!job.full && !job.common.render.size) job.common.render.size = kQuickSize;
-  std::error_code error;
-  std::filesystem::create_directories(job.out, error);
-  if (error) throwIo("cannot make the folder '" + job.out + "': " + error.message());
+  makeFolder(job.out);
 }
 
 std::string readText(const std::string& path) {
@@ -117,13 +114,12 @@ accuracy::RunFacts factsOf(const AccuracyJob& job) {
   facts.commit = machine.commit;
   facts.seed = static_cast<std::uint32_t>(job.seed);
   facts.full = job.full;
-  facts.describe = pictureOptions;
   return facts;
 }
 
 std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
                                               const accuracy::RunFacts& facts) {
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   accuracy::SweepSettings settings;
   settings.full = job.full;
   settings.knobs = job.knobNames();
@@ -154,7 +150,7 @@ void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep
 // The hard cases come after everything that is timed.
 void runHardCases(const AccuracyJob& job, accuracy::RunFacts& facts) {
   if (!job.full) return;
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   facts.hardCases = stressHtmlTable(runCatalogue({}, progress.get()));
 }
 

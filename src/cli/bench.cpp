@@ -102,7 +102,7 @@ int bench(const Words& words, Farm& farm) {
   settleOptions(job.common);
   quietUnlessLeading(farm, job.common);
   checkJob(job, farm);
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   std::vector<RunSummary> summaries;
   BenchRuns runs;
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {

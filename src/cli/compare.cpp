@@ -60,7 +60,7 @@ Compared compareFiles(const CompareJob& job) {
 }
 
 Compared compareModes(const CompareJob& job) {
-  const auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  const auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.subjects[0], job.common, progress.get());
   Renderer renderer(open->scene, job.common.render, progress.get());
   const Camera camera = chooseCamera(open->scene, job.common.render);

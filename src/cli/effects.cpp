@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/image_output.h"
 #include "app/interrupt.h"
 #include "app/progress_bar.h"
 #include "cli/bench_run.h"
@@ -75,9 +76,7 @@ void checkJob(const EffectsJob& job) {
     if (!job.common.given.contains(option)) continue;
     throwUsage(std::string("whit effects chooses the effects itself: leave out --") + option);
   }
-  std::error_code error;
-  std::filesystem::create_directories(job.out, error);
-  if (error) throwIo("cannot make the folder '" + job.out + "': " + error.message());
+  makeFolder(job.out);
 }
 
 }  // namespace
@@ -94,7 +93,7 @@ int effectsCommand(const Words& words) {
   if (parseOptions(kEffectsUsage, kEffectsSummary, list, words) == Parsed::helpShown) return 0;
   settleOptions(job.common);
   checkJob(job);
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   const std::vector<EffectStep> steps = measureSteps(job, progress.get());
   progress.reset();
   if (!job.common.quiet) std::printf("%s", effectsTable(steps).c_str());

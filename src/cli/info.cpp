@@ -94,7 +94,7 @@ int infoCommand(const Words& words) {
   }
   if (scenes.empty()) throwUsage("whit info expected a SCENE");
   requireJsonWritable(json);
-  auto progress = makeProgressBar(!common.quiet && common.progress == "auto");
+  auto progress = makeProgressBar(common);
   CommonOptions loading = common;
   loading.quiet = true;  // the warnings are part of the report
   const auto open = openScene(scenes[0], loading, progress.get());

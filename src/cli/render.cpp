@@ -186,7 +186,7 @@ int render(const Words& words, Farm& farm) {
   quietUnlessLeading(farm, job.common);
   checkJob(job, farm);
 
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {

@@ -119,7 +119,7 @@ int stressCommand(const Words& words) {
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   if (!job.sheet.empty()) requireWritable(job.sheet, {".png"});
   const std::vector<std::string> only = namesOf(job.only);
-  auto progress = makeProgressBar(!job.common.quiet && job.common.progress == "auto");
+  auto progress = makeProgressBar(job.common);
   if (!job.sheet.empty()) {
     const std::vector<std::string> names = writeStressSheet(job.sheet, progress.get());
     progress.reset();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "accuracy/report.h"
+#include "core/formatted.h"
 
 namespace whit::cli {
 
@@ -15,31 +17,12 @@ bool closer(const StressRow& a, const StressRow& b) {
   return a.finding.worst() > b.finding.worst();
 }
 
-std::string number(double value) {
-  if (std::isinf(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", value);
-  return text;
-}
+using accuracy::escaped;
+
+std::string number(double value) { return std::isinf(value) ? "-" : formatted("%.4g", value); }
 
 std::string packetText(const stress::Setup& setup) {
   return setup.packet == 0 ? "auto" : std::to_string(setup.packet);
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
 }
 
 constexpr const char* kStyle =
@@ -68,13 +51,10 @@ std::vector<StressRow> worstRows(const std::vector<StressRow>& rows) {
 std::string stressTable(const std::vector<StressRow>& rows) {
   std::string text = "case   worst       bound       simd   packet  what must hold\n";
   for (const StressRow& row : worstRows(rows)) {
-    char line[256];
-    std::snprintf(line, sizeof(line), "%-6s %-11s %-11s %-6s %-7s %s%.*s\n",
-                  std::string(row.hardCase->name).c_str(), number(row.finding.worst()).c_str(),
-                  number(row.finding.bound()).c_str(), row.setup.simd.c_str(),
-                  packetText(row.setup).c_str(), row.finding.holds() ? "" : "BROKEN: ",
-                  static_cast<int>(row.hardCase->title.size()), row.hardCase->title.data());
-    text += line;
+    text += formatted("%-6s %-11s %-11s %-6s %-7s %s%s\n", row.hardCase->name.data(),
+                      number(row.finding.worst()).c_str(), number(row.finding.bound()).c_str(),
+                      row.setup.simd.c_str(), packetText(row.setup).c_str(),
+                      row.finding.holds() ? "" : "BROKEN: ", row.hardCase->title.data());
     if (!row.finding.holds()) text += "       input: " + row.finding.input() + "\n";
   }
   return text;

@@ -4,9 +4,8 @@
 #include <regex>
 #include <set>
 
-#include "accuracy/pareto_svg.h"
+#include "accuracy/pareto.h"
 #include "accuracy/report.h"
-#include "accuracy/report_parts.h"
 
 namespace whit::accuracy {
 namespace {
@@ -48,9 +47,6 @@ SceneSweep sweepOfThree() {
 std::string page() {
   RunFacts facts;
   facts.cpu = "A <fast> processor";
-  facts.describe = [](const RenderOptions&) {
-    return std::vector<std::pair<std::string, std::string>>();
-  };
   return reportHtml({sweepOfThree()}, facts);
 }
 
