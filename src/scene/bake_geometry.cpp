@@ -2,11 +2,9 @@
 #include <limits>
 #include <utility>
 
-#include "scene/classify_triangles.h"
-#include "scene/coincident_triangles.h"
+#include "scene/bake_triangles.h"
 #include "scene/finalize_steps.h"
 #include "scene/instance_bounds.h"
-#include "scene/triangle_record.h"
 
 namespace whit {
 

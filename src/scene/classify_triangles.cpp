@@ -1,4 +1,4 @@
-#include "scene/classify_triangles.h"
+#include "scene/bake_triangles.h"
 
 namespace whit {
 

@@ -1,4 +1,4 @@
-#include "scene/coincident_triangles.h"
+#include "scene/bake_triangles.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scene/bake_triangles.h"
 #include "scene/finalize_steps.h"
-#include "scene/triangle_record.h"
 
 namespace whit {
 

@@ -1,4 +1,4 @@
-#include "scene/triangle_record.h"
+#include "scene/bake_triangles.h"
 
 #include <algorithm>
 #include <cmath>

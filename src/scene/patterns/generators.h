@@ -5,27 +5,15 @@
 
 namespace whit::procedural {
 
+using MakePattern = Texture(ShapeParameters& parameters);
+
 // simple.cpp
-Texture makeChecker(ShapeParameters& parameters);
-Texture makeStripes(ShapeParameters& parameters);
-Texture makeFabric(ShapeParameters& parameters);
-Texture makeLeafMask(ShapeParameters& parameters);
-Texture makeFrondMask(ShapeParameters& parameters);
-Texture makeLeaf(ShapeParameters& parameters);
+MakePattern makeChecker, makeStripes, makeFabric, makeLeafMask, makeFrondMask, makeLeaf;
 
 // masonry.cpp: the normals take the same layout parameters as the colors.
-Texture makeBricks(ShapeParameters& parameters);
-Texture makeBrickNormals(ShapeParameters& parameters);
-Texture makeTiles(ShapeParameters& parameters);
-Texture makeTileNormals(ShapeParameters& parameters);
-Texture makeRoof(ShapeParameters& parameters);
-Texture makeRoofNormals(ShapeParameters& parameters);
+MakePattern makeBricks, makeBrickNormals, makeTiles, makeTileNormals, makeRoof, makeRoofNormals;
 
 // stone.cpp
-Texture makeNoise(ShapeParameters& parameters);
-Texture makePlaster(ShapeParameters& parameters);
-Texture makePlasterNormals(ShapeParameters& parameters);
-Texture makeMarble(ShapeParameters& parameters);
-Texture makeWood(ShapeParameters& parameters);
+MakePattern makeNoise, makePlaster, makePlasterNormals, makeMarble, makeWood;
 
 }  // namespace whit::procedural

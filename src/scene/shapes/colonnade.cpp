@@ -1,8 +1,6 @@
-#include "scene/shapes/column.h"
-#include "scene/shapes/extrude.h"
+#include "scene/shapes/architecture.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/mesh_builder.h"
-#include "scene/shapes/wall.h"
 
 namespace whit::procedural {
 namespace {

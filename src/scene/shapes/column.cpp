@@ -1,4 +1,4 @@
-#include "scene/shapes/column.h"
+#include "scene/shapes/architecture.h"
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "scene/shapes/extrude.h"
+#include "scene/shapes/architecture.h"
 
 #include <map>
 #include <utility>

@@ -5,44 +5,24 @@
 
 namespace whit::procedural {
 
+using MakeShape = Shape(ShapeParameters& parameters);
+
 // round.cpp: turned and tessellated solids about the y axis, centered on the origin.
-Shape makeSphere(ShapeParameters& parameters);
-Shape makeIcosphere(ShapeParameters& parameters);
-Shape makeCylinder(ShapeParameters& parameters);
-Shape makeCone(ShapeParameters& parameters);
-Shape makeTorus(ShapeParameters& parameters);
-Shape makeTube(ShapeParameters& parameters);
-Shape makeDisc(ShapeParameters& parameters);
+MakeShape makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeTube, makeDisc;
 
 // flat.cpp: plane faces, no normals.
-Shape makeQuad(ShapeParameters& parameters);
-Shape makeGrid(ShapeParameters& parameters);
-Shape makeBox(ShapeParameters& parameters);
-Shape makeRoundedBox(ShapeParameters& parameters);
-Shape makeStairs(ShapeParameters& parameters);
+MakeShape makeQuad, makeGrid, makeBox, makeRoundedBox, makeStairs;
 
 // vessels.cpp: standing on y = 0.
-Shape makeVase(ShapeParameters& parameters);
-Shape makeTumbler(ShapeParameters& parameters);
+MakeShape makeVase, makeTumbler;
 
 // column.cpp, wall.cpp, colonnade.cpp, vault.cpp: architecture, in units of metres, on y = 0.
-Shape makeColumn(ShapeParameters& parameters);
-Shape makeWall(ShapeParameters& parameters);
-Shape makeArch(ShapeParameters& parameters);
-Shape makeColonnade(ShapeParameters& parameters);
-Shape makeBalustrade(ShapeParameters& parameters);
-Shape makeVault(ShapeParameters& parameters);
-Shape makeCornice(ShapeParameters& parameters);
+MakeShape makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade, makeVault, makeCornice;
 
 // cloth.cpp: sheets without thickness.
-Shape makeCurtain(ShapeParameters& parameters);
-Shape makeCanopy(ShapeParameters& parameters);
+MakeShape makeCurtain, makeCanopy;
 
 // terrain.cpp, tree.cpp, plant.cpp
-Shape makeTerrain(ShapeParameters& parameters);
-Shape makeTree(ShapeParameters& parameters);
-Shape makeForest(ShapeParameters& parameters);
-Shape makePlant(ShapeParameters& parameters);
-Shape makeRock(ShapeParameters& parameters);
+MakeShape makeTerrain, makeTree, makeForest, makePlant, makeRock;
 
 }  // namespace whit::procedural

@@ -4,7 +4,10 @@
 // shapes are watertight even where texture coordinates or normals have a seam.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -65,6 +68,9 @@ class MeshBuilder {
 
 // A shape of one part.
 Shape singlePart(Mesh mesh);
+
+// The subdivided icosahedron: unit points and triangles, 20 * 4^level of them.
+std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level);
 
 // Cosine and sine of i / n of a turn, bit-equal for i and i + n, exact at the quarters.
 struct TurnPoint {

@@ -4,7 +4,6 @@
 
 #include "scene/patterns/noise.h"
 #include "scene/shapes/generators.h"
-#include "scene/shapes/icosphere.h"
 #include "scene/shapes/mesh_builder.h"
 
 namespace whit::procedural {

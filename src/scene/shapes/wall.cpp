@@ -1,6 +1,5 @@
-#include "scene/shapes/wall.h"
+#include "scene/shapes/architecture.h"
 
-#include "scene/shapes/extrude.h"
 #include "scene/shapes/generators.h"
 #include "scene/shapes/mesh_builder.h"
 

@@ -1,4 +1,6 @@
 #include "scene/shape.h"
+
+#include "scene/patterns/generators.h"
 #include "scene/shapes/generators.h"
 
 namespace whit {
@@ -34,6 +36,30 @@ const std::map<std::string, ShapeGenerator>& shapeGenerators() {
       {"vase", makeVase},
       {"vault", makeVault},
       {"wall", makeWall},
+  };
+  return generators;
+}
+
+const std::map<std::string, PatternGenerator>& patternGenerators() {
+  using namespace procedural;
+  static const std::map<std::string, PatternGenerator> generators{
+      {"bricks", makeBricks},
+      {"bricksNormals", makeBrickNormals},
+      {"checker", makeChecker},
+      {"fabric", makeFabric},
+      {"frondMask", makeFrondMask},
+      {"leaf", makeLeaf},
+      {"leafMask", makeLeafMask},
+      {"marble", makeMarble},
+      {"noise", makeNoise},
+      {"plaster", makePlaster},
+      {"plasterNormals", makePlasterNormals},
+      {"roof", makeRoof},
+      {"roofNormals", makeRoofNormals},
+      {"stripes", makeStripes},
+      {"tiles", makeTiles},
+      {"tilesNormals", makeTileNormals},
+      {"wood", makeWood},
   };
   return generators;
 }
