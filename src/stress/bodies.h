@@ -53,10 +53,10 @@ inline Mesh grid() {
   return mesh;
 }
 
-inline Scene sceneOf(const Mesh& mesh, const Material& material) {
+inline Scene sceneOf(Mesh mesh, const Material& material) {
   SceneBuilder builder;
-  builder.add(material);
-  builder.add(mesh);
+  mesh.materials = {builder.add(material)};
+  builder.add(std::move(mesh));
   return builder.build();
 }
 
@@ -77,14 +77,12 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::s
 }
 
 inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
+// The same as Finding takes it, within a call.
+inline auto described(const ProbeRay& ray) {
+  return [&ray] { return describeRay(ray); };
+}
 
 // From 3 above the origin.
-inline Camera lookingDown() {
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.up = {0, 0, -1};
-  camera.fov = 50;
-  return camera;
-}
+inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
 
 }  // namespace whit::stress

@@ -1,18 +1,16 @@
 #include "stress/case.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "core/formatted.h"
 #include "simd/kernels.h"
 
 namespace whit::stress {
 
-void Finding::merge(const Finding& other, bool counts) {
+void Finding::merge(const Finding& other) {
   seen_ += other.seen_;
-  const bool first = counts ? worst_ == 0 && other.worst_ > 0
-                            : other.worst_ > worst_ || (input_.empty() && !other.input_.empty());
-  if (first) input_ = other.input_;
-  worst_ = counts ? worst_ + other.worst_ : std::max(worst_, other.worst_);
+  if (worst_ == 0) input_ = other.input_;
+  worst_ += other.worst_;
 }
 
 int Case::number() const {
@@ -59,11 +57,7 @@ Finding runCase(const Case& c, const Setup& setup) {
   return finding;
 }
 
-std::string hexText(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%a", value);
-  return text;
-}
+std::string hexText(double value) { return formatted("%a", value); }
 
 std::string hexText(const Vec3f& v) {
   return hexText(double{v.x}) + " " + hexText(double{v.y}) + " " + hexText(double{v.z});

@@ -53,8 +53,8 @@ class Finding {
     if (worst_ == 0) input_ = describe();
     worst_ += 1;
   }
-  // Takes over another finding of the same kind: errors by their maximum, counts by their sum.
-  void merge(const Finding& other, bool counts);
+  // Takes over another finding that counts.
+  void merge(const Finding& other);
 
   double worst() const { return worst_; }
   double bound() const { return bound_; }

@@ -8,12 +8,6 @@ namespace whit::stress {
 
 namespace {
 
-// Whatever was built, repaired as loading does it.
-Scene repaired(SceneDescription&& description, Warnings* warnings = nullptr) {
-  Warnings own;
-  return Scene::finalize(std::move(description), warnings ? *warnings : own);
-}
-
 SceneDescription descriptionOf(const std::vector<Mesh>& meshes, const Material& material) {
   SceneDescription d;
   d.materials = {material};
@@ -25,10 +19,8 @@ SceneDescription descriptionOf(const std::vector<Mesh>& meshes, const Material& 
 
 Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& what) {
   Finding finding(0);
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{33, 21};
   for (const Camera& camera : scene.cameras) {
-    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+    for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {33, 21})).pixels) {
       finding.count(!isFinite(pixel) || pixel.x < 0, [&] { return what; });
     }
   }
@@ -39,10 +31,7 @@ Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& 
 Finding positionsOfNeedles(const Setup& setup) {
   Finding finding(0x1p-18);
   Numbers numbers(25);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   Mesh fan;
-  fan.materials = {0};
   constexpr std::uint32_t kNeedles = 4000;
   fan.positions.push_back({0, 0, 0});
   fan.normals.push_back({0, 1, 0});
@@ -53,8 +42,7 @@ Finding positionsOfNeedles(const Setup& setup) {
     fan.normals.emplace_back(normalized(Vec3d{std::cos(turn), 3, -std::sin(turn)}));
     if (i > 0) fan.triangles.push_back({0, i, i + 1});
   }
-  builder.add(fan);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(fan, diffuseMaterial(1));
   std::vector<ProbeRay> rays;
   for (std::uint32_t i = 0; i < kNeedles; ++i) {
     const double turn = numbers.in(0, 6.28), r = std::pow(10, -numbers.in(0.001, 4));
@@ -92,30 +80,22 @@ Finding degenerateTriangles(const Setup& setup) {
   add({0, 0.2f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 1e-20f});
   add({0, 0.3f, 0}, {1, 0.3f, 0}, {0.5f, 0.3f, 1e-7f});
   SceneDescription d = descriptionOf({mesh}, diffuseMaterial(1));
-  Camera camera;
-  camera.eye = {0.5f, 3, 0.02f};
-  camera.at = {0.5f, 0, 0};
-  camera.up = {0, 0, -1};
-  camera.fov = 2;  // the slivers fill the middle row
-  d.cameras = {camera};
+  // The slivers fill the middle row.
+  d.cameras = {{.eye = {0.5f, 3, 0.02f}, .at = {0.5f, 0, 0}, .up = {0, 0, -1}, .fov = 2}};
   return finitePixels(repaired(std::move(d)), setup, "degenerate triangles and slivers");
 }
 
 // Edges from 1e-14 to 1e14: the normal is that of the plane.
 Finding tinyAndHugeTriangles(const Setup& setup) {
   Finding finding(4 * 0x1p-24);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   Mesh mesh;
-  mesh.materials = {0};
   std::uint32_t count = 0;
   for (int e = -14; e <= 14; ++e, ++count) {
     const auto s = static_cast<float>(std::pow(10, e));
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {s, 0, 0.5f * s}, {0, 0.75f * s, s}});
     mesh.triangles.push_back({3 * count, 3 * count + 1, 3 * count + 2});
   }
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.load(std::vector<ProbeRay>(count, {{0, 0, 0}, {0, 0, -1}}));
   for (std::uint32_t i = 0; i < count; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
@@ -149,9 +129,8 @@ Finding hugeNextToTiny(const Setup& setup) {
     probe.cast(down);
     phantom.cast(up);
     for (std::size_t i = 0; i < down.size(); ++i) {
-      finding.count(!probe.isHit(i) || probe.position(i).y != 0,
-                    [&] { return describeRay(down[i]); });
-      finding.count(phantom.isHit(i), [&] { return describeRay(up[i]); });
+      finding.count(!probe.isHit(i) || probe.position(i).y != 0, described(down[i]));
+      finding.count(phantom.isHit(i), described(up[i]));
     }
   }
   return finding;
@@ -172,7 +151,7 @@ Finding badVertices(const Setup& setup) {
                   [&] { return "corner " + hexText(double{bad}); });
     finding.count(!(length(scene.upper) < 100),
                   [&] { return "bounds with " + hexText(double{bad}); });
-    finding.merge(finitePixels(scene, setup, "corner " + hexText(double{bad})), true);
+    finding.merge(finitePixels(scene, setup, "corner " + hexText(double{bad})));
   }
   return finding;
 }
@@ -234,12 +213,10 @@ Finding garbage(const Setup& setup) {
     Material material = glassMaterial(1.5f);
     material.diffuse = material.specular = Rgb(0.5f);
     SceneDescription d = descriptionOf({mesh}, material);
-    Camera camera;
-    d.cameras = {camera};
+    d.cameras = {Camera{}};
     d.sky.kind = Sky::Kind::color;
     d.sky.zenith = Rgb(1.0f);
-    finding.merge(finitePixels(repaired(std::move(d)), setup, "seed " + std::to_string(seed)),
-                  true);
+    finding.merge(finitePixels(repaired(std::move(d)), setup, "seed " + std::to_string(seed)));
   }
   return finding;
 }

@@ -31,27 +31,17 @@ SceneDescription room() {
   builder.description.lights = {lightAt({-2.2f, 4, 2.7f}, 30), second};
   builder.description.sky.kind = Sky::Kind::gradient;
   builder.description.sky.zenith = {0.2f, 0.3f, 0.6f};
-  Camera camera;
-  camera.eye = {0.4f, 2, 3.9f};
-  camera.at = {0, 0.8f, 0};
-  camera.fov = 60;
-  builder.description.cameras = {camera};
+  builder.description.cameras = {{.eye = {0.4f, 2, 3.9f}, .at = {0, 0.8f, 0}, .fov = 60}};
   return builder.describe();
 }
 
-Scene finalized(SceneDescription&& description) {
-  Warnings warnings;
-  return Scene::finalize(std::move(description), warnings);
-}
-
 RenderOptions small(const Setup& setup, int width = 49, int height = 31) {
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{width, height};
+  RenderOptions options = optionsOf(setup, {width, height});
   return options;
 }
 
 Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options) {
-  const Scene scene = finalized(std::move(description));
+  const Scene scene = repaired(std::move(description));
   return pictureOf(scene, scene.cameras[0], options);
 }
 
@@ -76,7 +66,7 @@ void compare(Finding& finding, const Image& a, const Image& b, const std::string
 // Each pixel of odd sizes against the same pixel traced alone.
 Finding partialPackets(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = finalized(room());
+  const Scene scene = repaired(room());
   for (const ImageSize& size : {ImageSize{1, 1}, {15, 1}, {17, 3}, {1, 257}, {16, 16}}) {
     RenderOptions options = small(setup, size.width, size.height);
     const Image whole = pictureOf(scene, scene.cameras[0], options);
@@ -95,7 +85,7 @@ Finding partialPackets(const Setup& setup) {
 // Queues of 1 to 33 rays; what lies behind the last one is poison.
 Finding poisonedLanes(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = finalized(room());
+  const Scene scene = repaired(room());
   std::vector<ProbeRay> rays = raysOnto({0, 1.5, 0}, 1, 33, 60);
   for (ProbeRay& ray : rays) ray.origin = {0, 2.5f, 0.25f};
   Probe whole(scene, setup);
@@ -128,7 +118,7 @@ Finding poisonedLanes(const Setup& setup) {
 
 Finding packetWidths(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = finalized(room());
+  const Scene scene = repaired(room());
   const Image single = pictureOf(scene, scene.cameras[0], small({setup.simd, 1}));
   compare(finding, pictureOf(scene, scene.cameras[0], small(setup)), single, "packets");
   return finding;
@@ -136,7 +126,7 @@ Finding packetWidths(const Setup& setup) {
 
 Finding schedule(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = finalized(room());
+  const Scene scene = repaired(room());
   const Image expected = pictureOf(scene, scene.cameras[0], small(setup));
   const auto check = [&](const RenderOptions& options, const std::string& what) {
     compare(finding, pictureOf(scene, scene.cameras[0], options), expected, what);

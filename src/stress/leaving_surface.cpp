@@ -35,7 +35,7 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
   Probe next(scene, setup);
   next.cast(spawned);
   for (std::size_t i = 0; i < next.size(); ++i) {
-    finding.count(next.isHit(i), [&] { return describeRay(spawned[i]); });
+    finding.count(next.isHit(i), described(spawned[i]));
   }
   return finding;
 }
@@ -54,7 +54,7 @@ Finding sphereSelfHits(const Vec3d& center, double radius, const Setup& setup) {
 Finding scaleSweep(const Setup& setup) {
   Finding finding(0);
   for (const double size : {1e-4, 1e-2, 1.0, 1e3, 1e6}) {
-    finding.merge(sphereSelfHits({}, size, setup), true);
+    finding.merge(sphereSelfHits({}, size, setup));
   }
   return finding;
 }
@@ -63,7 +63,7 @@ Finding farFromOrigin(const Setup& setup) {
   Finding finding(0);
   for (const double away : {1e2, 1e4, 1e6}) {
     for (const double ratio : {1.0, 1e-2, 1e-4}) {
-      finding.merge(sphereSelfHits(Vec3d{1, 0.7, -1.3} * away, away * ratio, setup), true);
+      finding.merge(sphereSelfHits(Vec3d{1, 0.7, -1.3} * away, away * ratio, setup));
     }
   }
   return finding;
@@ -74,11 +74,8 @@ constexpr double kGamma7 = 7 * 0x1p-24 / (1 - 7 * 0x1p-24);
 
 Finding pointsFromFarAway(const Setup& setup) {
   Finding finding(1);
-  SceneBuilder builder;
-  const std::array<Vec3f, 4> p{
-      Vec3f{0, 0.1f, 0}, {1, 0.2f, 0.1f}, {1.1f, 0.7f, 1}, {0.1f, 0.6f, 0.9f}};
-  builder.add(quad(p[0], p[1], p[2], p[3], builder.add(diffuseMaterial(1))));
-  const Scene scene = builder.build();
+  const Mesh patch = quad({0, 0.1f, 0}, {1, 0.2f, 0.1f}, {1.1f, 0.7f, 1}, {0.1f, 0.6f, 0.9f}, 0);
+  const Scene scene = sceneOf(patch, diffuseMaterial(1));
   Numbers numbers(3);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
@@ -95,8 +92,7 @@ Finding pointsFromFarAway(const Setup& setup) {
     const Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     const Vec3d at(probe.position(i));
     const double sum = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z);
-    finding.note(std::fabs(dot(at - c[0], n)) / (kGamma7 * sum),
-                 [&] { return describeRay(rays[i]); });
+    finding.note(std::fabs(dot(at - c[0], n)) / (kGamma7 * sum), described(rays[i]));
   }
   return finding;
 }
@@ -116,19 +112,15 @@ double distanceToPlane(const reference::Corners& c, const Vec3d& point) {
 // Hits are given, so that every triangle has some whatever its shape.
 Finding offsetBoundsTheError(const Setup& setup) {
   Finding finding(1);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   Numbers numbers(4);
   Mesh mesh;
-  mesh.materials = {0};
   constexpr std::uint32_t kTriangles = 4096;
   for (std::uint32_t i = 0; i < 3 * kTriangles; ++i) {
     const double size = std::pow(10, numbers.in(-8, 8));
     mesh.positions.emplace_back(numbers.direction() * size);
     if (i % 3 == 2) mesh.triangles.push_back({i - 2, i - 1, i});
   }
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
@@ -165,11 +157,10 @@ Finding startOnAPlane(const Setup& setup) {
   }
   Probe probe(scene, setup), again(scene, setup);
   probe.cast(rays);
-  std::vector<ProbeRay> spawned;
-  for (const ProbeChild& child : probe.reflections()) spawned.push_back(child.ray);
+  const std::vector<ProbeRay> spawned = raysOf(probe.reflections());
   again.cast(spawned);
   for (std::size_t i = 0; i < again.size(); ++i) {
-    finding.count(again.isHit(i), [&] { return describeRay(spawned[i]); });
+    finding.count(again.isHit(i), described(spawned[i]));
   }
   return finding;
 }
@@ -191,7 +182,7 @@ Finding sideOfTheOffset(const Setup& setup) {
     probe.cast(rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const int got = probe.isHit(i) ? static_cast<int>(probe.hits().triangle[i] / 2) * 2 : -1;
-      finding.count(got != expected, [&] { return describeRay(probe.ray(i)); });
+      finding.count(got != expected, described(probe.ray(i)));
     }
     if (expected < 0) break;
     const Vec3f up{0, 1, 0};
@@ -200,10 +191,9 @@ Finding sideOfTheOffset(const Setup& setup) {
           dot(child.ray.direction, up) > 0 && child.ray.origin.y > probe.position(child.parent).y;
       const bool below =
           dot(child.ray.direction, up) < 0 && child.ray.origin.y < probe.position(child.parent).y;
-      finding.count(!above && !below, [&] { return describeRay(child.ray); });
+      finding.count(!above && !below, described(child.ray));
     }
-    rays.clear();
-    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+    rays = raysOf(probe.refractions());
   }
   return finding;
 }
@@ -222,7 +212,7 @@ Finding instanced(const Setup& setup) {
     // The second one, far away, makes instances of both.
     const Affine elsewhere = Affine::translation(map.p + Vec3d{1e5, 1e5, 1e5} * size) * map;
     builder.place({"ball", {sphereMesh(3, {}, 1, material)}}, {map, elsewhere});
-    finding.merge(selfHits(builder.build(), map.p, size, setup, 11), true);
+    finding.merge(selfHits(builder.build(), map.p, size, setup, 11));
   }
   return finding;
 }

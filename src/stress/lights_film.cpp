@@ -22,9 +22,8 @@ Finding lightsAtNoDistance(const Setup& setup) {
     light.radius = 1e-3f;
     builder.description.lights = {light};
     const Scene scene = builder.build();
-    RenderOptions options = optionsOf(setup);
-    options.size =
-        ImageSize{33, 33};  // the middle of the middle pixel is the point below the light
+    // The middle of the middle pixel is the point below the light.
+    const RenderOptions options = optionsOf(setup, {33, 33});
     // I / radius^2 (kd / pi + the lobe's peak at normal incidence, 0.5 / (4 pi alpha^2) with
     // roughness 0.5) bounds what can come back.
     const float most = 1e6f * (0.32f + 0.5f / (12.5f * 0.0625f));
@@ -45,12 +44,8 @@ Finding lightInABox(const Setup& setup) {
   builder.description.lights = {lightAt({0.3f, 1.2f, -0.2f}, 100),
                                 lightAt({0.999f, 0.001f, 0}, 100)};
   const Scene scene = builder.build();
-  Camera camera;
-  camera.eye = {3, 4, 5};
-  camera.at = {0, 1, 0};
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{48, 36};
-  for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+  const Camera camera{.eye = {3, 4, 5}, .at = {0, 1, 0}};
+  for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {48, 36})).pixels) {
     finding.count(!(pixel == Rgb(0.0f)), [&] { return hexText(pixel); });
   }
   return finding;
@@ -81,8 +76,7 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   builder.add(mesh);
-  Warnings warnings;
-  const Scene scene = Scene::finalize(builder.describe(), warnings);
+  const Scene scene = repaired(builder.describe());
   Probe probe(scene, setup);
   probe.load(std::vector<ProbeRay>(uvs.size(), {{0, 0, 1}, {0, 0, -1}}));
   for (std::uint32_t i = 0; i < uvs.size(); ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
@@ -111,7 +105,7 @@ Finding oddTextureCoordinates(const Setup& setup) {
   for (std::size_t i = 0; i < count; ++i) uvs.push_back({tame(uvs[i].x), tame(uvs[i].y)});
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const int width : {1, 2, 3, 5, 64}) {
-      finding.merge(textureAt(uvs, wrap, width, setup), true);
+      finding.merge(textureAt(uvs, wrap, width, setup));
     }
   }
   return finding;
@@ -147,10 +141,7 @@ Finding cameraDirections(const Setup&) {
   }
   for (const float fov : {1e-3f, 1.0f, 45.0f, 120.0f, 179.9f}) {
     for (const Vec3f& eye : {Vec3f{0, 0, 5}, {1e6f, -2e6f, 5e5f}}) {
-      Camera camera;
-      camera.eye = eye;
-      camera.at = eye + Vec3f{1, 0.25f, -1};
-      camera.fov = fov;
+      const Camera camera{.eye = eye, .at = eye + Vec3f{1, 0.25f, -1}, .fov = fov};
       const CameraFrame frame = makeCameraFrame(camera, 1024, 576);
       const ColumnStore<RayColumns> columns = raysThrough(pixels, cameraRays(frame));
       for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -173,12 +164,9 @@ Finding equalSamples(const Setup& setup) {
   builder.description.sky.zenith = {0.1f, 1.0f / 3, 7e-5f};
   builder.add(floorAt(-100, 1, builder.add(diffuseMaterial(1))));
   const Scene scene = builder.build();
-  Camera up;
-  up.eye = {0, 0, 0};
-  up.at = {0, 1, 0};
+  const Camera up{.eye = {0, 0, 0}, .at = {0, 1, 0}};
   for (const int spp : {1, 2, 3, 5, 16, 1000}) {
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{3, 2};
+    RenderOptions options = optionsOf(setup, {3, 2});
     options.spp = spp;
     for (const Rgb& pixel : pictureOf(scene, up, options).pixels) {
       finding.count(!(pixel == scene.sky.zenith), [&] { return std::to_string(spp) + " samples"; });

@@ -23,8 +23,7 @@ void follow(const Scene& scene, const Setup& setup, std::vector<ProbeRay> rays,
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!probe.isHit(i)) visit(rays[i]);
     }
-    rays.clear();
-    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+    rays = raysOf(probe.refractions());
   }
 }
 
@@ -72,9 +71,8 @@ Finding coincidentFaces(const Setup& setup) {
     const double angle = 1.2 * i / 200;
     rays.push_back({{0, 2, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
   }
-  follow(builder.build(), setup, rays, [&](const ProbeRay& ray) {
-    finding.count(ray.media != 0, [&] { return describeRay(ray); });
-  });
+  follow(builder.build(), setup, rays,
+         [&](const ProbeRay& ray) { finding.count(ray.media != 0, described(ray)); });
   return finding;
 }
 
@@ -118,7 +116,7 @@ Finding stackCountsSpheres(const Setup& setup) {
     probe.cast(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!probe.isHit(i)) {
-        finding.count(rays[i].media != 0, [&] { return describeRay(rays[i]); });
+        finding.count(rays[i].media != 0, described(rays[i]));
         continue;
       }
       const Vec3d middle = (Vec3d(rays[i].origin) + Vec3d(probe.position(i))) * 0.5;
@@ -131,10 +129,9 @@ Finding stackCountsSpheres(const Setup& setup) {
       }
       // Facets lie up to 0.003 inside the sphere.
       if (clear < 0.004) continue;
-      finding.count(depthOf(rays[i].media) != inside, [&] { return describeRay(rays[i]); });
+      finding.count(depthOf(rays[i].media) != inside, described(rays[i]));
     }
-    rays.clear();
-    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+    rays = raysOf(probe.refractions());
   }
   return finding;
 }
@@ -148,12 +145,9 @@ Finding eyeInGlass(const Setup& setup) {
   builder.add(sphereMesh(4, {}, 1, builder.add(glassMaterial(1.5f))));
   builder.sky(1);
   const Scene scene = builder.build();
-  Camera camera;
-  camera.eye = {0, 0, 0};
-  camera.at = {0.3f, 0.2f, -1};
+  const Camera camera{.eye = {0, 0, 0}, .at = {0.3f, 0.2f, -1}};
   for (const int depth : {1, 4}) {
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{33, 21};
+    RenderOptions options = optionsOf(setup, {33, 21});
     options.depth = depth;
     options.cutoff = 0;
     for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
@@ -172,11 +166,8 @@ Finding whiteRim(const Setup& setup) {
   builder.add(sphereMesh(5, {}, 1, builder.add(glassMaterial(1.5f)), true));
   builder.sky(1);
   const Scene scene = builder.build();
-  Camera camera;
-  camera.eye = {0, 0, 5};
-  camera.fov = 26;
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{32, 32};
+  const Camera camera{.eye = {0, 0, 5}, .fov = 26};
+  RenderOptions options = optionsOf(setup, {32, 32});
   options.depth = 16;
   options.cutoff = 1e-5f;
   const Image image = pictureOf(scene, camera, options);
@@ -197,11 +188,8 @@ Finding openGlass(const Setup& setup) {
   for (int i = 0; i < 6; ++i) builder.add(floorAt(-static_cast<float>(i), 50, glass));
   builder.sky(1);
   const Scene scene = builder.build();
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.up = {0, 0, -1};
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{17, 11};
+  const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
+  RenderOptions options = optionsOf(setup, {17, 11});
   options.depth = 12;
   options.cutoff = 0;
   for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {

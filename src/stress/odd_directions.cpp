@@ -24,8 +24,7 @@ Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       if (expected.size() < rays.size()) expected.push_back(triangle);
-      finding.count(triangle == kMiss || triangle != expected[i],
-                    [&] { return describeRay(rays[i]); });
+      finding.count(triangle == kMiss || triangle != expected[i], described(rays[i]));
     }
   }
   return finding;
@@ -41,13 +40,10 @@ Finding denormalComponents(const Setup& setup) {
 
 Finding coplanarRays(const Setup& setup) {
   Finding finding(0);
-  SceneBuilder builder;
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  mesh.materials = {builder.add(diffuseMaterial(1))};
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   std::vector<ProbeRay> rays{{{-1, 0.25f, 0}, {1, 0, 0}},
                              {{0.25f, 0.25f, 0}, {1, 0, 0}},
                              {{0.25f, 0.25f, 0}, {0, -1, 0}},
@@ -61,7 +57,7 @@ Finding coplanarRays(const Setup& setup) {
   Probe probe(scene, setup);
   probe.cast(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    finding.count(probe.isHit(i), [&] { return describeRay(rays[i]); });
+    finding.count(probe.isHit(i), described(rays[i]));
   }
   return finding;
 }
@@ -71,11 +67,8 @@ Finding coplanarRays(const Setup& setup) {
 Finding nearlyCoplanar(const Setup& setup) {
   Finding finding(kNoBound);
   Numbers numbers(22);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   std::vector<ProbeRay> rays;
   Mesh mesh;
-  mesh.materials = {0};
   constexpr std::uint32_t kNeedles = 300;
   for (std::uint32_t i = 0; i < kNeedles; ++i) {
     const Vec3d n = numbers.direction(), along = normalized(cross(n, numbers.direction()));
@@ -91,13 +84,12 @@ Finding nearlyCoplanar(const Setup& setup) {
       rays.push_back(rayThrough(Vec3f(target - direction * 600.0), Vec3f(target)));
     }
   }
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.cast(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) {
-      finding.note(0, [&] { return describeRay(rays[i]); });
+      finding.note(0, described(rays[i]));
       continue;
     }
     const reference::Corners c =
@@ -106,7 +98,7 @@ Finding nearlyCoplanar(const Setup& setup) {
         Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * static_cast<double>(probe.hits().t[i]);
     const Vec3d low = min(c[0], min(c[1], c[2])), high = max(c[0], max(c[1], c[2]));
     const Vec3d beyond = max(max(low - point, point - high), Vec3d{});
-    finding.note(length(beyond) / 11.2, [&] { return describeRay(rays[i]); });
+    finding.note(length(beyond) / 11.2, described(rays[i]));
   }
   return finding;
 }
@@ -124,8 +116,7 @@ Finding coplanarOverlap(const Setup& setup) {
   Probe probe(scene, setup);
   probe.cast(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    finding.count(probe.hits().triangle[i] != expected.hits().triangle[i],
-                  [&] { return describeRay(rays[i]); });
+    finding.count(probe.hits().triangle[i] != expected.hits().triangle[i], described(rays[i]));
   }
   return finding;
 }

@@ -14,19 +14,24 @@ RenderOptions optionsOf(const Setup& setup) {
   return options;
 }
 
+RenderOptions optionsOf(const Setup& setup, const ImageSize& size) {
+  RenderOptions options = optionsOf(setup);
+  options.size = size;
+  return options;
+}
+
 namespace {
 
-RenderOptions probeOptions(const Setup& setup, bool robust) {
+RenderOptions probeOptions(const Setup& setup) {
   RenderOptions options = optionsOf(setup);
   options.effects = EffectChoice::all;
-  options.robust = robust;
   return options;
 }
 
 }  // namespace
 
-Probe::Probe(const Scene& scene, const Setup& setup, bool robust)
-    : renderer_(scene, probeOptions(setup, robust)),
+Probe::Probe(const Scene& scene, const Setup& setup)
+    : renderer_(scene, probeOptions(setup)),
       constants_{&renderer_.tables(),
                  &renderer_.accel(),
                  renderer_.plan().features,
@@ -114,9 +119,9 @@ void Probe::endSurfels() {
   std::fill(surfels_->material + count_, surfels_->material + roundUpToBlock(count_), kMiss);
 }
 
-std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel, float cutoff) {
+std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel) {
   endSurfels();
-  constants_.options.cutoff = cutoff;
+  constants_.options.cutoff = 0;
   chunk_.childCount = 0;
   run(kernel);
   std::vector<ProbeChild> result(chunk_.childCount);
@@ -130,13 +135,9 @@ std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel, float cuto
   return result;
 }
 
-std::vector<ProbeChild> Probe::reflections(float cutoff) {
-  return childrenBy(simd::kAddReflections, cutoff);
-}
+std::vector<ProbeChild> Probe::reflections() { return childrenBy(simd::kAddReflections); }
 
-std::vector<ProbeChild> Probe::refractions(float cutoff) {
-  return childrenBy(simd::kAddRefractions, cutoff);
-}
+std::vector<ProbeChild> Probe::refractions() { return childrenBy(simd::kAddRefractions); }
 
 std::size_t Probe::light(const Light& light) {
   endSurfels();
@@ -168,6 +169,12 @@ void Probe::poison(std::uint32_t bits) {
 ProbeRay Probe::ray(std::size_t i) const {
   const RayColumns& c = *rays_;
   return {{c.orgX[i], c.orgY[i], c.orgZ[i]}, {c.dirX[i], c.dirY[i], c.dirZ[i]}, c.media[i]};
+}
+
+std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children) {
+  std::vector<ProbeRay> rays;
+  for (const ProbeChild& child : children) rays.push_back(child.ray);
+  return rays;
 }
 
 ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,

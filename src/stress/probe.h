@@ -22,11 +22,12 @@ struct ProbeChild {
 };
 
 RenderOptions optionsOf(const Setup& setup);
+RenderOptions optionsOf(const Setup& setup, const ImageSize& size);
 
 class Probe {
  public:
   // With every effect compiled in, so that all columns are there. `scene` must outlive the probe.
-  Probe(const Scene& scene, const Setup& setup, bool robust = true);
+  Probe(const Scene& scene, const Setup& setup);
 
   // generateRays' output, made by hand; then findIntersections.
   void cast(const std::vector<ProbeRay>& rays);
@@ -38,9 +39,9 @@ class Probe {
   // not look at geometry.
   void surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns);
 
-  // addImpulses of all surfels.
-  std::vector<ProbeChild> reflections(float cutoff = 0);
-  std::vector<ProbeChild> refractions(float cutoff = 0);
+  // addImpulses of all surfels, however little they contribute.
+  std::vector<ProbeChild> reflections();
+  std::vector<ProbeChild> refractions();
   // findRadianceAndShadowRays and checkShadows: shadow rays, of which `visible` were not blocked.
   std::size_t light(const Light& light);
 
@@ -63,15 +64,13 @@ class Probe {
   const RayColumns& rays() const { return *rays_; }
   const HitColumns& hits() const { return *hits_; }
   const SurfelColumns& surfels() const { return *surfels_; }
-  const ShadowColumns& shadows() const { return *shadows_; }
   const ShadingTables& tables() const { return renderer_.tables(); }
-  const Accel& accel() const { return renderer_.accel(); }
 
  private:
   void reserve(std::size_t count);
   void endSurfels();
   void run(const simd::Kernel& kernel);
-  std::vector<ProbeChild> childrenBy(const simd::Kernel& kernel, float cutoff);
+  std::vector<ProbeChild> childrenBy(const simd::Kernel& kernel);
 
   Renderer renderer_;
   FlushDenormals flush_;  // as in a frame's workers
@@ -85,6 +84,9 @@ class Probe {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
 };
+
+// The rays alone.
+std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children);
 
 // Primary rays of the pixels (packed), through their centers, by the kernel.
 ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,

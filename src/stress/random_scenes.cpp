@@ -206,8 +206,7 @@ Finding randomScenes(const Setup& setup) {
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const std::optional<Scene> scene = finalized(seed);
     if (!scene) continue;
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{8, 6};
+    RenderOptions options = optionsOf(setup, {8, 6});
     options.depth = 5;
     if (seed % 2 == 0) options.shading.textureFilter = TextureFilter::trilinear;
     Renderer renderer(*scene, options);

@@ -11,11 +11,8 @@ namespace {
 // Unit length of what the kernels hand on, however large the scene.
 Finding unitNormals(const Setup& setup) {
   Finding finding(3 * 0x1p-24);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   Numbers numbers(51);
   Mesh mesh;
-  mesh.materials = {0};
   constexpr std::uint32_t kTriangles = 4000;
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     // Below 1e-14 edges are less than the least normal float apart at places.
@@ -23,8 +20,7 @@ Finding unitNormals(const Setup& setup) {
     for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(numbers.direction() * size);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
   for (std::uint32_t i = 0; i < kTriangles; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
@@ -47,11 +43,10 @@ Finding lengthAfter64Reflections(const Setup& setup) {
   Probe probe(scene, setup);
   for (int bounce = 0; bounce < 64; ++bounce) {
     probe.cast(rays);
-    rays.clear();
-    for (const ProbeChild& child : probe.reflections()) rays.push_back(child.ray);
+    rays = raysOf(probe.reflections());
   }
   for (const ProbeRay& ray : rays) {
-    finding.note(std::fabs(length(Vec3d(ray.direction)) - 1), [&] { return describeRay(ray); });
+    finding.note(std::fabs(length(Vec3d(ray.direction)) - 1), described(ray));
   }
   return finding;
 }
@@ -61,19 +56,13 @@ SceneDescription litFloor(float intensity) {
   builder.add(floorAt(0, 4, builder.add(diffuseMaterial(0.5f))));
   builder.add(sphereMesh(3, {0, 1, 0}, 0.7, 0, true));
   builder.description.lights = {lightAt({1, 3, 1}, intensity)};
-  Camera camera;
-  camera.eye = {0, 3, 5};
-  camera.at = {0, 0.5f, 0};
-  builder.description.cameras = {camera};
+  builder.description.cameras = {{.eye = {0, 3, 5}, .at = {0, 0.5f, 0}}};
   return builder.describe();
 }
 
 Image litPicture(float intensity, const Setup& setup) {
-  Warnings warnings;
-  const Scene scene = Scene::finalize(litFloor(intensity), warnings);
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{33, 21};
-  return pictureOf(scene, scene.cameras[0], options);
+  const Scene scene = repaired(litFloor(intensity));
+  return pictureOf(scene, scene.cameras[0], optionsOf(setup, {33, 21}));
 }
 
 // Light of 1e-39: what the workers flush to zero is all that is lost.
@@ -122,12 +111,8 @@ Finding badSkyTexels(const Setup& setup) {
     const Scene scene = Scene::finalize(builder.describe(), warnings);
     finding.count(warnings.entries().empty(),
                   [&] { return "not counted: " + hexText(double{bad}); });
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{33, 21};
-    Camera camera;
-    camera.eye = {0, 1, 3};
-    camera.fov = 120;
-    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+    const Camera camera{.eye = {0, 1, 3}, .fov = 120};
+    for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {33, 21})).pixels) {
       finding.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > 1.00001f,
                     [&] { return "texel " + hexText(double{bad}); });
     }

@@ -13,8 +13,7 @@ Finding hallOfMirrors(const Setup& setup) {
     mirror.emission = Rgb(1.0f);
     const Scene scene = sceneOf(box({-4, -4, -4}, {4, 4, 4}, 0), mirror);
     for (const int depth : {0, 8, 64}) {
-      RenderOptions options = optionsOf(setup);
-      options.size = ImageSize{17, 11};
+      RenderOptions options = optionsOf(setup, {17, 11});
       options.depth = depth;
       options.cutoff = 0;
       double wanted = 0;
@@ -46,8 +45,7 @@ Scene plates() {
 Finding boundedMemory(const Setup& setup) {
   Finding finding(0);
   const Scene scene = plates();
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{16, 8};
+  RenderOptions options = optionsOf(setup, {16, 8});
   options.cutoff = 1e-3f;
   options.depth = 64;
   const Image wide = pictureOf(scene, lookingDown(), options);
@@ -79,8 +77,7 @@ Finding boundedMemory(const Setup& setup) {
 Finding cutoffBias(const Setup& setup) {
   Finding finding(1);
   const Scene scene = plates();
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{8, 8};
+  RenderOptions options = optionsOf(setup, {8, 8});
   options.depth = 24;
   options.cutoff = 1e-5f;
   FrameStats exactStats, stats;
@@ -102,7 +99,7 @@ Finding cutoffBias(const Setup& setup) {
   probe.load({{{0, 1, 0}, {0, -1, 0}}});
   probe.surfel(0, 0, {0, 1, 0}, {0, 1, 0});
   probe.rays().throughput[0] = kNan;
-  finding.note(probe.reflections(0).empty() ? 0 : 2, [] { return "throughput NaN"; });
+  finding.note(probe.reflections().empty() ? 0 : 2, [] { return "throughput NaN"; });
   return finding;
 }
 

@@ -79,8 +79,10 @@ Real fresnel(Real n1, Real n2, Real c) {
 
 constexpr double kUnit = 0x1p-24;  // unit round-off of float
 
-std::string describe(float from, float to, double c) {
-  return "n " + hexText(double{from}) + " to " + hexText(double{to}) + ", cosine " + hexText(c);
+auto describe(float from, float to, double c) {
+  return [=] {
+    return "n " + hexText(double{from}) + " to " + hexText(double{to}) + ", cosine " + hexText(c);
+  };
 }
 
 // Cosines around the critical one, a unit in the last place apart.
@@ -105,8 +107,7 @@ Finding criticalFlag(const Setup& setup) {
     const Real g2 = (to - from) * (Real{to} + from) / (Real{from} * from) + c * c;
     // Within the rounding of g2 itself either answer is right: F is 1 to four digits.
     if (std::fabs(g2) < 2 * static_cast<Real>(kUnit)) continue;
-    finding.count((got.refracted[i] == 0) != (g2 <= 0),
-                  [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
+    finding.count((got.refracted[i] == 0) != (g2 <= 0), describe(from, to, in.cosines[i]));
   }
   return finding;
 }
@@ -121,7 +122,7 @@ Finding criticalReflectance(const Setup& setup) {
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real exact = fresnel(from, to, static_cast<Real>(in.cosines[i]));
     finding.note(std::fabs(got.reflected[i] - static_cast<double>(exact)),
-                 [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
+                 describe(from, to, in.cosines[i]));
   }
   return finding;
 }
@@ -147,7 +148,7 @@ Finding equalIndices(const Setup& setup) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool same = got.direction[i] == Vec3d(in.rays[i].direction);
       finding.count(got.reflected[i] != 0 || got.refracted[i] != 1 || !same,
-                    [&] { return describe(n, n, in.cosines[i]); });
+                    describe(n, n, in.cosines[i]));
     }
   }
   return finding;
@@ -166,7 +167,7 @@ Finding reflectanceError(const std::vector<std::pair<float, float>>& pairs, doub
       if (eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L) continue;
       if (exact < 1e-30L) continue;
       finding.note(static_cast<double>(std::fabs(got.reflected[i] - exact) / exact),
-                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
+                   describe(from, to, in.cosines[i]));
     }
   }
   return finding;
@@ -190,7 +191,7 @@ Finding grazing(const Setup& setup) {
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real exact = fresnel(1, 1.5L, static_cast<Real>(in.cosines[i]));
     finding.note(std::fabs(static_cast<double>(got.reflected[i] - exact)),
-                 [&] { return describe(1, 1.5f, in.cosines[i]); });
+                 describe(1, 1.5f, in.cosines[i]));
   }
   return finding;
 }
@@ -212,7 +213,7 @@ Finding snell(const Setup& setup) {
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       const double s1 = static_cast<double>(in.rays[i].direction.x), s2 = got.direction[i].x;
       finding.note(std::fabs(s2 - s1 * static_cast<double>(from) / static_cast<double>(to)),
-                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
+                   describe(from, to, in.cosines[i]));
     }
   }
   return finding;
@@ -235,15 +236,14 @@ Finding slabShift(const Setup& setup) {
   const std::vector<ProbeRay> start = rays;
   for (int face = 0; face < 2; ++face) {
     probe.cast(rays);
-    rays.clear();
-    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+    rays = raysOf(probe.refractions());
   }
   for (std::size_t i = 0; i < rays.size() && i < start.size(); ++i) {
     const Vec3d moved = Vec3d(rays[i].origin) - Vec3d(start[i].origin);
     const double sideways = length(moved - d * dot(moved, d));
     const double turned = length(Vec3d(rays[i].direction) - d);
     finding.note(std::max(std::fabs(sideways - 0.512472013047) / 0.512472013047, turned),
-                 [&] { return describeRay(start[i]); });
+                 described(start[i]));
   }
   return finding;
 }
@@ -255,9 +255,7 @@ Finding furnace(const Setup& setup) {
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 50);
   builder.sky(1);
   const Scene scene = builder.build();
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.up = {0, 0, -1};
+  const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
   for (const int inside : {1, 2, 3, 4, 12}) {
     RenderOptions options = optionsOf(setup);
     options.size = inside < 12 ? ImageSize{1, 1} : ImageSize{33, 21};
@@ -280,7 +278,7 @@ Finding energyOfOneEvent(const Setup& setup) {
     const Interfaces got = throughKernels(from, to, in, setup);
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       finding.note(std::fabs(got.reflected[i] + got.refracted[i] - 1),
-                   [&, from = from, to = to] { return describe(from, to, in.cosines[i]); });
+                   describe(from, to, in.cosines[i]));
     }
   }
   return finding;

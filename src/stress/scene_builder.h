@@ -92,6 +92,12 @@ class SceneBuilder {
   Object world_;
 };
 
+// As loading does it: what can be repaired is, and counted.
+inline Scene repaired(SceneDescription&& description, Warnings* warnings = nullptr) {
+  Warnings own;
+  return Scene::finalize(std::move(description), warnings ? *warnings : own);
+}
+
 // Corners counter-clockwise as seen from outside; uv runs over the unit square from the first.
 inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
                  std::uint32_t material) {

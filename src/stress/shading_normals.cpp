@@ -30,8 +30,8 @@ Tilted tilted(std::uint64_t seed, double tilt, double flattest) {
   return result;
 }
 
-std::string describe(const Vec3f& direction, const Vec3f& ns) {
-  return "direction " + hexText(direction) + ", shading normal " + hexText(ns);
+auto describe(const Vec3f& direction, const Vec3f& ns) {
+  return [=] { return "direction " + hexText(direction) + ", shading normal " + hexText(ns); };
 }
 
 Scene oneMaterial(const Material& material) { return sceneOf(floorAt(0, 1, 0), material); }
@@ -53,15 +53,13 @@ Finding childrenStayOnTheirSide(const Setup& setup) {
     const double least = std::min(0.9 * facing, 0.01);
     // Bringing a lifted direction back to unit length lowers it by up to the square of the lift.
     const double height = static_cast<double>(child.ray.direction.y);
-    finding.note(std::max(0.0, least * 0.7 - height) / 0x1p-24, [&] {
-      return describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]);
-    });
+    finding.note(std::max(0.0, least * 0.7 - height) / 0x1p-24,
+                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
   }
   for (const ProbeChild& child : probe.refractions()) {
     const double height = static_cast<double>(child.ray.direction.y);
-    finding.note(std::max(0.0, height) / 0x1p-24, [&] {
-      return describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]);
-    });
+    finding.note(std::max(0.0, height) / 0x1p-24,
+                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
   }
   return finding;
 }
@@ -75,9 +73,8 @@ Finding agreeingNormals(const Setup& setup) {
   fill(probe, surfels);
   for (const ProbeChild& child : probe.reflections()) {
     const Vec3d in(surfels.rays[child.parent].direction), out(child.ray.direction);
-    finding.note(maxComponent(abs(out - Vec3d{in.x, -in.y, in.z})), [&] {
-      return describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]);
-    });
+    finding.note(maxComponent(abs(out - Vec3d{in.x, -in.y, in.z})),
+                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
   }
   return finding;
 }
@@ -100,9 +97,8 @@ Finding viewBehindTheNormal(const Setup& setup) {
     for (const ProbeChild& child : children) {
       const double l = length(Vec3d(child.ray.direction));
       const bool fine = child.weight.x >= 0 && child.weight.x <= 1.5f && std::fabs(l - 1) < 1e-6;
-      finding.count(!fine, [&] {
-        return describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]);
-      });
+      finding.count(!fine,
+                    describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
     }
   };
   check(probe.reflections());
@@ -111,7 +107,7 @@ Finding viewBehindTheNormal(const Setup& setup) {
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const Rgb light = probe.visible(i) ? probe.unshadowed(i) : Rgb(0.0f);
     finding.count(!isFinite(light) || light.x < 0,
-                  [&] { return describe(surfels.rays[i].direction, surfels.normals[i]); });
+                  describe(surfels.rays[i].direction, surfels.normals[i]));
   }
   return finding;
 }
@@ -119,12 +115,9 @@ Finding viewBehindTheNormal(const Setup& setup) {
 // Corner normals of opposite directions: along a line there is none, and the face's serves.
 Finding cancellingNormals(const Setup& setup) {
   Finding finding(4 * 0x1p-24);
-  SceneBuilder builder;
-  builder.add(diffuseMaterial(1));
   Mesh mesh = floorAt(0, 1, 0);
   mesh.normals = {{0, 0, 1}, {0, 0, -1}, {0, 0, 1}, {0, 0, -1}};
-  builder.add(mesh);
-  const Scene scene = builder.build();
+  const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   constexpr std::uint32_t kSteps = 1001;
   probe.load(std::vector<ProbeRay>(kSteps, {{0, 1, 0}, {0, -1, 0}}));
@@ -185,9 +178,9 @@ Finding lightBetweenTheNormals(const Setup& setup) {
       lit += g >= 0 && s >= -1e-6;
       if (g > 0 && s > 0) continue;
       finding.count(probe.visible(i) && s < -1e-6,
-                    [&] { return describe(surfels.rays[i].direction, surfels.normals[i]); });
+                    describe(surfels.rays[i].direction, surfels.normals[i]));
       finding.count(probe.visible(i) && g < 0,
-                    [&] { return describe(surfels.rays[i].direction, surfels.normals[i]); });
+                    describe(surfels.rays[i].direction, surfels.normals[i]));
     }
     // The floor would hide such a light all the same, but no ray should have to find that out.
     finding.count(shadowRays > lit, [&] { return "light at " + hexText(l); });

@@ -37,23 +37,15 @@ Finding thinGap(const Setup& setup) {
 }
 
 // Pixels that are not black.
-Finding litPixels(const Scene& scene, const Camera& camera, const Setup& setup) {
+Finding litPixels(const Scene& scene, const Setup& setup) {
   Finding finding(0);
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{64, 48};
-  const Image image = pictureOf(scene, camera, options);
+  const Camera above{.eye = {0.5f, 3, 4}, .at = {0, 0.5f, 0}};
+  const Image image = pictureOf(scene, above, optionsOf(setup, {64, 48}));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     finding.count(!(image.pixels[i] == Rgb(0.0f)),
                   [&] { return "pixel " + std::to_string(i % 64) + "," + std::to_string(i / 64); });
   }
   return finding;
-}
-
-Camera above() {
-  Camera camera;
-  camera.eye = {0.5f, 3, 4};
-  camera.at = {0, 0.5f, 0};
-  return camera;
 }
 
 Finding contactLeak(const Setup& setup) {
@@ -64,7 +56,7 @@ Finding contactLeak(const Setup& setup) {
     builder.add(floorAt(0, 50, gray));
     builder.add(ball ? sphereMesh(4, {0, 1, 0}, 1, gray) : box({-1, 0, -1}, {1, 1.5f, 1}, gray));
     builder.description.lights = {lightAt({0.2f, -1, 0.3f}, 100), lightAt({0, -1e-3f, 0}, 100)};
-    finding.merge(litPixels(builder.build(), above(), setup), true);
+    finding.merge(litPixels(builder.build(), setup));
   }
   return finding;
 }
@@ -93,7 +85,7 @@ Finding concaveCorners(const Setup& setup) {
   for (const Vec3f& outside : {Vec3f{2.3f, 1.7f, 0.4f}, {-1.01f, 0.2f, 0.3f}, {0, 1.5f, -1.5f}}) {
     probe.light(lightAt(outside, 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {
-      finding.count(probe.visible(i), [&] { return describeRay(probe.ray(i)); });
+      finding.count(probe.visible(i), described(probe.ray(i)));
     }
   }
   return finding;

@@ -1,6 +1,7 @@
 // H12 to H18: rays through edges and corners.
+#include "core/pixel.h"
+#include "simd/kernels.h"
 #include "stress/bodies.h"
-#include "stress/room_of_pixels.h"
 
 namespace whit::stress {
 
@@ -53,7 +54,7 @@ Finding misses(const Mesh& mesh, const std::vector<ProbeRay>& rays, double bound
   Probe probe(scene, setup);
   probe.cast(rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
-    finding.count(!probe.isHit(i), [&] { return describeRay(rays[i]); });
+    finding.count(!probe.isHit(i), described(rays[i]));
   }
   return finding;
 }
@@ -68,7 +69,7 @@ Finding randomRays(const Setup& setup) {
     for (std::size_t i = 0; i < kEdgeRays; ++i) {
       rays.push_back({inside(numbers, center, 2), Vec3f(numbers.direction())});
     }
-    finding.merge(misses(sphereMesh(5, center, 2, 0), rays, 0, setup), true);
+    finding.merge(misses(sphereMesh(5, center, 2, 0), rays, 0, setup));
   }
   return finding;
 }
@@ -84,7 +85,7 @@ Finding edges(const Setup& setup) {
         rays.push_back(exactlyThrough((a + b) * 0.5f));
       }
     }
-    finding.merge(misses(ball, rays, 0, setup), true);
+    finding.merge(misses(ball, rays, 0, setup));
   }
   return finding;
 }
@@ -128,10 +129,9 @@ Finding crossingsBalance(const Setup& setup) {
     probe.cast(rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const bool outside = !probe.isHit(i);
-      finding.count(outside && rays[i].media != 0, [&] { return describeRay(rays[i]); });
+      finding.count(outside && rays[i].media != 0, described(rays[i]));
     }
-    rays.clear();
-    for (const ProbeChild& child : probe.refractions()) rays.push_back(child.ray);
+    rays = raysOf(probe.refractions());
   }
   finding.count(!rays.empty(), [&] { return "never out: " + describeRay(rays[0]); });
   return finding;
@@ -140,26 +140,17 @@ Finding crossingsBalance(const Setup& setup) {
 Finding tJunctions(const Setup& setup) {
   Finding finding(kNoBound);
   for (const float displaced : {0.0f, 1.0f}) {
-    SceneBuilder builder;
-    const auto gray = builder.add(diffuseMaterial(1));
     const float middle = displaced > 0 ? std::nextafter(0.0f, 1.0f) + 0x1p-24f : 0;
     Mesh mesh;
-    mesh.materials = {gray};
     mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, middle}, {0, 0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}};
-    builder.add(mesh);
-    const Scene scene = builder.build();
     Numbers numbers(16);
     std::vector<ProbeRay> rays;
     for (std::size_t i = 0; i < kEdgeRays; ++i) {
       const Vec3f target(Vec3d{numbers.in(-0.9, 0.9), 0, 0});
       rays.push_back(rayThrough(Vec3f(Vec3d{numbers.in(-1, 1), 2, numbers.in(-1, 1)}), target));
     }
-    Probe probe(scene, setup);
-    probe.cast(rays);
-    for (std::size_t i = 0; i < probe.size(); ++i) {
-      finding.count(!probe.isHit(i), [&] { return describeRay(rays[i]); });
-    }
+    finding.merge(misses(mesh, rays, kNoBound, setup));
   }
   return finding;
 }
@@ -193,8 +184,7 @@ Finding nestedShells(const Setup& setup) {
     probe.cast(rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
-      finding.count(triangle < before || triangle >= before + count,
-                    [&] { return describeRay(rays[i]); });
+      finding.count(triangle < before || triangle >= before + count, described(rays[i]));
     }
   }
   return finding;
@@ -214,21 +204,54 @@ Finding openBorder(const Setup& setup) {
   first.cast(rays);
   second.cast(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    finding.count(first.hits().triangle[i] != second.hits().triangle[i],
-                  [&] { return describeRay(rays[i]); });
+    finding.count(first.hits().triangle[i] != second.hits().triangle[i], described(rays[i]));
   }
   return finding;
+}
+
+// A closed room with a corner exactly in the middle of every pixel: the wall that is seen, finer
+// than the pixels' grid by one all around, and a hood from its border to a point behind the eye.
+Mesh roomOfPixels(const CameraFrame& frame) {
+  const int columns = frame.width + 2, rows = frame.height + 2;
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) pixels.push_back(packedPixel(x, y));
+  }
+  // One pixel up and left of the picture, which the middle of this larger one makes good.
+  CameraRays rays = cameraRays(frame);
+  rays.halfWidth += 1;
+  rays.halfHeight += 1;
+  const std::size_t count = pixels.size();
+  const ColumnStore<RayColumns> directions = raysThrough(pixels, rays);
+  Mesh mesh;
+  mesh.materials = {0};
+  for (std::size_t i = 0; i < count; ++i) {
+    mesh.positions.push_back(Vec3f{directions->dirX[i], directions->dirY[i], directions->dirZ[i]} *
+                             4.0f);
+  }
+  const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * columns + x); };
+  const auto behind = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.push_back({0, 0, 4});
+  for (int y = 0; y + 1 < rows; ++y) {
+    for (int x = 0; x + 1 < columns; ++x) {
+      mesh.triangles.push_back({at(x, y), at(x, y + 1), at(x + 1, y + 1)});
+      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x + 1, y)});
+    }
+    mesh.triangles.push_back({at(0, y), at(0, y + 1), behind});
+    mesh.triangles.push_back({at(columns - 1, y), at(columns - 1, y + 1), behind});
+  }
+  for (int x = 0; x + 1 < columns; ++x) {
+    mesh.triangles.push_back({at(x, 0), at(x + 1, 0), behind});
+    mesh.triangles.push_back({at(x, rows - 1), at(x + 1, rows - 1), behind});
+  }
+  return mesh;
 }
 
 // Pixels that look through a corner at the magenta outside.
 Finding lostPixels(const Setup& setup) {
   Finding finding(0);
-  Camera camera;
-  camera.eye = {0, 0, 0};
-  camera.at = {0, 0, -1};
-  camera.fov = 70;
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{97, 61};
+  const Camera camera{.eye = {0, 0, 0}, .at = {0, 0, -1}, .fov = 70};
+  RenderOptions options = optionsOf(setup, {97, 61});
   SceneBuilder builder;
   Material glowing = blackMaterial();
   glowing.emission = {0, 1, 0};
