@@ -7,8 +7,6 @@
 #include "app/interrupt.h"
 #include "core/error.h"
 #include "io/image_file.h"
-#include "viewer/edit_settings.h"
-#include "viewer/motion.h"
 #include "viewer/panel.h"
 
 namespace whit::view {
@@ -52,12 +50,12 @@ bool App::step() {
   const bool fresh = fetchFrame();
   window_.poll(0);  // once more: the next picture has what the user did before this one was there
   const double seconds = tick();
-  ScriptPlayer::Step step;
+  ScriptStep step;
   if (script_) {
     window_.input = Input();  // a script is the only user
     step = script_->next(sharp_, window_.input);
     if (step.quit) return false;
-    if (step.command) obey(*step.command);
+    obey(step);
   }
   handleInput();
   restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
@@ -78,7 +76,7 @@ double App::waitSeconds() const {
 }
 
 // A picture under way should find this thread waiting for it, not drawing the one before once more.
-bool App::worthDrawing(const ScriptPlayer::Step& step, bool fresh, double seconds) {
+bool App::worthDrawing(const ScriptStep& step, bool fresh, double seconds) {
   undrawnSeconds_ += seconds;
   const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
   const bool wanted = fresh || !step.screenshot.empty() || window_.input.pointer;

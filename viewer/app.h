@@ -11,10 +11,20 @@
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
 #include "viewer/script.h"
-#include "viewer/view_options.h"
 #include "viewer/window.h"
 
 namespace whit::view {
+
+// The viewer's command line.
+struct ViewOptions {
+  cli::CommonOptions common;
+  std::string scene;   // as given
+  std::string script;  // file; empty: none
+  std::string record;  // folder; empty: none
+  bool benchmark = false;
+  DebugView view = DebugView::none;
+  double rate = kDefaultRate;  // frames a second to hold in motion
+};
 
 class App {
  public:
@@ -31,7 +41,7 @@ class App {
   // app.cpp: the loop
   bool step();  // false: the script has come to its end
   double waitSeconds() const;
-  bool worthDrawing(const ScriptPlayer::Step& step, bool fresh, double seconds);
+  bool worthDrawing(const ScriptStep& step, bool fresh, double seconds);
   double tick();
   bool moveCamera(double seconds);
   void flyPath(double seconds);
@@ -46,14 +56,20 @@ class App {
   const Scene& scene() const { return scene_->scene; }
 
   // app_keys.cpp
+  static CameraMotion motionOf(const Input& input);
   void handleInput();
   void handleKey(int key);
-  void handleViewKey(int key);
-  void handlePictureKey(int key);
-  void obey(const ScriptCommand& command);
-  std::string command() const;
-  void attempt(const std::function<void()>& action);
+  void savePicture();
+  void printView();
+  void expose(float step);
+  void stepScale(int steps);
+  void showNextView();
+  void compareNext();
+  void startOrStopPath();
+  void jumpToNumber(std::size_t number);
   void jump(const Camera& camera);
+  void obey(const ScriptStep& step);
+  std::string command() const;
 
   // app_scene.cpp
   void watchSceneFile(double seconds);

@@ -1,10 +1,12 @@
-// What each key does.
+// What keys and mouse do.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
+#include "core/formatted.h"
 #include "viewer/app.h"
 #include "viewer/view_files.h"
 
@@ -25,12 +27,24 @@ bool flies(int key) {
 
 }  // namespace
 
-void App::attempt(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
+CameraMotion App::motionOf(const Input& input) {
+  const auto axis = [&](int positive, int negative) {
+    return static_cast<double>(input.isHeld(positive)) -
+           static_cast<double>(input.isHeld(negative));
+  };
+  CameraMotion motion;
+  motion.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+  motion.right = axis(GLFW_KEY_D, GLFW_KEY_A);
+  motion.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
+  motion.fast = input.isHeld(GLFW_KEY_LEFT_SHIFT) || input.isHeld(GLFW_KEY_RIGHT_SHIFT);
+  motion.turnRight = axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
+  motion.turnUp = axis(GLFW_KEY_UP, GLFW_KEY_DOWN);
+  motion.lookX = input.lookX;
+  motion.lookY = input.lookY;
+  motion.orbitX = input.orbitX;
+  motion.orbitY = input.orbitY;
+  motion.wheel = input.wheel;
+  return motion;
 }
 
 void App::handleInput() {
@@ -46,9 +60,11 @@ void App::handleInput() {
   if (dragged) pathTime_.reset();
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
-    attempt([&] { handleKey(key); });
-    attempt([&] { handlePictureKey(key); });
-    attempt([&] { handleViewKey(key); });
+    try {
+      handleKey(key);
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
   }
   if (!input.dropped.empty()) open(input.dropped.front());
 }
@@ -56,19 +72,122 @@ void App::handleInput() {
 // That makes the picture shown.
 std::string App::command() const { return renderCommand(sceneName_, options_.common, shown_); }
 
-void App::obey(const ScriptCommand& command) {
-  using Kind = ScriptCommand::Kind;
-  if (command.kind == Kind::resize) {
-    window_.resize({static_cast<int>(command.x), static_cast<int>(command.y)});
-  } else if (command.kind == Kind::minimize) {
-    window_.minimize();
-  } else if (command.kind == Kind::restore) {
-    window_.restore();
-  } else if (command.kind == Kind::panel) {
-    settings_.tab = command.file;
-  } else {
-    surviveErrors_ = command.kind == Kind::showErrors;
+void App::obey(const ScriptStep& step) {
+  if (step.resize) window_.resize(*step.resize);
+  if (step.minimize) window_.minimize();
+  if (step.restore) window_.restore();
+  if (!step.tab.empty()) settings_.tab = step.tab;
+  if (step.showErrors) surviveErrors_ = *step.showErrors;
+}
+
+void App::handleKey(int key) {
+  const std::map<int, std::function<void()>> actions{
+      // Window and files.
+      {GLFW_KEY_ESCAPE, [&] { window_.close(); }},
+      {GLFW_KEY_F, [&] { window_.toggleFullScreen(); }},
+      {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
+      {GLFW_KEY_R, [&] { reload(); }},
+      {GLFW_KEY_F12, [&] { savePicture(); }},
+      {GLFW_KEY_C, [&] { printView(); }},
+      // How the picture is made and shown.
+      {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
+      {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
+      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // the plus of many keyboards, without Shift
+      {GLFW_KEY_KP_ADD, [&] { stepScale(1); }},
+      {GLFW_KEY_MINUS, [&] { stepScale(-1); }},
+      {GLFW_KEY_KP_SUBTRACT, [&] { stepScale(-1); }},
+      {GLFW_KEY_V, [&] { showNextView(); }},
+      {GLFW_KEY_X, [&] { compareNext(); }},
+      {GLFW_KEY_N,
+       [&] {
+         settings_.supersample = !settings_.supersample;
+         say(settings_.supersample ? "supersamples at rest" : "no more samples at rest");
+       }},
+      {GLFW_KEY_M,
+       [&] {
+         settings_.measureKnobs = true;
+         say("measuring what each knob and effect costs");
+       }},
+      // The viewpoint.
+      {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
+      {GLFW_KEY_F5,
+       [&] {
+         writeCamera(cameraFile(scene()), control_.camera());
+         say("saved the camera as " + cameraFile(scene()));
+       }},
+      {GLFW_KEY_F9,
+       [&] {
+         jump(readCamera(cameraFile(scene())));
+         say("camera of " + cameraFile(scene()));
+       }},
+  };
+  const auto found = actions.find(key);
+  if (found != actions.end()) found->second();
+  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
+    jumpToNumber(static_cast<std::size_t>(key - GLFW_KEY_1));
   }
+}
+
+void App::savePicture() {
+  if (!shown_.scene) return;
+  say("saved " + view::savePicture(shown_, command()) +
+      (shown_.request.view == DebugView::none
+           ? " (.png, .exr, .json)"
+           : " (.png: the view; .exr, .json: the picture below it)"));
+}
+
+void App::printView() {
+  if (!shown_.scene) return;
+  std::printf("%s\n", command().c_str());
+  std::fflush(stdout);
+  say("printed the view as options of whit render");
+}
+
+void App::expose(float step) {
+  float& exposure = settings_.options.exposure;
+  exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
+  restSeconds_ = 0;
+  say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));
+}
+
+void App::stepScale(int steps) {
+  resolution_.stepLargestScale(steps);
+  restSeconds_ = 0;
+  say("largest scale " + std::to_string(std::lround(100 * resolution_.largestScale())) + " %");
+}
+
+void App::showNextView() {
+  const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
+  settings_.view = static_cast<DebugView>(next);
+  restSeconds_ = 0;
+  say(std::string("view: ") + kDebugViewNames[next]);
+}
+
+void App::compareNext() {
+  settings_.compare = settings_.compare == CompareMode::off     ? CompareMode::split
+                      : settings_.compare == CompareMode::split ? CompareMode::heatMap
+                                                                : CompareMode::off;
+  showPicture();
+}
+
+void App::startOrStopPath() {
+  if (scene().cameraPath.empty()) {
+    say("the scene has no camera path");
+  } else if (pathTime_) {
+    pathTime_.reset();
+  } else {
+    pathTime_ = scene().cameraPath.front().time;
+  }
+}
+
+void App::jumpToNumber(std::size_t number) {
+  const std::vector<Camera>& cameras = scene().cameras;
+  if (number >= cameras.size()) {
+    say("the scene has " + std::to_string(cameras.size()) + " cameras");
+    return;
+  }
+  jump(cameras[number]);
+  say("camera " + cameras[number].name);
 }
 
 void App::jump(const Camera& camera) {
@@ -76,122 +195,6 @@ void App::jump(const Camera& camera) {
   pathTime_.reset();
   restSeconds_ = 0;
   latency_.changed(serial_ + 1);
-}
-
-// Keys about window and files.
-void App::handleKey(int key) {
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      window_.close();
-      break;
-    case GLFW_KEY_F:
-      window_.toggleFullScreen();
-      break;
-    case GLFW_KEY_H:
-      settings_.shown = !settings_.shown;
-      break;
-    case GLFW_KEY_R:
-      reload();
-      break;
-    case GLFW_KEY_F12:
-      if (!shown_.scene) break;
-      say("saved " + savePicture(shown_, command()) +
-          (shown_.request.view == DebugView::none
-               ? " (.png, .exr, .json)"
-               : " (.png: the view; .exr, .json: the picture below it)"));
-      break;
-    case GLFW_KEY_C:
-      if (!shown_.scene) break;
-      std::printf("%s\n", command().c_str());
-      std::fflush(stdout);
-      say("printed the view as options of whit render");
-      break;
-    default:
-      break;
-  }
-}
-
-// Keys about how the picture is made and shown.
-void App::handlePictureKey(int key) {
-  const auto expose = [&](float step) {
-    float& exposure = settings_.options.exposure;
-    exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
-    restSeconds_ = 0;
-    char text[32];
-    std::snprintf(text, sizeof text, "exposure %+.2f EV", static_cast<double>(exposure));
-    say(text);
-  };
-  const auto scale = [&](int step) {
-    resolution_.stepLargestScale(step);
-    restSeconds_ = 0;
-    say("largest scale " + std::to_string(std::lround(100 * resolution_.largestScale())) + " %");
-  };
-  switch (key) {
-    case GLFW_KEY_LEFT_BRACKET:
-      expose(-kExposureStep);
-      break;
-    case GLFW_KEY_RIGHT_BRACKET:
-      expose(kExposureStep);
-      break;
-    case GLFW_KEY_EQUAL:  // the plus of many keyboards, without Shift
-    case GLFW_KEY_KP_ADD:
-      scale(1);
-      break;
-    case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT:
-      scale(-1);
-      break;
-    case GLFW_KEY_V: {
-      const std::size_t next = static_cast<std::size_t>(settings_.view) + 1;
-      settings_.view = static_cast<DebugView>(next % kDebugViewNames.size());
-      restSeconds_ = 0;
-      say(std::string("view: ") + kDebugViewNames[static_cast<std::size_t>(settings_.view)]);
-      break;
-    }
-    case GLFW_KEY_N:
-      settings_.supersample = !settings_.supersample;
-      say(settings_.supersample ? "supersamples at rest" : "no more samples at rest");
-      break;
-    case GLFW_KEY_M:
-      settings_.measureKnobs = true;
-      say("measuring what each knob and effect costs");
-      break;
-    case GLFW_KEY_X:
-      settings_.compare = settings_.compare == CompareMode::off     ? CompareMode::split
-                          : settings_.compare == CompareMode::split ? CompareMode::heatMap
-                                                                    : CompareMode::off;
-      showPicture();
-      break;
-    default:
-      break;
-  }
-}
-
-// Keys that choose the viewpoint.
-void App::handleViewKey(int key) {
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
-    const auto number = static_cast<std::size_t>(key - GLFW_KEY_1);
-    if (number >= scene().cameras.size()) {
-      say("the scene has " + std::to_string(scene().cameras.size()) + " cameras");
-      return;
-    }
-    jump(scene().cameras[number]);
-    say("camera " + scene().cameras[number].name);
-  } else if (key == GLFW_KEY_SPACE) {
-    if (scene().cameraPath.empty()) {
-      say("the scene has no camera path");
-    } else if (pathTime_) {
-      pathTime_.reset();
-    } else {
-      pathTime_ = scene().cameraPath.front().time;
-    }
-  } else if (key == GLFW_KEY_F5) {
-    writeCamera(cameraFile(scene()), control_.camera());
-    say("saved the camera as " + cameraFile(scene()));
-  } else if (key == GLFW_KEY_F9) {
-    jump(readCamera(cameraFile(scene())));
-    say("camera of " + cameraFile(scene()));
-  }
 }
 
 }  // namespace whit::view

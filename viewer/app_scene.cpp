@@ -1,7 +1,6 @@
 // Which scene is looked at: the one given, read again when its file changes, or another one.
 #include "io/paths.h"
 #include "viewer/app.h"
-#include "viewer/motion.h"
 
 namespace whit::view {
 

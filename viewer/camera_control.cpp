@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scene.h"
-
 namespace whit::view {
+
+double cruisingSpeed(const Scene& scene) {
+  constexpr double kSeconds = 12, kLeast = 1e-3;
+  const double size = length(Vec3d(scene.upper) - Vec3d(scene.lower));
+  return std::isfinite(size) ? std::max(size / kSeconds, kLeast) : 1;
+}
 
 void CameraControl::set(const Camera& camera) {
   camera_ = camera;

@@ -1,7 +1,7 @@
 // Flying, looking around and orbiting. Pure: knows neither window nor clock.
 #pragma once
 
-#include "scene/camera.h"
+#include "scene/scene.h"
 
 namespace whit::view {
 
@@ -21,6 +21,9 @@ inline constexpr double kSpeedRange = 1e6;             // times what it was at f
 inline constexpr double kRadiansPerPixel = 0.004;      // mouse
 inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
 inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
+
+// Units a second to begin with: the scene from end to end in twelve seconds.
+double cruisingSpeed(const Scene& scene);
 
 class CameraControl {
  public:

@@ -1,9 +1,9 @@
-#include "viewer/edit_settings.h"
-
+// Edits of materials and lights as settings of the scene.
 #include <cstdlib>
 
 #include "core/option_values.h"
 #include "io/json_text.h"
+#include "viewer/traced_frame.h"
 
 namespace whit::view {
 

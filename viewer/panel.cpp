@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
 #include "app/frame_summary.h"
+#include "core/formatted.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "viewer/keys.h"
@@ -51,9 +51,9 @@ bool drawDirection(Vec3f& direction) {
 bool drawCone(Light& light) {
   constexpr float kLeastOuter = 0.5f, kLargestOuter = 90;
   bool changed = ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeastOuter, kLargestOuter,
-                                    "%.1f", ImGuiSliderFlags_AlwaysClamp);
-  changed |= ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargestOuter, "%.1f",
-                                ImGuiSliderFlags_AlwaysClamp);
+                                    "%.1f", kClamp);
+  changed |=
+      ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargestOuter, "%.1f", kClamp);
   light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
   return changed;
 }
@@ -88,7 +88,7 @@ bool drawMaterial(Material& m) {
   return changed;
 }
 
-// A foldable node for each item, under its name or number.
+// A foldable node for each item, under its name or number. Whether something was changed.
 template <typename Item, typename Draw>
 bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
   bool changed = false;
@@ -108,25 +108,16 @@ bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
   return changed;
 }
 
-// Between ImGui's Begin and End. Each returns whether something was changed.
-bool drawLights(std::vector<Light>& lights) { return drawItems(lights, "light", drawLight); }
-
-bool drawMaterials(std::vector<Material>& materials) {
-  return drawItems(materials, "material", drawMaterial);
-}
-
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
   for (std::size_t i = 0; i < kStageCount; ++i) {
     const double ms = stats.stageMs(static_cast<Stage>(i));
-    char text[80];
-    std::snprintf(text, sizeof text, "%s %.2f ms", kStageNames[i].data(), ms);
     // The text stands beside the bar's fill, so that both stay legible.
     const ImVec2 corner = ImGui::GetCursorPos();
     ImGui::ProgressBar(static_cast<float>(ms / frame), ImVec2(-1, 0), "");
     const ImVec2 below = ImGui::GetCursorPos();
     ImGui::SetCursorPos(ImVec2(corner.x + 6, corner.y + ImGui::GetStyle().FramePadding.y));
-    ImGui::TextUnformatted(text);
+    ImGui::Text("%s %.2f ms", kStageNames[i].data(), ms);
     ImGui::SetCursorPos(below);
   }
 }
@@ -221,23 +212,20 @@ void drawKeys() {
   ImGui::EndTable();
 }
 
-constexpr ImGuiWindowFlags kLine = ImGuiWindowFlags_NoDecoration |
+constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-void placeAtBottom() {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
-}
-
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
 
-void drawLabel(ImDrawList& list, const ImVec2& at, const char* text) {
+// A shade goes beyond the text by `margin`, and is as round. Above panels, which would hide it.
+void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
+               ImU32 shade = kShade) {
   const ImVec2 size = ImGui::CalcTextSize(text);
-  constexpr float kMargin = 3;
-  list.AddRectFilled(ImVec2(at.x - kMargin, at.y - kMargin),
-                     ImVec2(at.x + size.x + kMargin, at.y + size.y + kMargin), kShade, kMargin);
-  list.AddText(at, kWhite, text);
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
+                     ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
+  list.AddText(at, color, text);
 }
 
 // The line behind the panels, over the picture; the words above all: in a small window a panel may
@@ -250,9 +238,8 @@ void drawSplit(double split, bool labels) {
   list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
   list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
   if (!labels) return;
-  ImDrawList& above = *ImGui::GetForegroundDrawList();
-  drawLabel(above, ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
-  drawLabel(above, ImVec2(x + gap, y), "reference");
+  drawLabel(ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
+  drawLabel(ImVec2(x + gap, y), "reference");
 }
 
 // In short lines, which have room beside the panel in a small window.
@@ -273,10 +260,9 @@ void drawFindings(const TracedFrame& frame, bool heat) {
   } else if (frame.comparison->complete()) {
     drawDifference(frame, *frame.comparison);
   } else {
-    char text[48];
-    std::snprintf(text, sizeof text, "reference: %.0f %%", 100 * frame.comparison->progress());
-    ImGui::ProgressBar(static_cast<float>(frame.comparison->progress()),
-                       ImVec2(ImGui::GetFontSize() * 15, 0), text);
+    const double done = frame.comparison->progress();
+    ImGui::ProgressBar(static_cast<float>(done), ImVec2(ImGui::GetFontSize() * 15, 0),
+                       formatted("reference: %.0f %%", 100 * done).c_str());
   }
 }
 
@@ -330,9 +316,9 @@ bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingE
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("scene", [&] {
     ImGui::TextDisabled("lights");
-    edited |= drawLights(scene.lights);
+    edited |= drawItems(scene.lights, "light", drawLight);
     ImGui::TextDisabled("materials");
-    edited |= drawMaterials(scene.materials);
+    edited |= drawItems(scene.materials, "material", drawMaterial);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();
@@ -362,21 +348,18 @@ bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings
 }
 
 void Panel::drawMessage(const std::string& message) {
-  constexpr float kMargin = 10, kPadding = 6, kRounding = 6;
-  constexpr ImU32 kText = IM_COL32(255, 255, 255, 255), kShade = IM_COL32(0, 0, 0, 190);
+  constexpr float kMargin = 10, kPadding = 6;
   const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(message.c_str());
-  const ImVec2 at((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y);
-  ImDrawList& list = *ImGui::GetForegroundDrawList();  // panels would hide it
-  list.AddRectFilled(ImVec2(at.x - kPadding, at.y - kPadding),
-                     ImVec2(at.x + size.x + kPadding, at.y + size.y + kPadding), kShade, kRounding);
-  list.AddText(at, kText, message.c_str());
+  drawLabel(ImVec2((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y),
+            message.c_str(), kPadding, IM_COL32(255, 255, 255, 255), IM_COL32(0, 0, 0, 190));
 }
 
 bool Panel::drawError(const std::string& error) {
   bool open = true;
-  placeAtBottom();
-  if (ImGui::Begin("error", nullptr, kLine)) {
-    ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x * 0.9f);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
+  if (ImGui::Begin("error", nullptr, kBare)) {
+    ImGui::PushTextWrapPos(window.x * 0.9f);
     ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
     ImGui::PopTextWrapPos();
     open = !ImGui::Button("dismiss");
@@ -408,14 +391,14 @@ void FrameGraph::draw(double rate) const {
   const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   const float y = heightOf(budget);
   list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f ms for %.0f/s", static_cast<double>(budget), rate);
+  std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
   // Below its line, unless that lies low.
   const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
-  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text).x, below), color, text);
+  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text.c_str()).x, below), color,
+               text.c_str());
   if (count_ == 0) return;
-  std::snprintf(text, sizeof text, "%.1f ms at most", static_cast<double>(highest));
-  list.AddText(ImVec2(from.x + padding.x, from.y), color, text);
+  text = formatted("%.1f ms at most", static_cast<double>(highest));
+  list.AddText(ImVec2(from.x + padding.x, from.y), color, text.c_str());
 }
 
 void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
@@ -427,10 +410,7 @@ void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bo
   ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
                           ImVec2(1, 0));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_AlwaysAutoResize |
-                                      ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("comparison", nullptr, kFlags)) drawFindings(frame, heat);
+  if (ImGui::Begin("comparison", nullptr, kBare)) drawFindings(frame, heat);
   ImGui::End();
 }
 

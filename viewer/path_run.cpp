@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "app/frame_summary.h"
 #include "app/image_output.h"
@@ -19,14 +18,11 @@ namespace {
 
 constexpr double kFramesPerSecond = 24;
 
-// Once around the point looked at, about the camera's own `up` (Rodrigues' rotation).
+// Once around the point looked at, about the camera's own `up`.
 Camera orbit(const Camera& camera, double share) {
-  const Vec3d axis = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
-  const Vec3d arm = Vec3d(camera.eye) - Vec3d(camera.at);
-  const double angle = 2 * std::numbers::pi * share, c = std::cos(angle), s = std::sin(angle);
+  const Vec3d at(camera.at), arm = Vec3d(camera.eye) - at;
   Camera turned = camera;
-  turned.eye =
-      Vec3f(Vec3d(camera.at) + arm * c + cross(axis, arm) * s + axis * (dot(axis, arm) * (1 - c)));
+  turned.eye = Vec3f(at + Affine::rotation(Vec3d(camera.up), 360 * share).vector(arm));
   return turned;
 }
 

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "viewer/view_options.h"
 #include "viewer/window.h"
 
 namespace whit::cli {
@@ -11,6 +10,8 @@ struct OpenScene;
 }
 
 namespace whit::view {
+
+struct ViewOptions;
 
 // Shows kBenchmarkFrames frames along the path (around the point looked at, if there is none) as
 // fast as they come, and prints to standard output what tracing and displaying took. Then presses

@@ -20,32 +20,27 @@ RenderThread::~RenderThread() {
   thread_.join();
 }
 
-bool RenderThread::ask(const FrameRequest& request) {
+// Wakes the tracing thread, unless `change` says that nothing has changed for it.
+bool RenderThread::post(const std::function<bool()>& change) {
   {
     const std::lock_guard lock(mutex_);
-    if (!exchange_.ask(request)) return false;
+    if (!change()) return false;
     busy_ = true;
   }
   wake_.notify_one();
   return true;
 }
 
+bool RenderThread::ask(const FrameRequest& request) {
+  return post([&] { return exchange_.ask(request); });
+}
+
 void RenderThread::load(const SceneChoice& scene) {
-  {
-    const std::lock_guard lock(mutex_);
-    exchange_.load(scene);
-    busy_ = true;
-  }
-  wake_.notify_one();
+  post([&] { return exchange_.load(scene), true; });
 }
 
 void RenderThread::edit(ShadingEdit edit) {
-  {
-    const std::lock_guard lock(mutex_);
-    exchange_.edit(std::move(edit));
-    busy_ = true;
-  }
-  wake_.notify_one();
+  post([&] { return exchange_.edit(std::move(edit)), true; });
 }
 
 bool RenderThread::take(TracedFrame& frame) {

@@ -35,6 +35,7 @@ class RenderThread {
   bool committed() const;   // tracing a picture that nothing stops
 
  private:
+  bool post(const std::function<bool()>& change);
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);

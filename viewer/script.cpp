@@ -14,7 +14,6 @@ namespace whit::view {
 
 namespace {
 
-using Kind = ScriptCommand::Kind;
 using Words = std::vector<std::string>;
 
 constexpr double kLargestNumber = 1e6;
@@ -37,60 +36,55 @@ int framesOf(double seconds) {
 
 ScriptCommand keyCommand(const Words& words) {
   if (words.size() != 2 && words.size() != 3) expected("key NAME [SECONDS]");
-  ScriptCommand command{Kind::key};
-  command.key = keyNamed(words[1]);
-  if (words.size() == 3) command.frames = framesOf(number(words[2]));
-  return command;
+  const auto hold = [key = keyNamed(words[1])](int frame, Input& input, ScriptStep&) {
+    if (frame == 0) input.pressed.push_back(key);
+    input.held.insert(key);
+  };
+  return {hold, words.size() == 3 ? framesOf(number(words[2])) : 1};
 }
 
 ScriptCommand mouseCommand(const Words& words) {
   if (words.size() != 4 || (words[1] != "left" && words[1] != "right")) {
     expected("mouse left|right DX DY");
   }
-  ScriptCommand command{words[1] == "left" ? Kind::look : Kind::orbit};
-  command.x = number(words[2]);
-  command.y = number(words[3]);
-  return command;
+  const bool looks = words[1] == "left";
+  return {[looks, x = number(words[2]), y = number(words[3])](int, Input& input, ScriptStep&) {
+    (looks ? input.lookX : input.orbitX) += x;
+    (looks ? input.lookY : input.orbitY) += y;
+  }};
+}
+
+ScriptCommand wheelCommand(const Words& words) {
+  if (words.size() != 2) expected("wheel NOTCHES");
+  return {[notches = number(words[1])](int, Input& input, ScriptStep&) { input.wheel += notches; }};
 }
 
 ScriptCommand waitCommand(const Words& words) {
-  if (words.size() == 2 && words[1] == "sharp") return {Kind::waitSharp};
+  if (words.size() == 2 && words[1] == "sharp") return {nullptr, 1, true};
   if (words.size() != 3 || (words[2] != "frames" && words[2] != "seconds")) {
     expected("wait N frames, wait N seconds or wait sharp");
   }
-  ScriptCommand command{Kind::wait};
   const double amount = number(words[1]);
-  command.frames = words[2] == "seconds" ? framesOf(amount) : std::max(1, static_cast<int>(amount));
-  return command;
+  return {nullptr,
+          words[2] == "seconds" ? framesOf(amount) : std::max(1, static_cast<int>(amount))};
 }
 
-constexpr int kClickFrames = 4;  // to the place, down, along, up
+ScriptCommand screenshotCommand(const Words& words) {
+  if (words.size() != 2 || !words[1].ends_with(".png")) expected("screenshot FILE.png");
+  return {[file = words[1]](int, Input&, ScriptStep& step) { step.screenshot = file; }};
+}
 
 ScriptCommand clickCommand(const Words& words) {
+  constexpr int kFrames = 4;  // to the place, down, along, up
   if (words.size() != 3 && words.size() != 5) expected("click X Y [X2 Y2]");
-  ScriptCommand command{Kind::click};
-  command.frames = kClickFrames;
-  command.x = command.toX = number(words[1]);
-  command.y = command.toY = number(words[2]);
-  if (words.size() == 5) command.toX = number(words[3]), command.toY = number(words[4]);
-  return command;
-}
-
-ScriptCommand resizeCommand(const Words& words) {
-  constexpr double kLargestSide = 16384;
-  ScriptCommand command{Kind::resize};
-  const bool three = words.size() == 3;
-  if (three) command.x = number(words[1]), command.y = number(words[2]);
-  const auto fits = [](double side) { return side >= 1 && side <= kLargestSide; };
-  if (!three || !fits(command.x) || !fits(command.y)) expected("resize W H, from 1 to 16384");
-  return command;
-}
-
-ScriptCommand errorsCommand(const Words& words) {
-  if (words.size() != 2 || (words[1] != "show" && words[1] != "end")) {
-    expected("errors show or errors end");
-  }
-  return {words[1] == "show" ? Kind::showErrors : Kind::endErrors};
+  const double x = number(words[1]), y = number(words[2]);
+  const bool drags = words.size() == 5;
+  const double toX = drags ? number(words[3]) : x, toY = drags ? number(words[4]) : y;
+  const auto point = [=](int frame, Input& input, ScriptStep&) {
+    const bool begins = frame < 2;
+    input.pointer = {begins ? x : toX, begins ? y : toY, frame == 1 || frame == 2};
+  };
+  return {point, kFrames};
 }
 
 ScriptCommand panelCommand(const Words& words) {
@@ -100,52 +94,54 @@ ScriptCommand panelCommand(const Words& words) {
     throwUsage("the panel has no tab '" + words[1] + "'; nearest: '" + nearestName(words[1], tabs) +
                "'");
   }
-  ScriptCommand command{Kind::panel};
-  command.file = words[1];
-  return command;
+  return {[tab = words[1]](int, Input&, ScriptStep& step) { step.tab = tab; }};
 }
 
-constexpr std::pair<const char*, Kind> kPlainCommands[] = {
-    {"minimize", Kind::minimize}, {"restore", Kind::restore}, {"quit", Kind::quit}};
+ScriptCommand dropCommand(const Words& words) {
+  if (words.size() != 2) expected("drop FILE");
+  return {[file = words[1]](int, Input& input, ScriptStep&) { input.dropped.push_back(file); }};
+}
+
+ScriptCommand resizeCommand(const Words& words) {
+  constexpr double kLargestSide = 16384;
+  const auto side = [&](std::size_t i) { return words.size() == 3 ? number(words[i]) : 0; };
+  const double width = side(1), height = side(2);
+  const auto fits = [](double side) { return side >= 1 && side <= kLargestSide; };
+  if (!fits(width) || !fits(height)) expected("resize W H, from 1 to 16384");
+  const ImageSize size{static_cast<int>(width), static_cast<int>(height)};
+  return {[size](int, Input&, ScriptStep& step) { step.resize = size; }};
+}
+
+ScriptCommand errorsCommand(const Words& words) {
+  if (words.size() != 2 || (words[1] != "show" && words[1] != "end")) {
+    expected("errors show or errors end");
+  }
+  return {[show = words[1] == "show"](int, Input&, ScriptStep& step) { step.showErrors = show; }};
+}
+
+constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = {
+    {"key", keyCommand},       {"mouse", mouseCommand}, {"wheel", wheelCommand},
+    {"wait", waitCommand},     {"click", clickCommand}, {"screenshot", screenshotCommand},
+    {"panel", panelCommand},   {"drop", dropCommand},   {"resize", resizeCommand},
+    {"errors", errorsCommand},
+};
+constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
+    {"minimize", &ScriptStep::minimize},
+    {"restore", &ScriptStep::restore},
+    {"quit", &ScriptStep::quit}};
 
 ScriptCommand commandOf(const Words& words) {
-  if (words[0] == "key") return keyCommand(words);
-  if (words[0] == "mouse") return mouseCommand(words);
-  if (words[0] == "wait") return waitCommand(words);
-  if (words[0] == "wheel") {
-    if (words.size() != 2) expected("wheel NOTCHES");
-    ScriptCommand command{Kind::wheel};
-    command.x = number(words[1]);
-    return command;
+  for (const auto& [name, read] : kCommands) {
+    if (words[0] == name) return read(words);
   }
-  if (words[0] == "screenshot") {
-    if (words.size() != 2 || !words[1].ends_with(".png")) expected("screenshot FILE.png");
-    ScriptCommand command{Kind::screenshot};
-    command.file = words[1];
-    return command;
-  }
-  if (words[0] == "click") return clickCommand(words);
-  if (words[0] == "panel") return panelCommand(words);
-  if (words[0] == "drop") {
-    if (words.size() != 2) expected("drop FILE");
-    ScriptCommand command{Kind::drop};
-    command.file = words[1];
-    return command;
-  }
-  if (words[0] == "resize") return resizeCommand(words);
-  if (words[0] == "errors") return errorsCommand(words);
-  for (const auto& [name, kind] : kPlainCommands) {
-    if (words[0] == name && words.size() == 1) return {kind};
+  for (const auto& [name, flag] : kPlainCommands) {
+    if (words[0] != name || words.size() != 1) continue;
+    return {[flag = flag](int, Input&, ScriptStep& step) { step.*flag = true; }};
   }
   expected(
       "key, mouse, wheel, wait, screenshot, click, panel, drop, resize, minimize, restore, errors "
       "or quit, got '" +
       words[0] + "'");
-}
-
-Input::Pointer pointerOf(const ScriptCommand& click, int frame) {
-  const bool begins = frame < 2;
-  return {begins ? click.x : click.toX, begins ? click.y : click.toY, frame == 1 || frame == 2};
 }
 
 }  // namespace
@@ -168,53 +164,14 @@ std::vector<ScriptCommand> parseScript(const std::string& text, const std::strin
   return commands;
 }
 
-ScriptPlayer::Step ScriptPlayer::next(bool sharp, Input& input) {
-  Step step;
-  if (at_ >= commands_.size()) {
-    step.quit = true;
-    return step;
-  }
-  const ScriptCommand& c = commands_[at_];
-  if (c.kind == Kind::waitSharp && !sharp) return step;
-  switch (c.kind) {
-    case Kind::key:
-      if (frame_ == 0) input.pressed.push_back(c.key);
-      input.held.insert(c.key);
-      break;
-    case Kind::look:
-      input.lookX += c.x, input.lookY += c.y;
-      break;
-    case Kind::orbit:
-      input.orbitX += c.x, input.orbitY += c.y;
-      break;
-    case Kind::wheel:
-      input.wheel += c.x;
-      break;
-    case Kind::screenshot:
-      step.screenshot = c.file;
-      break;
-    case Kind::click:
-      input.pointer = pointerOf(c, frame_);
-      break;
-    case Kind::drop:
-      input.dropped.push_back(c.file);
-      break;
-    case Kind::panel:
-    case Kind::resize:
-    case Kind::minimize:
-    case Kind::restore:
-    case Kind::showErrors:
-    case Kind::endErrors:
-      step.command = &c;
-      break;
-    case Kind::quit:
-      step.quit = true;
-      break;
-    case Kind::wait:
-    case Kind::waitSharp:
-      break;
-  }
-  if (++frame_ >= c.frames) {
+ScriptStep ScriptPlayer::next(bool sharp, Input& input) {
+  ScriptStep step;
+  step.quit = at_ >= commands_.size();
+  if (step.quit) return step;
+  const ScriptCommand& command = commands_[at_];
+  if (command.waitsUntilSharp && !sharp) return step;
+  if (command.act) command.act(frame_, input, step);
+  if (++frame_ >= command.frames) {
     frame_ = 0;
     ++at_;
   }

@@ -15,40 +15,33 @@
 // Time is that of the frames: 1/60 s each, however long they take.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/options.h"
 #include "viewer/input.h"
 
 namespace whit::view {
 
 inline constexpr double kScriptSecondsPerFrame = 1.0 / 60;
 
+// What a script asks for in one frame, apart from its input.
+struct ScriptStep {
+  std::string screenshot;  // of this frame, after drawing; empty: none
+  bool quit = false;       // the end of the script quits too
+  std::optional<ImageSize> resize;
+  bool minimize = false, restore = false;
+  std::string tab;                 // of the panel; empty: it stays
+  std::optional<bool> showErrors;  // false: they end the script
+};
+
 struct ScriptCommand {
-  enum class Kind {
-    key,
-    look,
-    orbit,
-    wheel,
-    wait,
-    waitSharp,
-    screenshot,
-    click,
-    panel,
-    drop,
-    resize,
-    minimize,
-    restore,
-    showErrors,
-    endErrors,
-    quit
-  };
-  Kind kind = Kind::quit;
-  int key = 0;     // GLFW code
-  int frames = 1;  // that it takes: key, wait
-  // look, orbit, click: pixels; wheel: notches in x; resize: pixels a side; to: where a click ends
-  double x = 0, y = 0, toX = 0, toY = 0;
-  std::string file{};  // or a tab of the panel
+  // Called in each of its frames, numbered from 0; null: nothing happens in them.
+  std::function<void(int frame, Input& input, ScriptStep& step)> act;
+  int frames = 1;
+  bool waitsUntilSharp = false;
 };
 
 // Throws Error(badScene) with "file:line" and what was expected.
@@ -58,13 +51,8 @@ class ScriptPlayer {
  public:
   explicit ScriptPlayer(std::vector<ScriptCommand> commands) : commands_(std::move(commands)) {}
 
-  struct Step {
-    std::string screenshot;                  // of this frame, after drawing; empty: none
-    bool quit = false;                       // the end of the script quits too
-    const ScriptCommand* command = nullptr;  // to the window or the viewer, in its first frame
-  };
   // The next frame's input. `sharp`: nothing moves and the picture gets no finer.
-  Step next(bool sharp, Input& input);
+  ScriptStep next(bool sharp, Input& input);
 
  private:
   std::vector<ScriptCommand> commands_;

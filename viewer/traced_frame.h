@@ -55,6 +55,10 @@ struct ShadingEdit {
   std::vector<std::string> settings;  // that amount to the same when the scene is read
 };
 
+// What differs between a scene as it was read and as it was edited, as values of --set: read again
+// with these as well, it has the same materials and lights, bit for bit.
+std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
+
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;

@@ -1,12 +1,12 @@
 #include "viewer/view_files.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "app/image_output.h"
 #include "app/interrupt.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"
 #include "io/json_text.h"
@@ -29,9 +29,7 @@ std::string quoted(const std::string& word) {
 
 std::string freeName(const std::string& scene) {
   for (int i = 1; i <= kPictureLimit; ++i) {
-    char number[16];
-    std::snprintf(number, sizeof number, "%04d", i);
-    std::string name = scene + "-" + number;
+    std::string name = scene + formatted("-%04d", i);
     const auto taken = [&](const char* extension) {
       return std::filesystem::exists(name + extension);
     };

@@ -1,6 +1,4 @@
 // Edits as settings: a scene that is read with them is the edited one, bit for bit.
-#include "viewer/edit_settings.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,6 +6,7 @@
 #include "cli/run_program.h"
 #include "io/image_file.h"
 #include "io/load_scene.h"
+#include "viewer/traced_frame.h"
 
 namespace whit::view {
 namespace {

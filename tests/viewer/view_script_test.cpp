@@ -73,14 +73,17 @@ TEST(Script, CommandsToTheWindowComeOnce) {
   ScriptPlayer player(
       parseScript("resize 320 200\nminimize\nerrors show\ndrop a.json\n", "walk.txt"));
   Input input;
-  const ScriptCommand* command = player.next(true, input).command;
-  ASSERT_TRUE(command);
-  EXPECT_EQ(command->kind, ScriptCommand::Kind::resize);
-  EXPECT_EQ(command->x, 320);
-  EXPECT_EQ(command->y, 200);
-  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::minimize);
-  EXPECT_EQ(player.next(true, input).command->kind, ScriptCommand::Kind::showErrors);
-  EXPECT_FALSE(player.next(true, input).command);
+  ScriptStep step = player.next(true, input);
+  EXPECT_EQ(step.resize, (ImageSize{320, 200}));
+  EXPECT_FALSE(step.minimize || step.showErrors);
+  step = player.next(true, input);
+  EXPECT_FALSE(step.resize || step.showErrors);
+  EXPECT_TRUE(step.minimize);
+  step = player.next(true, input);
+  EXPECT_FALSE(step.resize || step.minimize);
+  EXPECT_EQ(step.showErrors, true);
+  step = player.next(true, input);
+  EXPECT_FALSE(step.resize || step.minimize || step.showErrors);
   EXPECT_EQ(input.dropped, std::vector<std::string>{"a.json"});
 }
 
