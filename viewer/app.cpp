@@ -32,8 +32,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
       resolution_(options.rate, options.common.render.spp),
       read_{scene, scene->scene.materials, scene->scene.lights, {}},
       edit_(read_),
-      traced_(read_),
-      lastTick_(std::chrono::steady_clock::now()) {
+      traced_(read_) {
   watch(options.scene);
   settings_.rate = resolution_.rate();
   settings_.options = options.common.render;
@@ -87,9 +86,7 @@ bool App::worthDrawing(const ScriptStep& step, bool fresh, double seconds) {
 
 double App::tick() {
   if (script_) return kScriptSecondsPerFrame;
-  const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - lastTick_).count();
-  lastTick_ = now;
+  const double seconds = std::exchange(sinceTick_, Stopwatch()).ms() / 1000;
   return std::min(seconds, kLongestSeconds);
 }
 

@@ -1,7 +1,6 @@
 // The interactive viewer: what happens from one displayed frame to the next.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -107,7 +106,7 @@ class App {
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
   double watchSeconds_ = 0;
-  std::chrono::steady_clock::time_point lastTick_;
+  Stopwatch sinceTick_;
 };
 
 }  // namespace whit::view

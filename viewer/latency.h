@@ -1,8 +1,9 @@
 // The latency of the viewer: how long after a key or a drag the picture has changed.
 #pragma once
 
-#include <chrono>
 #include <vector>
+
+#include "core/stopwatch.h"
 
 namespace whit::view {
 
@@ -19,7 +20,7 @@ class LatencyMeter {
     if (waitsFor_ > 0) return;
     waitsFor_ = serial;
     now_ = Sample();
-    start_ = std::chrono::steady_clock::now();
+    since_ = Stopwatch();
   }
   // The picture of that request, or of a later one, is what will be presented next.
   void fetched(int serial) {
@@ -28,8 +29,7 @@ class LatencyMeter {
   }
   void presented() {
     if (!arrived_) return;
-    const auto passed = std::chrono::steady_clock::now() - start_;
-    now_.ms = std::chrono::duration<double, std::milli>(passed).count();
+    now_.ms = since_.ms();
     samples_.push_back(now_);
     waitsFor_ = 0;
     arrived_ = false;
@@ -41,7 +41,7 @@ class LatencyMeter {
   int waitsFor_ = 0;  // 0: for nothing
   bool arrived_ = false;
   Sample now_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch since_;  // the change
   std::vector<Sample> samples_;
 };
 

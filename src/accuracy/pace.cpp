@@ -35,8 +35,4 @@ void Pace::report(const std::string&, double fraction) {
   reportProgress(out_, paceText(subject_, step_, seconds(), all), all);
 }
 
-double Pace::seconds() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
-}
-
 }  // namespace whit::accuracy

@@ -1,10 +1,10 @@
 // The progress of a sweep: how far it has come, and how long it will still take.
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "core/progress.h"
+#include "core/stopwatch.h"
 
 namespace whit::accuracy {
 
@@ -19,14 +19,13 @@ class Pace : public Progress {
   void end();   // of the step that was begun
   void skip();  // instead of end(): the step turned out not to be needed
   void report(const std::string& phase, double fraction) override;
-  double seconds() const;  // since the start
+  double seconds() const { return stopwatch_.ms() / 1000; }  // since the start
 
  private:
-  using Clock = std::chrono::steady_clock;
   Progress* out_;
   std::string subject_, step_;
   double total_ = 0, done_ = 0, current_ = 0;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch stopwatch_;
 };
 
 // "sponza: depth=4, 35 s left"; no time while nothing is known.

@@ -3,18 +3,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <mutex>
 
 #include "core/formatted.h"
+#include "core/stopwatch.h"
 
 namespace whit::cli {
 
 namespace {
 
 constexpr std::size_t kBarWidth = 20, kPhaseWidth = 30;
-constexpr std::chrono::milliseconds kBetweenDrawings{50};
+constexpr double kBetweenDrawingsMs = 50;
 
 class ProgressBar : public Progress {
  public:
@@ -24,9 +24,8 @@ class ProgressBar : public Progress {
 
   void report(const std::string& phase, double fraction) override {
     const std::lock_guard lock(mutex_);
-    const auto now = std::chrono::steady_clock::now();
-    if (drawn_ && now - last_ < kBetweenDrawings) return;
-    last_ = now;
+    if (drawn_ && sinceDrawn_.ms() < kBetweenDrawingsMs) return;
+    sinceDrawn_ = Stopwatch();
     drawn_ = true;
     std::fprintf(stderr, "\r%s\x1b[K", progressText(phase, fraction).c_str());
     std::fflush(stderr);
@@ -34,7 +33,7 @@ class ProgressBar : public Progress {
 
  private:
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point last_;
+  Stopwatch sinceDrawn_;
   bool drawn_ = false;
 };
 
