@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/image_output.h"
+#include "farm/blocks.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
 
@@ -18,16 +19,6 @@ ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.he
 void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
   if (filmSizeOf(film) == size && film.image.window == window) return;
   film.image = Image(size.width, size.height, window);
-}
-
-// Copies a band of whole rows to its place.
-void copyBand(const Film& band, Film& film) {
-  const auto row = static_cast<std::ptrdiff_t>(band.image.window.y0);
-  const std::ptrdiff_t width = film.image.width;
-  std::copy(band.image.pixels.begin(), band.image.pixels.end(),
-            film.image.pixels.begin() + row * width);
-  std::copy(band.display.rgba.begin(), band.display.rgba.end(),
-            film.display.rgba.begin() + row * width * 4);
 }
 
 }  // namespace
@@ -131,7 +122,7 @@ bool FrameTracer::traceInBands(const Camera& camera, TracedFrame& frame, double 
     sizeFilm(band_, size, Crop{0, y, size.width, end});
     const FrameStats stats = renderer_->render(camera, band_);
     if (msPerSample_ == 0) rows = rowsIn(std::max(stats.frameMs / (end - y), 1e-3));
-    copyBand(band_, frame.film);
+    place(band_, frame.film);
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;
     frame.stats.workers = stats.workers;
@@ -151,7 +142,7 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     const int end = std::min(y + rows, size.height);
     sizeFilm(band_, size, Crop{0, y, size.width, end});
     const double ms = renderer_->renderReference(request.camera, band_).frameMs;
-    copyBand(band_, comparison.reference);
+    place(band_, comparison.reference);
     comparison.referenceMs += ms;
     comparison.rows = end;
     msPerRow = std::max(ms / (end - y), 1e-3);

@@ -1,5 +1,4 @@
-#include "viewer/knobs.h"
-
+// The options of a render as sliders, boxes and lists, with what each has cost.
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 
 #include "core/option_table.h"
 #include "core/option_values.h"
+#include "viewer/panel.h"
 
 namespace whit::view {
 

@@ -12,7 +12,6 @@
 #include "scene/light.h"
 #include "scene/material.h"
 #include "viewer/keys.h"
-#include "viewer/knobs.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -108,6 +107,12 @@ bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
   return changed;
 }
 
+template <typename... Values>
+void drawCell(const char* format, Values... values) {
+  ImGui::TableNextColumn();
+  ImGui::Text(format, values...);
+}
+
 void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
   for (std::size_t i = 0; i < kStageCount; ++i) {
@@ -130,14 +135,10 @@ void drawRays(const FrameStats& stats) {
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     const RayTally& tally = stats.meter.tally[i];
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(kRayKindNames[i].data());
-    ImGui::TableNextColumn();
-    ImGui::Text("%.1f", static_cast<double>(tally.rays) / 1e3);
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
-    ImGui::TableNextColumn();
-    ImGui::Text("%.1f", 100 * cli::lanesFilled(tally));
+    drawCell("%s", kRayKindNames[i].data());
+    drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
+    drawCell("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
+    drawCell("%.1f", 100 * cli::lanesFilled(tally));
   }
   ImGui::EndTable();
 }
@@ -204,8 +205,7 @@ void drawKeys() {
   ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch);
   for (const KeyHelp& help : keyHelp()) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(help.keys);
+    drawCell("%s", help.keys);
     ImGui::TableNextColumn();
     ImGui::TextWrapped("%s", help.text);
   }

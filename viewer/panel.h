@@ -62,6 +62,21 @@ class Panel {
   FrameGraph graph_;
 };
 
+// knobs.cpp, the options of a render as sliders, boxes and lists, with what each has cost:
+// Presets, then every option that the table of options has in this tab. Between ImGui's Begin and
+// End.
+void drawKnobs(RenderOptions& options, const KnobCosts& costs);
+
+// Beside the control of that knob or effect: what it costs, as measured, or else what its last
+// change has done; nothing where neither is known.
+void drawCost(const KnobCosts& costs, const std::string& name);
+
+// Those that it has in the picture's tab: exposure and tone curve.
+void drawDisplay(RenderOptions& options);
+
+// The last change, before and after: frame time and rays by kind. Nothing before the first.
+void drawLastChange(const KnobCosts& costs);
+
 // Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
 // window's width; with `words` also what is what, and what is known about their difference.
 void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
