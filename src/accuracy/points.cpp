@@ -1,10 +1,10 @@
-#include "accuracy/points.h"
-
+// Which options a sweep measures.
 #include <algorithm>
 #include <random>
 #include <set>
 
 #include "accuracy/digest.h"
+#include "accuracy/sweep.h"
 #include "core/option_table.h"
 
 namespace whit::accuracy {

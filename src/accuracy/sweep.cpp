@@ -10,7 +10,6 @@
 #include "accuracy/errors.h"
 #include "accuracy/pace.h"
 #include "accuracy/pareto.h"
-#include "accuracy/points.h"
 #include "accuracy/scope.h"
 
 namespace whit::accuracy {

@@ -33,9 +33,7 @@ class OptionList {
                 [spec, &field](const std::string& text) { parseValue(spec, text, field); });
   }
   Entry& flag(std::string_view name, const std::string& help, bool& field) {
-    const OptionSpec spec{.name = name};
-    return push(spec, help,
-                [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+    return value({.name = name}, help, field);
   }
   // May be given more than once; all values are kept.
   Entry& many(const OptionSpec& spec, const std::string& help, std::vector<std::string>& field) {

@@ -20,7 +20,7 @@
 #include "io/image_file.h"
 #include "io/load_scene.h"
 #include "io/paths.h"
-#include "render/renderer.h"
+#include "stress/probe.h"
 
 namespace whit::cli {
 
@@ -35,10 +35,7 @@ Image pictureOf(const std::string& scene) {
   options.size = ImageSize{kWidth, kHeight};
   options.depth = 16;
   options.spp = 1;
-  Renderer renderer(loaded, options);
-  Film film = makeFilm(loaded, options);
-  renderer.render(loaded.cameras.front(), film);
-  return film.image;
+  return stress::pictureOf(loaded, loaded.cameras.front(), options);
 }
 
 // Renders each scene of scenes/hard at 320x240 and puts them side by side, four a row, in order of

@@ -14,6 +14,13 @@ const Vec3f kUp{0, 1, 0};
 struct Tilted {
   std::vector<ProbeRay> rays;
   std::vector<Vec3f> normals;
+
+  // One of them, as Finding takes it.
+  auto described(std::size_t i) const {
+    return [d = rays[i].direction, ns = normals[i]] {
+      return "direction " + hexText(d) + ", shading normal " + hexText(ns);
+    };
+  }
 };
 
 Tilted tilted(std::uint64_t seed, double tilt, double flattest) {
@@ -28,10 +35,6 @@ Tilted tilted(std::uint64_t seed, double tilt, double flattest) {
                                       std::sin(angle) * std::sin(about)});
   }
   return result;
-}
-
-auto describe(const Vec3f& direction, const Vec3f& ns) {
-  return [=] { return "direction " + hexText(direction) + ", shading normal " + hexText(ns); };
 }
 
 Scene oneMaterial(const Material& material) { return sceneOf(floorAt(0, 1, 0), material); }
@@ -53,13 +56,11 @@ Finding childrenStayOnTheirSide(const Setup& setup) {
     const double least = std::min(0.9 * facing, 0.01);
     // Bringing a lifted direction back to unit length lowers it by up to the square of the lift.
     const double height = static_cast<double>(child.ray.direction.y);
-    finding.note(std::max(0.0, least * 0.7 - height) / 0x1p-24,
-                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
+    finding.note(std::max(0.0, least * 0.7 - height) / 0x1p-24, surfels.described(child.parent));
   }
   for (const ProbeChild& child : probe.refractions()) {
     const double height = static_cast<double>(child.ray.direction.y);
-    finding.note(std::max(0.0, height) / 0x1p-24,
-                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
+    finding.note(std::max(0.0, height) / 0x1p-24, surfels.described(child.parent));
   }
   return finding;
 }
@@ -74,7 +75,7 @@ Finding agreeingNormals(const Setup& setup) {
   for (const ProbeChild& child : probe.reflections()) {
     const Vec3d in(surfels.rays[child.parent].direction), out(child.ray.direction);
     finding.note(maxComponent(abs(out - Vec3d{in.x, -in.y, in.z})),
-                 describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
+                 surfels.described(child.parent));
   }
   return finding;
 }
@@ -97,8 +98,7 @@ Finding viewBehindTheNormal(const Setup& setup) {
     for (const ProbeChild& child : children) {
       const double l = length(Vec3d(child.ray.direction));
       const bool fine = child.weight.x >= 0 && child.weight.x <= 1.5f && std::fabs(l - 1) < 1e-6;
-      finding.count(!fine,
-                    describe(surfels.rays[child.parent].direction, surfels.normals[child.parent]));
+      finding.count(!fine, surfels.described(child.parent));
     }
   };
   check(probe.reflections());
@@ -106,8 +106,7 @@ Finding viewBehindTheNormal(const Setup& setup) {
   probe.light(lightAt({0.5f, 2, -0.3f}, 1));
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const Rgb light = probe.visible(i) ? probe.unshadowed(i) : Rgb(0.0f);
-    finding.count(!isFinite(light) || light.x < 0,
-                  describe(surfels.rays[i].direction, surfels.normals[i]));
+    finding.count(!isFinite(light) || light.x < 0, surfels.described(i));
   }
   return finding;
 }
@@ -177,10 +176,8 @@ Finding lightBetweenTheNormals(const Setup& setup) {
       const double g = static_cast<double>(l.y), s = dot(Vec3d(l), Vec3d(surfels.normals[i]));
       lit += g >= 0 && s >= -1e-6;
       if (g > 0 && s > 0) continue;
-      finding.count(probe.visible(i) && s < -1e-6,
-                    describe(surfels.rays[i].direction, surfels.normals[i]));
-      finding.count(probe.visible(i) && g < 0,
-                    describe(surfels.rays[i].direction, surfels.normals[i]));
+      finding.count(probe.visible(i) && s < -1e-6, surfels.described(i));
+      finding.count(probe.visible(i) && g < 0, surfels.described(i));
     }
     // The floor would hide such a light all the same, but no ray should have to find that out.
     finding.count(shadowRays > lit, [&] { return "light at " + hexText(l); });

@@ -1,4 +1,4 @@
-#include "accuracy/points.h"
+#include "accuracy/sweep.h"
 
 #include <gtest/gtest.h>
 
