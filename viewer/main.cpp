@@ -7,6 +7,7 @@
 #include "app/progress_bar.h"
 #include "core/error.h"
 #include "io/paths.h"
+#include "io/read_file.h"
 #include "viewer/app.h"
 #include "viewer/keys.h"
 #include "viewer/path_run.h"

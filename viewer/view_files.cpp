@@ -11,6 +11,7 @@
 #include "io/atomic_file.h"
 #include "io/json_text.h"
 #include "io/paths.h"
+#include "io/read_file.h"
 
 namespace whit::view {
 

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/gltf_schema.h"
 #include "io/json_text.h"
+#include "io/read_file.h"
 
 namespace whit {
 

@@ -12,6 +12,7 @@
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
 #include "io/paths.h"
+#include "io/read_file.h"
 #include "io/scene_context.h"
 #include "io/scene_items.h"
 #include "io/scene_materials.h"

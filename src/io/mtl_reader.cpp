@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/mtl_text.h"
+#include "io/read_file.h"
 
 namespace whit {
 namespace {

@@ -13,6 +13,7 @@
 #include "io/mtl_text.h"
 #include "io/obj_geometry.h"
 #include "io/obj_text.h"
+#include "io/read_file.h"
 
 namespace whit {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -108,24 +107,6 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
                              "permits that)");
   }
   return result;
-}
-
-std::string readTextFile(const fs::path& path, std::uint64_t maxBytes) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (!fs::exists(status)) throwIo("cannot open " + path.string() + ": no such file");
-  if (!fs::is_regular_file(status)) throwIo("cannot read " + path.string() + ": not a file");
-  std::ifstream in(path, std::ios::binary);
-  const std::uint64_t size = fs::file_size(path, error);
-  if (!in || error) throwIo("cannot open " + path.string());
-  if (size > maxBytes) {
-    throwLimit(path.string() + " has " + std::to_string(size) + " bytes, more than the limit of " +
-               std::to_string(maxBytes));
-  }
-  std::string text(size, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uint64_t>(in.gcount()) != size) throwIo("cannot read " + path.string());
-  return text;
 }
 
 SceneName parseSceneName(const std::string& name) {

@@ -1,7 +1,6 @@
 // Paths that scenes name: which of them may be read, and where shipped scenes are found.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -30,9 +29,6 @@ class PathRules {
   std::filesystem::path sceneFolder_, dataFolder_;
   bool allowOutside_;
 };
-
-// The whole file. Throws Error(io) if it cannot be read, Error(limit) beyond maxBytes.
-std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxBytes);
 
 // "landscape?triangles=2000&seed=3" taken apart.
 struct SceneName {

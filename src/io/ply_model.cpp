@@ -21,6 +21,7 @@
 #include "core/srgb.h"
 #include "io/model.h"
 #include "io/polygon.h"
+#include "io/read_file.h"
 
 namespace whit {
 
