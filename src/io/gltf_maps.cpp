@@ -24,10 +24,8 @@ class GltfImage {
     if (auto raw = decoded_.lock()) return raw;
     try {
       auto raw = std::make_shared<const RawImage>(
-          source_.path.empty()
-              ? decodeRawImage(source_.where, {source_.bytes.begin(), source_.bytes.end()}, limits,
-                               warnings_)
-              : readRawImage(source_.path, limits, warnings_));
+          source_.path.empty() ? decodeRawImage(source_.where, source_.bytes, limits, warnings_)
+                               : readRawImage(source_.path, limits, warnings_));
       decoded_ = raw;
       return raw;
     } catch (const Error& error) {

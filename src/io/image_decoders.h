@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,24 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 [[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
                                    std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
-// Throws as readRawImage does. Refuses CMYK.
-bool isJpeg(const std::vector<std::uint8_t>& file);
-RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& file,
+// Each format but TGA is told by how its files begin. The decoders throw as readRawImage does; a
+// file that is cut short or whose checksums are wrong is badScene.
+bool isPng(std::span<const std::uint8_t> file);
+bool isJpeg(std::span<const std::uint8_t> file);
+bool isBmp(std::span<const std::uint8_t> file);
+bool isHdr(std::span<const std::uint8_t> file);
+bool isTgaName(const std::string& path);
+RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits);
+// Refuses CMYK.
+RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits);
-
-// PNG, BMP, Radiance HDR by their signatures, else TGA (which has none) if the name says so.
-// `values` of HDR files are as stored. Throws as readRawImage does; a file that is cut short is
-// badScene, even where a decoder would make up the missing rows.
-RawImage decodeWithStb(const std::string& path, const std::vector<std::uint8_t>& file,
-                       const ImageLimits& limits);
+RawImage decodeBmp(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits);
+RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits);
+RawImage decodeTga(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits);
 
 // The first part of an OpenEXR file. `window`, in pixels from the display window's corner, is the
 // part of the data window inside it; `values` holds that, interleaved, bits untouched.
@@ -39,7 +48,7 @@ struct ExrPixels {
   std::vector<float> values;
   MemoryHold held;  // of these
 };
-bool isExr(const std::vector<std::uint8_t>& beginning);
+bool isExr(std::span<const std::uint8_t> beginning);
 // Scanlines or tiles (level 0), any compression, any channel type. A missing one of R, G and B is
 // 0; luminance/chroma images are converted. Throws Error(badScene) for deep images, images without
 // any of R, G, B, Y, and whatever OpenEXR rejects.

@@ -149,7 +149,7 @@ std::vector<float> cropped(const std::vector<float>& values, const Box2i& data, 
 
 }  // namespace
 
-bool isExr(const std::vector<std::uint8_t>& beginning) {
+bool isExr(std::span<const std::uint8_t> beginning) {
   constexpr std::uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
   return beginning.size() >= 4 && std::equal(kMagic, kMagic + 4, beginning.begin());
 }

@@ -1,15 +1,15 @@
 #include "io/image_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/srgb.h"
 #include "io/image_decoders.h"
+#include "io/read_file.h"
 
 namespace whit {
 
@@ -21,42 +21,38 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// At most `limit` bytes from the beginning; all when the file is no longer than that.
-std::vector<std::uint8_t> readBytes(const std::string& path, std::uint64_t limit) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throwIo("cannot read '" + path + "': no such file");
-  if (!std::filesystem::is_regular_file(path, error))
-    throwIo("cannot read '" + path + "': not a file");
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in) throwIo("cannot read '" + path + "': " + std::strerror(errno));
-  std::vector<std::uint8_t> bytes(std::min(size, limit));
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throwIo("cannot read '" + path + "': reading stopped early");
-  return bytes;
+bool isExrFile(const std::string& path) { return isExr(asBytes(readBeginning(path, 4))); }
+
+// Of what is not read, but often taken for a texture or found in the place of one.
+std::string kindOf(std::span<const std::uint8_t> file) {
+  constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
+      {"GIF8", "a GIF image"},       {"RIFF", "a WebP image"},   {"DDS ", "a DDS texture"},
+      {"\xabKTX", "a KTX texture"},  {"II*", "a TIFF image"},    {"MM", "a TIFF image"},
+      {"8BPS", "a Photoshop image"}, {"<", "a page of the web"}, {"", "something else"}};
+  if (file.empty()) return "an empty file";
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  return std::find_if(std::begin(kBeginnings), std::end(kBeginnings),
+                      [&](const auto& known) { return text.starts_with(known.first); })
+      ->second;
 }
 
-bool isExrFile(const std::string& path) { return isExr(readBytes(path, 4)); }
-
-// stb_image counts in int.
-void checkFileSize(const std::string& name, std::uint64_t size, const ImageLimits& limits) {
-  const std::uint64_t longest = std::min<std::uint64_t>(limits.bytes, 0x7fffffff);
-  if (size > longest)
-    throwLimit(name + ": the file is longer than the " + std::to_string(longest) +
-               " bytes allowed");
-}
-
-RawImage decodeBytes(const std::string& name, const std::vector<std::uint8_t>& file,
+RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file,
                      const ImageLimits& limits) {
-  return isJpeg(file) ? decodeJpeg(name, file, limits) : decodeWithStb(name, file, limits);
+  if (isPng(file)) return decodePng(name, file, limits);
+  if (isJpeg(file)) return decodeJpeg(name, file, limits);
+  if (isBmp(file)) return decodeBmp(name, file, limits);
+  if (isHdr(file)) return decodeHdr(name, file, limits);
+  if (isTgaName(name)) return decodeTga(name, file, limits);
+  throwBadScene(
+      name, "expected a PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
 }
 
 RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
-  checkFileSize(path, size, limits);
-  const MemoryHold file(limits.budget, error ? 0 : size, 1, path);
-  return decodeBytes(path, readBytes(path, limits.bytes), limits);
+  const MemoryHold held(limits.budget, error ? 0 : size, 1, path);
+  const std::string file = readFile(path, limits.bytes);
+  return decodeBytes(path, asBytes(file), limits);
 }
 
 // The display window's values; what lies outside the data window is 0.
@@ -135,10 +131,8 @@ RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnin
   return raw;
 }
 
-RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
+RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
                         const ImageLimits& limits, Warnings& warnings) {
-  checkFileSize(name, file.size(), limits);
-  const MemoryHold copy(limits.budget, file.size(), 1, name);
   RawImage raw = decodeBytes(name, file, limits);
   sanitise(name, raw.values, warnings);
   return raw;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,7 @@ struct RawImage {
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
 // The same for a file that is in memory; PNG, JPEG, BMP or Radiance HDR. `name` is for errors.
-RawImage decodeRawImage(const std::string& name, const std::vector<std::uint8_t>& file,
+RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
                         const ImageLimits& limits, Warnings& warnings);
 
 // As linear RGB: 8-bit codes decoded from sRGB, gray spread to three channels, alpha dropped. EXR

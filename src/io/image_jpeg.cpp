@@ -1,12 +1,13 @@
-// Reading JPEG, by libjpeg: the packaged stb_image writes beyond its Huffman tables when a damaged
-// file claims more codes than there can be.
+// Reading JPEG, by libjpeg.
 #include <cstddef>
 #include <cstdio>
 // libjpeg's header wants the two above.
 #include <jerror.h>
 #include <jpeglib.h>
 
+#include <algorithm>
 #include <csetjmp>
+#include <iterator>
 
 #include "core/error.h"
 #include "io/image_decoders.h"
@@ -33,10 +34,10 @@ class Decoder {
   Decoder& operator=(const Decoder&) = delete;
 
   // False: message() says why.
-  bool readHeader(const std::vector<std::uint8_t>& file) {
-    file_ = &file;
+  bool readHeader(std::span<const std::uint8_t> file) {
+    file_ = file;
     return created_ && guarded([](Decoder& d) {
-             jpeg_mem_src(&d.decoder_, d.file_->data(), d.file_->size());
+             jpeg_mem_src(&d.decoder_, d.file_.data(), d.file_.size());
              jpeg_read_header(&d.decoder_, TRUE);
            });
   }
@@ -78,6 +79,7 @@ class Decoder {
     }
     return bytes;
   }
+  int components() const { return decoder_.num_components; }
   const char* message() const { return message_; }
 
  private:
@@ -93,29 +95,31 @@ class Decoder {
     common->err->format_message(common, self.message_);
     std::longjmp(self.escape_, 1);
   }
-  // libjpeg goes on with gray where data is missing. Other warnings are of oddities that every
-  // viewer overlooks.
+  // libjpeg goes on with gray where data is missing, and with anything where it is damaged. Other
+  // warnings are of oddities that every viewer overlooks.
   static void onMessage(j_common_ptr common, int level) {
+    constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
+                               JWRN_MUST_RESYNC};
     const int code = common->err->msg_code;
-    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) fail(common);
+    if (level < 0 && std::count(std::begin(kDamage), std::end(kDamage), code) > 0) fail(common);
   }
 
   jpeg_decompress_struct decoder_{};
   jpeg_error_mgr errors_{};
   std::jmp_buf escape_{};
   char message_[JMSG_LENGTH_MAX] = "out of memory";
-  const std::vector<std::uint8_t>* file_ = nullptr;
+  std::span<const std::uint8_t> file_;
   std::uint8_t* codes_ = nullptr;
   bool created_ = false;
 };
 
 }  // namespace
 
-bool isJpeg(const std::vector<std::uint8_t>& file) {
+bool isJpeg(std::span<const std::uint8_t> file) {
   return file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;
 }
 
-RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& file,
+RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits) {
   Decoder decoder;
   const auto refuse = [&] {
@@ -126,7 +130,9 @@ RawImage decodeJpeg(const std::string& path, const std::vector<std::uint8_t>& fi
   image.width = decoder.width();
   image.height = decoder.height();
   image.channels = decoder.channels();
-  if (image.channels == 0) throwBadScene(path, "expected gray or RGB, found four inks");
+  if (image.channels == 0)
+    throwBadScene(path,
+                  "expected gray or RGB, found " + std::to_string(decoder.components()) + " inks");
   image.held = holdImage(path, image.width, image.height,
                          static_cast<std::uint64_t>(image.channels), limits);
   const MemoryHold working(limits.budget, decoder.workingBytes(), 1, path);

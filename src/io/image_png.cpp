@@ -1,183 +1,150 @@
-// PNG: files that are written, and the text of such files.
+// Reading PNG, by libpng.
 #include <png.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/image_file.h"
+#include "io/image_decoders.h"
+#include "io/read_file.h"
 
 namespace whit {
 
 namespace {
 
-constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
+// libpng reports errors by longjmp, so the functions that it may leave that way hold nothing that
+// has a destructor; this object lives outside of them.
+class PngReader {
+ public:
+  PngReader(const std::string& path, std::span<const std::uint8_t> file)
+      : path_(path), file_(file) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
+    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
-// Nothing here has a destructor, because libpng reports errors by longjmp.
-struct Libpng {
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  int passes = 1;  // of what is read
-  char message[160] = "";
+  // These throw badScene with the byte where reading stopped. First the size ...
+  void readHeader() {
+    guarded([this] {
+      png_set_read_fn(png_, this, onRead);
+      png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+      png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+      png_read_info(png_, info_);
+    });
+  }
+  // ... then how pixels are given out, as 8 bits for each of 1 to 4 channels ...
+  void prepare() {
+    guarded([this] {
+      png_set_expand(png_);
+      png_set_strip_16(png_);
+      passes_ = png_set_interlace_handling(png_);
+      png_read_update_info(png_, info_);
+    });
+  }
+  // ... then these, row behind row or, where `keep` is false, all in one; and the file's end.
+  void readPixels(std::uint8_t* codes, bool keep) {
+    guarded([this, codes, keep] {
+      // More or other data than the image has means that the file is damaged.
+      png_set_benign_errors(png_, 0);
+      const std::size_t stride = keep ? rowBytes() : 0;
+      for (int pass = 0; pass < passes_; ++pass) {
+        for (png_uint_32 y = 0; y < height(); ++y) png_read_row(png_, codes + y * stride, nullptr);
+      }
+      png_set_benign_errors(png_, 1);
+      png_read_end(png_, info_);
+    });
+  }
+
+  png_uint_32 width() const { return png_get_image_width(png_, info_); }
+  png_uint_32 height() const { return png_get_image_height(png_, info_); }
+  int channels() const { return png_get_channels(png_, info_); }
+  std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
+  ImageMetadata texts() const {
+    png_textp texts = nullptr;
+    const int count = png_get_text(png_, info_, &texts, nullptr);
+    ImageMetadata metadata;
+    for (int i = 0; i < count; ++i) {
+      metadata.emplace_back(texts[i].key, texts[i].text == nullptr ? "" : texts[i].text);
+    }
+    return metadata;
+  }
+  [[noreturn]] void refuse(const char* why) const {
+    throwBadScene(path_ + ": byte " + std::to_string(at_),
+                  std::string("not a valid PNG image (") + why + ")");
+  }
+
+ private:
+  template <typename Use>
+  void guarded(Use use) {
+    if (info_ == nullptr) throwLimit(path_ + ": no memory is left to read it");
+    if (setjmp(png_jmpbuf(png_)) != 0) refuse(message_);
+    use();
+  }
+
+  static void onRead(png_structp png, png_bytep to, std::size_t size) {
+    auto* self = static_cast<PngReader*>(png_get_io_ptr(png));
+    if (size > self->file_.size() - self->at_) png_error(png, "the file is cut short");
+    std::memcpy(to, self->file_.data() + self->at_, size);
+    self->at_ += size;
+  }
+  [[noreturn]] static void onError(png_structp png, png_const_charp message) {
+    auto* self = static_cast<PngReader*>(png_get_error_ptr(png));
+    std::snprintf(self->message_, sizeof self->message_, "%s", message);
+    png_longjmp(png, 1);
+  }
+  static void onWarning(png_structp, png_const_charp) {}
+
+  const std::string& path_;
+  std::span<const std::uint8_t> file_;
+  std::size_t at_ = 0;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  int passes_ = 1;
+  char message_[160] = "";
 };
 
-void onError(png_structp png, png_const_charp message) {
-  auto* own = static_cast<Libpng*>(png_get_error_ptr(png));
-  std::snprintf(own->message, sizeof own->message, "%s", message);
-  png_longjmp(png, 1);
-}
-void onWarning(png_structp, png_const_charp) {}
-
-bool isAscii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
-}
-
-// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, and the
-// keywords into `keywords`.
-std::vector<png_text> textChunks(const ImageMetadata& metadata,
-                                 std::vector<std::string>& keywords) {
-  std::vector<png_text> chunks;
-  keywords.reserve(metadata.size());
-  for (const auto& [name, text] : metadata) {
-    keywords.push_back(name.substr(0, kKeywordLimit));
-    png_text chunk{};
-    chunk.compression = isAscii(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-    chunk.key = keywords.back().data();
-    chunk.text = const_cast<char*>(text.c_str());  // libpng only reads it
-    chunk.text_length = text.size();
-    chunks.push_back(chunk);
-  }
-  return chunks;
-}
-
-// False: `writer.message` says why.
-bool write(Libpng& writer, std::FILE* file, const DisplayImage& image, const png_text* texts,
-           int textCount) {
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
-  if (writer.png == nullptr) return false;
-  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
-  writer.info = png_create_info_struct(writer.png);
-  if (writer.info == nullptr) return false;
-  png_init_io(writer.png, file);
-  const auto width = static_cast<png_uint_32>(image.width);
-  const auto height = static_cast<png_uint_32>(image.height);
-  png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
-  if (textCount > 0) png_set_text(writer.png, writer.info, texts, textCount);
-  png_write_info(writer.png, writer.info);
-  png_set_filler(writer.png, 0, PNG_FILLER_AFTER);  // alpha is opaque everywhere: leave it out
-  const std::size_t stride = std::size_t{4} * width;
-  for (png_uint_32 y = 0; y < height; ++y)
-    png_write_row(writer.png, image.rgba.data() + y * stride);
-  png_write_end(writer.png, writer.info);
-  return true;
-}
-
-constexpr png_uint_32 kSideLimit = kImageSideLimit;
-
-// False: `reader.message` says why.
-bool readHeader(Libpng& reader, std::FILE* file) {
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, onError, onWarning);
-  if (reader.png == nullptr) return false;
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  reader.info = png_create_info_struct(reader.png);
-  if (reader.info == nullptr) return false;
-  png_init_io(reader.png, file);
-  png_set_user_limits(reader.png, kSideLimit, kSideLimit);
-  png_read_info(reader.png, reader.info);
-  reader.passes = png_set_interlace_handling(reader.png);
-  png_read_update_info(reader.png, reader.info);
-  return true;
-}
-
-bool readRows(Libpng& reader, png_bytep row) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  const png_uint_32 height = png_get_image_height(reader.png, reader.info);
-  for (int pass = 0; pass < reader.passes; ++pass) {
-    for (png_uint_32 y = 0; y < height; ++y) png_read_row(reader.png, row, nullptr);
-  }
-  png_read_end(reader.png, reader.info);
-  return true;
-}
-
 }  // namespace
 
-namespace {
-
-// Throws Error(io) naming `what`; closes the file in any case.
-void writeTo(std::FILE* file, const std::string& what, const DisplayImage& image,
-             const ImageMetadata& metadata) {
-  std::vector<std::string> keywords;
-  const std::vector<png_text> texts = textChunks(metadata, keywords);
-  Libpng writer;
-  const bool written = write(writer, file, image, texts.data(), static_cast<int>(texts.size()));
-  const int error = errno;  // of the last write, if that was what failed
-  png_destroy_write_struct(&writer.png, &writer.info);
-  const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
-  const bool closed = std::fclose(file) == 0;
-  if (!written) throwIo("cannot write '" + what + "': " + reason);
-  if (!closed) throwIo("cannot write '" + what + "': " + std::strerror(errno));
+bool isPng(std::span<const std::uint8_t> file) {
+  constexpr std::size_t kSignatureBytes = 8;
+  return file.size() >= kSignatureBytes && png_sig_cmp(file.data(), 0, kSignatureBytes) == 0;
 }
 
-void requirePixels(const std::string& what, const DisplayImage& image) {
-  if (image.width < 1 || image.height < 1 ||
-      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
-                               static_cast<std::size_t>(image.height))
-    throwUsage("cannot write '" + what + "': the image has no pixels");
-}
-
-}  // namespace
-
-void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
-  requirePixels(path, image);
-  AtomicFile target(path);
-  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
-  if (file == nullptr) throwIo("cannot write '" + path + "': " + std::strerror(errno));
-  writeTo(file, path, image, metadata);
-  target.commit();
-}
-
-std::string encodePng(const DisplayImage& image) {
-  requirePixels("a PNG", image);
-  char* bytes = nullptr;
-  std::size_t size = 0;
-  std::FILE* file = open_memstream(&bytes, &size);
-  if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
-  // The buffer belongs to this function as soon as the stream has been flushed, thrown or not.
-  const auto release = [](char** buffer) { std::free(*buffer); };
-  const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
-  writeTo(file, "a PNG", image, {});
-  return {bytes, size};
+RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits) {
+  constexpr std::uint64_t kMostFromOneByte = 1032;  // that deflate can make
+  PngReader reader(path, file);
+  reader.readHeader();
+  checkImageSize(path, reader.width(), reader.height(), 1, limits);
+  reader.prepare();
+  RawImage image;
+  image.width = static_cast<int>(reader.width());
+  image.height = static_cast<int>(reader.height());
+  image.channels = reader.channels();
+  image.held = holdImage(path, image.width, image.height,
+                         static_cast<std::uint64_t>(image.channels), limits);
+  const std::size_t bytes = reader.rowBytes() * static_cast<std::size_t>(image.height);
+  const std::uint64_t pixels = std::uint64_t{reader.width()} * reader.height();
+  if (pixels / 8 / kMostFromOneByte > file.size()) reader.refuse("the file is cut short");
+  image.codes.resize(bytes);
+  reader.readPixels(image.codes.data(), true);
+  return image;
 }
 
 ImageMetadata readPngMetadata(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) throwIo("cannot open '" + path + "': " + std::strerror(errno));
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closing(file, &std::fclose);
-  Libpng reader;
-  const auto release = [](Libpng* r) { png_destroy_read_struct(&r->png, &r->info, nullptr); };
-  const std::unique_ptr<Libpng, decltype(release)> releasing(&reader, release);
-  if (!readHeader(reader, file)) throwBadScene(path, std::string("no PNG: ") + reader.message);
-  std::vector<png_byte> row(png_get_rowbytes(reader.png, reader.info));
-  if (!readRows(reader, row.data())) {
-    throwBadScene(path, std::string("expected a whole PNG: ") + reader.message);
-  }
-  png_textp texts = nullptr;
-  const int count = png_get_text(reader.png, reader.info, &texts, nullptr);
-  ImageMetadata metadata;
-  for (int i = 0; i < count; ++i) {
-    metadata.emplace_back(texts[i].key, texts[i].text == nullptr ? "" : texts[i].text);
-  }
-  return metadata;
+  const std::string file = readFile(path, ImageLimits().bytes);
+  PngReader reader(path, asBytes(file));
+  reader.readHeader();
+  checkImageSize(path, reader.width(), reader.height(), 1, ImageLimits());
+  reader.prepare();
+  std::vector<std::uint8_t> row(reader.rowBytes());
+  reader.readPixels(row.data(), false);
+  return reader.texts();
 }
 
 }  // namespace whit

@@ -20,6 +20,17 @@ namespace whit {
 
 using Bytes = std::vector<std::uint8_t>;
 
+// The status of the Error that `run` throws; `done` when it throws none.
+template <typename Run>
+ExitStatus statusOf(Run&& run) {
+  try {
+    run();
+  } catch (const Error& e) {
+    return e.status();
+  }
+  return ExitStatus::done;
+}
+
 // A new folder for each test, removed afterwards.
 class ImageTest : public testing::Test {
  protected:
@@ -39,6 +50,17 @@ class ImageTest : public testing::Test {
               static_cast<std::streamsize>(bytes.size()));
     return path(name);
   }
+  // What is wrong with such a file, behind its name.
+  std::string errorOf(const std::string& name, const Bytes& bytes) {
+    const std::string file = save(name, bytes);
+    try {
+      readRawImage(file, limits_, warnings_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::badScene) << error.what();
+      return std::string(error.what()).substr(file.size());
+    }
+    return "no error";
+  }
   static Bytes load(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     return Bytes(std::istreambuf_iterator<char>(in), {});
@@ -52,17 +74,6 @@ class ImageTest : public testing::Test {
   ImageLimits limits_;
   Warnings warnings_;
 };
-
-// The status of the Error that `run` throws; `done` when it throws none.
-template <typename Run>
-ExitStatus statusOf(Run&& run) {
-  try {
-    run();
-  } catch (const Error& e) {
-    return e.status();
-  }
-  return ExitStatus::done;
-}
 
 inline void append(Bytes& to, const Bytes& bytes) {
   to.insert(to.end(), bytes.begin(), bytes.end());
