@@ -84,6 +84,7 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
 
 Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) {
   std::map<std::size_t, std::uint32_t> bodies;
+  bool empty = true;
   Body all;
   for (const GltfPlacedMesh& placed : stage_.meshes) {
     const auto [known, isNew] = bodies.try_emplace(placed.mesh);
@@ -91,8 +92,15 @@ Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& m
       known->second = layout.add(document_.model().meshes[placed.mesh].name);
       addParts(readGltfMesh(document_, placed.mesh, sources_), materials, document_.name(),
                document_.budget(), layout.body(known->second));
+      empty = empty && layout.body(known->second).parts.empty();
     }
     all.children.push_back({known->second, placed.toScene});
+  }
+  if (empty) {
+    warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"
+                      : stage_.meshes.empty()          ? "no node shows a mesh"
+                                                       : "its meshes have no triangles",
+                      document_.name(), document_.warnings());
   }
   return all;
 }

@@ -44,6 +44,10 @@ std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRu
   throwBadScene(path.string(), "expected a model (" + modelExtensions() + ")");
 }
 
+void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings) {
+  warnings.add("model with nothing to draw: " + why, file);
+}
+
 void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& materials,
               const std::string& file, MemoryBudget& budget, Body& to) {
   for (const Mesh& mesh : meshes) {

@@ -126,6 +126,10 @@ TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const Give
 Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
   if (text_) {
     meshes_ = readObjGeometry(*text_, budget_, warnings_);
+    if (meshes_.empty()) {
+      warnNothingToDraw(text_->summary().faces == 0 ? "no faces" : "no face that can be built",
+                        path_.string(), warnings_);
+    }
     text_.reset();
     for (Mesh& mesh : meshes_) mesh.name = path_.stem().string();
   }

@@ -22,6 +22,7 @@
 #include "io/model.h"
 #include "io/polygon.h"
 #include "io/read_file.h"
+#include "io/triangle_strip.h"
 
 namespace whit {
 
@@ -322,10 +323,24 @@ std::string PlyData::place() const {
 enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kComponents };
 
 Component componentOf(const std::string& name) {
-  static const std::pair<const char*, Component> names[] = {
-      {"x", kX},         {"y", kY},         {"z", kZ},   {"nx", kNx},   {"ny", kNy},
-      {"nz", kNz},       {"u", kU},         {"v", kV},   {"s", kU},     {"t", kV},
-      {"texture_u", kU}, {"texture_v", kV}, {"red", kR}, {"green", kG}, {"blue", kB}};
+  static const std::pair<const char*, Component> names[] = {{"x", kX},
+                                                            {"y", kY},
+                                                            {"z", kZ},
+                                                            {"nx", kNx},
+                                                            {"ny", kNy},
+                                                            {"nz", kNz},
+                                                            {"u", kU},
+                                                            {"v", kV},
+                                                            {"s", kU},
+                                                            {"t", kV},
+                                                            {"texture_u", kU},
+                                                            {"texture_v", kV},
+                                                            {"red", kR},
+                                                            {"green", kG},
+                                                            {"blue", kB},
+                                                            {"diffuse_red", kR},
+                                                            {"diffuse_green", kG},
+                                                            {"diffuse_blue", kB}};
   for (const auto& [known, component] : names) {
     if (name == known) return component;
   }
@@ -354,19 +369,33 @@ class PlyReader {
     budget.charge(text.size() / (ascii ? 2 : 1), sizeof(mesh_.triangles[0]), file);
   }
 
+  // Faces that come before their vertices are passed over and read in the end.
   Mesh read() {
+    std::vector<std::pair<const PlyElement*, PlyData>> early;
+    std::uint64_t faces = 0;
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
+      const bool isFaces = element.name == "face" || element.name == "tristrips";
+      if (isFaces) faces += element.count;
       if (element.name == "vertex") {
         readVertices(element);
-      } else if (element.name == "face") {
-        readFaces(element);
+      } else if (isFaces && !mesh_.positions.empty()) {
+        readFaces(element, data_);
       } else {
+        if (isFaces) early.emplace_back(&element, data_);
         for (std::uint64_t i = 0; i < element.count; ++i) data_.skip(element);
-        if (element.count > 0) warnings_.add("elements of a kind that is not shown", file_);
+        if (!isFaces && element.count > 0) {
+          warnings_.add("elements of a kind that is not shown", file_);
+        }
       }
     }
-    if (mesh_.triangles.empty()) warnings_.add("model without faces", file_);
+    for (auto& [element, data] : early) readFaces(*element, data);
+    if (mesh_.triangles.empty()) {
+      warnNothingToDraw(mesh_.positions.empty() ? "no vertices"
+                        : faces == 0            ? "no faces"
+                                                : "no face that can be built",
+                        file_, warnings_);
+    }
     return std::move(mesh_);
   }
 
@@ -420,37 +449,64 @@ class PlyReader {
     return values;
   }
 
-  void readFaces(const PlyElement& element) {
+  void readFaces(const PlyElement& element, PlyData& data) {
     std::size_t corners = element.find("vertex_indices");
     if (corners == element.properties.size()) corners = element.find("vertex_index");
     if (corners == element.properties.size() || !element.properties[corners].isList) {
-      throwBadScene(file_, "expected a list \"vertex_indices\" in the element \"face\"");
+      throwBadScene(file_,
+                    "expected a list \"vertex_indices\" in the element \"" + element.name + "\"");
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
-        const std::uint64_t count = property.isList ? data_.listLength(property) : 1;
+        const std::uint64_t count = property.isList ? data.listLength(property) : 1;
         face_.clear();
         for (std::uint64_t k = 0; k < count; ++k) {
-          const double value = data_.number(property.type);
+          const double value = data.number(property.type);
           if (p == corners) face_.push_back(value);
         }
-        if (p == corners) addFace();
+        if (p != corners) continue;
+        if (element.name == "face") {
+          addFace(data);
+        } else {
+          addStrips(data);
+        }
       }
     }
   }
 
-  void addFace() {
+  // False: there is no such vertex.
+  bool addCorner(double corner) {
+    if (!(corner >= 0 && corner < static_cast<double>(mesh_.positions.size()))) return false;
+    numbers_.push_back(static_cast<std::uint32_t>(corner));
+    return true;
+  }
+
+  // -1 ends a strip.
+  void addStrips(const PlyData& data) {
+    numbers_.clear();
+    for (const double corner : face_) {
+      if (addCorner(corner)) continue;
+      if (corner != -1) {
+        warnings_.add("rest of a strip behind a vertex index out of range dropped", data.place());
+        break;
+      }
+      addStrip(numbers_, mesh_.triangles);
+      numbers_.clear();
+    }
+    addStrip(numbers_, mesh_.triangles);
+  }
+
+  void addFace(const PlyData& data) {
     if (face_.size() < 3) {
-      return warnings_.add("face with fewer than three corners dropped", data_.place());
+      return warnings_.add("face with fewer than three corners dropped", data.place());
     }
     points_.clear();
     numbers_.clear();
     for (const double corner : face_) {
-      if (!(corner >= 0 && corner < static_cast<double>(mesh_.positions.size()))) {
-        return warnings_.add("face with a vertex index out of range dropped", data_.place());
+      if (!addCorner(corner)) {
+        return warnings_.add("face with a vertex index out of range dropped", data.place());
       }
-      numbers_.push_back(static_cast<std::uint32_t>(corner));
       points_.emplace_back(mesh_.positions[numbers_.back()]);
     }
     if (numbers_.size() == 3) {
@@ -459,7 +515,7 @@ class PlyReader {
     }
     triangles_.clear();
     if (!triangulate(points_, triangles_)) {
-      warnings_.add("polygon without a simple outline", data_.place());
+      warnings_.add("polygon without a simple outline", data.place());
     }
     for (const auto& t : triangles_) {
       mesh_.triangles.push_back({numbers_[t[0]], numbers_[t[1]], numbers_[t[2]]});
@@ -480,8 +536,8 @@ class PlyReader {
 
 class PlyModel : public Model {
  public:
-  // Reads all of it. Elements other than vertex and face are passed over; faces that
-  // name vertices that are not there, and files without faces are counted. Colors of vertices are
+  // Reads all of it. Elements other than vertex, face and tristrips are passed over; faces that
+  // name vertices that are not there are counted. Colors of vertices are
   // sRGB where they are whole numbers, as scanners and their tools write them, else linear.
   PlyModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
            Warnings& warnings);

@@ -122,4 +122,16 @@ inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = 1e-6) 
 // The unit triangle in the plane z = 0, seen from +z.
 inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
+// A primitive of it; `rest` begins with a comma: further members.
+inline std::string triangle(GltfBuilder& b, const std::string& rest = "") {
+  return "{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}" + rest +
+         "}";
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
 }  // namespace whit

@@ -91,6 +91,17 @@ TEST_F(ObjHostile, NothingAndNonsenseAreEmptyModels) {
   }
 }
 
+TEST_F(ObjHostile, NothingToDrawIsSaidWithItsReason) {
+  loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\n");
+  EXPECT_EQ(warned("model with nothing to draw: no faces"), 1u);
+  loadObj("v 0 0 0\nf 1 1 9\n");
+  EXPECT_EQ(warned("model with nothing to draw: no face that can be built"), 1u);
+  Warnings strict(true);
+  const std::string file = save("m.obj", "v 0 0 0\n");
+  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+            "3 m.obj: model with nothing to draw: no faces (refused by --strict)");
+}
+
 TEST_F(ObjHostile, MemoryIsCheckedBeforeItIsTaken) {
   options_.maxMemoryBytes = 20000;
   std::string text = kTriangleObj;
