@@ -10,6 +10,7 @@
 #include "io/gltf_schema.h"
 #include "io/json_text.h"
 #include "io/read_file.h"
+#include "io/uri.h"
 
 namespace whit {
 
@@ -19,7 +20,7 @@ struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not 
   std::string name;  // for errors
   Json json;         // an object
   bool hasBinary = false;
-  std::vector<std::uint8_t> binary;  // the chunk of a .glb
+  std::string binary;  // the chunk of a .glb
 };
 
 namespace {
@@ -55,7 +56,7 @@ std::string_view splitBinary(std::string_view bytes, GltfFile& to) {
   if (bytes.size() < kHeaderBytes) throwBadScene(to.name, "the file ends within its header");
   const std::uint32_t version = wordAt(bytes, 4), length = wordAt(bytes, 8);
   if (version != 2) {
-    throwBadScene(to.name, "expected version 2 of the format, found " + std::to_string(version));
+    throwBadScene(to.name, "expected glTF 2.0, found glTF " + std::to_string(version) + ".0");
   }
   if (length < kHeaderBytes || length > bytes.size()) {
     throwBadScene(to.name, "its header says " + std::to_string(length) + " bytes, the file has " +
@@ -69,9 +70,20 @@ std::string_view splitBinary(std::string_view bytes, GltfFile& to) {
     const std::string_view chunk = takeChunk(rest, type, to.name);
     if (type != kBinaryChunk || to.hasBinary) continue;  // others are an extension's
     to.hasBinary = true;
-    to.binary.assign(chunk.begin(), chunk.end());
+    to.binary = chunk;
   }
   return text;
+}
+
+// Where the first version has objects the second has lists; its files may not name it.
+void refuseFirstVersion(const GltfFile& file) {
+  const auto asset = file.json.find("asset");
+  const bool named = asset != file.json.end() && asset->is_object() && asset->contains("version");
+  const std::string version = named ? (*asset)["version"].dump() : "";
+  const auto meshes = file.json.find("meshes");
+  const bool unnamed = !named && meshes != file.json.end() && meshes->is_object();
+  if (!unnamed && !version.starts_with("\"1.") && !version.starts_with("1.")) return;
+  throwBadScene(file.name + "#/asset", "expected glTF 2.0, found glTF 1.0");
 }
 
 // Told by its content.
@@ -87,6 +99,7 @@ GltfFile readGltfFile(const std::filesystem::path& path, MemoryBudget& budget) {
   budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, file.name);
   file.json = parseJson(std::string(text), file.name);
   if (!file.json.is_object()) throwBadScene(file.name + "#", "expected an object");
+  refuseFirstVersion(file);
   return file;
 }
 
@@ -111,33 +124,10 @@ std::uint64_t wholeOf(const Json& object, const char* name) {
   return object.value(name, std::uint64_t{0});
 }
 
-int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-// RFC 3986, section 2.1.
-std::string percentDecoded(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool code = uri[i] == '%' && i + 2 < uri.size() && hexValue(uri[i + 1]) >= 0 &&
-                      hexValue(uri[i + 2]) >= 0;
-    text += code ? static_cast<char>(16 * hexValue(uri[i + 1]) + hexValue(uri[i + 2])) : uri[i];
-    if (code) i += 2;
-  }
-  return text;
-}
-
-std::vector<std::uint8_t> decodeDataUri(const std::string& uri, const std::string& where,
-                                        MemoryBudget& budget) {
-  budget.charge(uri.size(), 2, where);
-  std::vector<std::uint8_t> bytes;
-  std::string type;
-  if (!tinygltf::DecodeDataURI(&bytes, type, uri, 0, false)) {
-    throwBadScene(where, "expected a path or base64 data of a buffer or an image");
-  }
-  return bytes;
+std::string decodeUri(const Json& uri, const std::string& where, MemoryBudget& budget) {
+  const auto& text = uri.get_ref<const std::string&>();
+  budget.charge(text.size(), 2, where);
+  return dataOfUri(text, where);
 }
 
 bool isSupported(const std::string& extension) {
@@ -151,6 +141,10 @@ struct GltfDocument::Source {
   std::filesystem::path folder;
   const PathRules& rules;
 
+  // A buffer that has none is for whom extensions tell what to fill it with.
+  bool hasData(std::size_t buffer) const {
+    return listOf(file.json, "buffers")[buffer].contains("uri") || (buffer == 0 && file.hasBinary);
+  }
   std::filesystem::path resolve(const Json& uri, const std::string& where) const {
     return rules.resolve(percentDecoded(uri.get<std::string>()), folder, where);
   }
@@ -175,7 +169,7 @@ std::string GltfDocument::where(const std::string& list, std::size_t index,
 
 Bytes GltfDocument::view(std::size_t bufferView) const {
   const tinygltf::BufferView& view = model_.bufferViews[bufferView];
-  return Bytes(buffers_[static_cast<std::size_t>(view.buffer)])
+  return asBytes(buffers_[static_cast<std::size_t>(view.buffer)])
       .subspan(view.byteOffset, view.byteLength);
 }
 
@@ -205,19 +199,16 @@ void GltfDocument::readBuffers(Source& source) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::uint64_t length = wholeOf(list[i], "byteLength");
     const auto uri = list[i].find("uri");
-    std::vector<std::uint8_t>& bytes = buffers_.emplace_back();
+    std::string& bytes = buffers_.emplace_back();
     const std::string place = where("buffers", i, "/uri");
     if (uri == list[i].end()) {
-      if (i > 0 || !source.file.hasBinary) {
-        throwBadScene(where("buffers", i), "expected a member \"uri\"");
-      }
+      if (!source.hasData(i)) continue;
       bytes = std::move(source.file.binary);
-    } else if (tinygltf::IsDataURI(uri->get_ref<const std::string&>())) {
-      bytes = decodeDataUri(uri->get_ref<const std::string&>(), place, budget_);
+    } else if (isDataUri(uri->get_ref<const std::string&>())) {
+      bytes = decodeUri(*uri, place, budget_);
     } else {
-      const std::string text = readTextFile(source.resolve(*uri, place), budget_.left() / 2);
-      budget_.charge(text.size(), 1, place);
-      bytes.assign(text.begin(), text.end());
+      bytes = readFile(source.resolve(*uri, place), budget_.left() / 2);
+      budget_.charge(bytes.size(), 1, place);
     }
     if (bytes.size() < length) {
       throwBadScene(where("buffers", i, "/byteLength"), "expected " + std::to_string(length) +
@@ -230,7 +221,9 @@ void GltfDocument::readBuffers(Source& source) {
 void GltfDocument::checkViews(const Source& source) const {
   const Json& list = listOf(source.file.json, "bufferViews");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::uint64_t size = buffers_[wholeOf(list[i], "buffer")].size();
+    const std::uint64_t buffer = wholeOf(list[i], "buffer"), size = buffers_[buffer].size();
+    if (!source.hasData(buffer))
+      throwBadScene(where("buffers", buffer), "expected a member \"uri\"");
     const std::uint64_t offset = wholeOf(list[i], "byteOffset");
     const std::uint64_t length = wholeOf(list[i], "byteLength");
     if (offset > size || length > size - offset) {
@@ -259,20 +252,37 @@ void GltfDocument::readImages(const Source& source) {
         throwBadScene(image.where, "expected a member \"uri\" or \"bufferView\"");
       }
       const Json& view = views[wholeOf(list[i], "bufferView")];
-      image.bytes = Bytes(buffers_[wholeOf(view, "buffer")])
+      image.bytes = asBytes(buffers_[wholeOf(view, "buffer")])
                         .subspan(wholeOf(view, "byteOffset"), wholeOf(view, "byteLength"));
-    } else if (tinygltf::IsDataURI(uri->get_ref<const std::string&>())) {
-      image.own = decodeDataUri(uri->get_ref<const std::string&>(), image.where, budget_);
-      image.bytes = image.own;
+    } else if (isDataUri(uri->get_ref<const std::string&>())) {
+      image.own = decodeUri(*uri, image.where + "/uri", budget_);
+      image.bytes = asBytes(image.own);
     } else {
       image.path = source.resolve(*uri, image.where + "/uri").string();
     }
   }
 }
 
-// What tinygltf would load or does not need is taken out before.
+// tinygltf refuses indices without a buffer view, which are zeros: until it is done they have one.
 void GltfDocument::readStructure(Source& source) {
   Json& json = source.file.json;
+  const std::size_t views = listOf(json, "bufferViews").size();
+  if (json.contains("accessors")) {
+    for (Json& accessor : json["accessors"]) {
+      if (accessor.contains("bufferView")) continue;
+      accessor["bufferView"] = views;
+      json["bufferViews"][views] = {{"buffer", 0}, {"byteLength", 0}};
+    }
+  }
+  readWithTinygltf(json);
+  model_.bufferViews.resize(views);
+  for (tinygltf::Accessor& accessor : model_.accessors) {
+    if (accessor.bufferView == static_cast<int>(views)) accessor.bufferView = -1;
+  }
+}
+
+// What tinygltf would load or does not need is taken out before.
+void GltfDocument::readWithTinygltf(Json& json) {
   for (const char* list : {"buffers", "images", "animations", "skins", "extras"}) json.erase(list);
   for (const auto& [name, list] : json.items()) {
     if (list.is_array()) budget_.charge(list.size(), kBytesPerElement, name_);
@@ -282,7 +292,8 @@ void GltfDocument::readStructure(Source& source) {
   std::string error, warning;
   if (!reader.LoadASCIIFromString(&model_, &error, &warning, text.c_str(),
                                   static_cast<unsigned int>(text.size()), "")) {
-    throwBadScene(name_, error.substr(0, error.find('\n')));
+    throwBadScene(name_ + "#",
+                  "expected the structure of glTF 2.0 (" + error.substr(0, error.find('\n')) + ")");
   }
 }
 

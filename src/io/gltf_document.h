@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/warnings.h"
+#include "io/json_text.h"
 #include "io/memory_budget.h"
 #include "io/paths.h"
 
@@ -20,9 +21,9 @@ using Bytes = std::span<const std::uint8_t>;
 
 // An image that is not decoded: `path`, or the bytes of a file.
 struct GltfImageSource {
-  std::string where;              // "file#/images/3"
-  std::string path;               // empty: `bytes`
-  std::vector<std::uint8_t> own;  // of a data URI
+  std::string where;  // "file#/images/3"
+  std::string path;   // empty: `bytes`
+  std::string own;    // of a data URI
   Bytes bytes;
 };
 
@@ -56,11 +57,12 @@ class GltfDocument {
   void checkViews(const Source& source) const;
   void readImages(const Source& source);
   void readStructure(Source& source);
+  void readWithTinygltf(Json& json);
 
   std::string name_;
   MemoryBudget& budget_;
   Warnings& warnings_;
-  std::vector<std::vector<std::uint8_t>> buffers_;
+  std::vector<std::string> buffers_;
   std::vector<GltfImageSource> images_;
   tinygltf::Model model_;
 };

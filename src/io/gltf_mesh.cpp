@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/gltf_accessor.h"
+#include "io/triangle_strip.h"
 
 namespace whit {
 namespace {
@@ -131,13 +132,12 @@ class PrimitiveReader {
     if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
     document_.budget().charge(count, sizeof(mesh.triangles[0]), where_);
     mesh.triangles.reserve(count);
+    if (primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP) return addStrip(c, mesh.triangles);
     for (std::size_t i = 0; i < count; ++i) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
-      } else if (primitive_.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
-        mesh.triangles.push_back({c[i + 1], c[i + 2], c[0]});
       } else {
-        mesh.triangles.push_back({c[i], c[i + 1 + i % 2], c[i + 2 - i % 2]});
+        addJoined({c[i + 1], c[i + 2], c[0]}, mesh.triangles);
       }
     }
   }

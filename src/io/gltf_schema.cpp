@@ -1,6 +1,7 @@
 #include "io/gltf_schema.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -190,15 +191,24 @@ std::span<const GltfRule> gltfRules() { return kRules; }
 std::span<const char* const> gltfTextureSlots() { return kTextureSlots; }
 std::span<const GltfRule> gltfTextureRules() { return kTextureRules; }
 
-const Json* find(const Json& object, std::string_view name) {
+Json* find(Json& object, std::string_view name) {
   if (!object.is_object()) return nullptr;
   const auto member = object.find(std::string(name));
   return member == object.end() ? nullptr : &*member;
 }
 
+// 1e0 and 1.0 are as whole as 1.
+void spellAsWhole(Json& value) {
+  if (!value.is_number() || value.is_number_unsigned()) return;
+  const auto number = value.get<double>();
+  if (number >= 0 && number <= static_cast<double>(kMostBytes) && number == std::floor(number)) {
+    value = static_cast<std::uint64_t>(number);
+  }
+}
+
 class Checker {
  public:
-  Checker(const Json& root, const std::string& file) : root_(root), file_(file) {}
+  Checker(Json& root, const std::string& file) : root_(root), file_(file) {}
 
   void check(const GltfRule& rule, const std::string& path) {
     rule_ = &rule;
@@ -213,7 +223,7 @@ class Checker {
 
   // Of the list at the end of `path`, 0 where it is not there.
   std::uint64_t sizeOf(std::string_view path) const {
-    const Json* value = &root_;
+    Json* value = &root_;
     while (value && !path.empty()) {
       const std::size_t end = std::min(path.find('/'), path.size());
       value = find(*value, path.substr(0, end));
@@ -222,7 +232,7 @@ class Checker {
     return value && value->is_array() ? value->size() : 0;
   }
 
-  void walk(const Json& value, std::string_view path, const std::string& pointer) {
+  void walk(Json& value, std::string_view path, const std::string& pointer) {
     if (path.empty()) return look(value, pointer);
     const std::size_t end = std::min(path.find('/'), path.size());
     std::string_view name = path.substr(0, end);
@@ -230,26 +240,26 @@ class Checker {
     if (name == "*") return walkAll(value, path, pointer);
     const bool required = name.starts_with('+');
     if (required) name.remove_prefix(1);
-    if (const Json* member = find(value, name)) {
+    if (Json* member = find(value, name)) {
       walk(*member, path, pointer + "/" + std::string(name));
     } else if (required && value.is_object()) {
       fail(pointer, "a member \"" + std::string(name) + "\"");
     }
   }
 
-  void walkAll(const Json& value, std::string_view path, const std::string& pointer) {
+  void walkAll(Json& value, std::string_view path, const std::string& pointer) {
     if (value.is_array()) {
       for (std::size_t i = 0; i < value.size(); ++i) {
         walk(value[i], path, pointer + "/" + std::to_string(i));
       }
     } else if (value.is_object()) {
-      for (const auto& [key, member] : value.items()) {
-        walk(member, path, pointer + "/" + escapePointer(key));
+      for (auto member = value.begin(); member != value.end(); ++member) {
+        walk(*member, path, pointer + "/" + escapePointer(member.key()));
       }
     }
   }
 
-  void look(const Json& value, const std::string& pointer) const {
+  void look(Json& value, const std::string& pointer) const {
     switch (rule_->kind) {
       case GltfKind::object:
         if (!value.is_object()) fail(pointer, "an object");
@@ -291,11 +301,13 @@ class Checker {
                  ", more than " + std::to_string(kGltfCountLimit));
     }
   }
-  void checkWhole(const Json& value, const std::string& pointer, std::uint64_t limit) const {
+  void checkWhole(Json& value, const std::string& pointer, std::uint64_t limit) const {
+    spellAsWhole(value);
     if (value.is_number_unsigned() && value.get<std::uint64_t>() <= limit) return;
     fail(pointer, "a whole number from 0 to " + std::to_string(limit));
   }
-  void checkIndex(const Json& value, const std::string& pointer) const {
+  void checkIndex(Json& value, const std::string& pointer) const {
+    spellAsWhole(value);
     if (target_ == 0) fail(pointer, std::string("no index: there are no ") + rule_->list);
     if (value.is_number_unsigned() && value.get<std::uint64_t>() < target_) return;
     fail(pointer, std::string("an index into ") + rule_->list + ", from 0 to " +
@@ -307,7 +319,7 @@ class Checker {
     if (!right) fail(pointer, std::to_string(rule_->limit) + " numbers");
   }
 
-  const Json& root_;
+  Json& root_;
   const std::string& file_;
   const GltfRule* rule_ = nullptr;
   std::uint64_t target_ = 0;
@@ -315,7 +327,7 @@ class Checker {
 
 }  // namespace
 
-void checkGltf(const Json& json, const std::string& file) {
+void checkGltf(Json& json, const std::string& file) {
   Checker checker(json, file);
   for (const GltfRule& rule : gltfRules()) checker.check(rule, rule.path);
   for (const char* slot : gltfTextureSlots()) {

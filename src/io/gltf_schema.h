@@ -16,8 +16,9 @@ inline constexpr std::uint64_t kGltfCountLimit = 1u << 20;
 // Throws badScene "file#/pointer" where `json` differs from the specification's schemas, limit
 // where a list is too long. Afterwards every property that the readers use is of its kind and every
 // index refers to something; what lies behind the indices (sizes, offsets, cycles) is theirs to
-// check. Properties that nobody reads are not looked at.
-void checkGltf(const Json& json, const std::string& file);
+// check, and whole numbers are spelt as such (1e0 is 1). Properties that nobody reads are not
+// looked at.
+void checkGltf(Json& json, const std::string& file);
 
 // "file#/list/index".
 std::string gltfPlace(const std::string& file, const std::string& list, std::size_t index);
