@@ -198,6 +198,16 @@ std::vector<Vec3f> readVectors(const GltfDocument& document, std::size_t accesso
   return elements;
 }
 
+std::vector<std::array<double, 4>> readQuaternions(const GltfDocument& document,
+                                                   std::size_t accessor) {
+  const Reader reader(document, accessor, TINYGLTF_TYPE_VEC4, "VEC4");
+  auto elements = makeElements<std::array<double, 4>>(document, reader);
+  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
+    for (std::size_t k = 0; k < 4; ++k) elements[i][k] = reader.componentAt(from, k);
+  });
+  return elements;
+}
+
 std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor) {
   const Reader reader(document, accessor, TINYGLTF_TYPE_VEC2, "VEC2");
   std::vector<Vec2f> elements = makeElements<Vec2f>(document, reader);

@@ -103,11 +103,11 @@ GltfFile readGltfFile(const std::filesystem::path& path, MemoryBudget& budget) {
   return file;
 }
 
-constexpr std::array<std::string_view, 10> kSupported = {
-    "KHR_lights_punctual",  "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",    "KHR_materials_specular",  "KHR_materials_transmission",
-    "KHR_materials_unlit",  "KHR_materials_volume",    "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 11> kSupported = {
+    "EXT_mesh_gpu_instancing",         "KHR_lights_punctual",  "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
+    "KHR_materials_transmission",      "KHR_materials_unlit",  "KHR_materials_volume",
+    "KHR_mesh_quantization",           "KHR_texture_transform"};
 // Names of extensions become kinds of warnings.
 constexpr std::size_t kReportedExtensions = 64, kReportedLetters = 64;
 // Of the structures that elements of the lists become.

@@ -52,6 +52,10 @@ class GltfMaterialReader {
     warn("material value clamped to [0, 1]");
     return x > 0 ? 1.0f : 0.0f;
   }
+  float emission(double x) {
+    if (x < 0) warn("negative emission taken as 0");
+    return static_cast<float>(std::clamp(x, 0.0, kLargestEmission));
+  }
   Rgb unit(const Rgb& c) { return {unit(c.x), unit(c.y), unit(c.z)}; }
 
   void factors() {
@@ -64,8 +68,7 @@ class GltfMaterialReader {
     const std::vector<double>& e = source_.emissiveFactor;
     // Above 1 is a strength that some writers leave in.
     for (std::size_t i = 0; i < 3; ++i) {
-      m_.emission[static_cast<int>(i)] =
-          static_cast<float>(std::clamp(e[i], 0.0, kLargestEmission));
+      m_.emission[static_cast<int>(i)] = emission(e[i]);
     }
     if (source_.alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
     if (source_.alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
@@ -120,8 +123,7 @@ class GltfMaterialReader {
     m_.specularColor = Rgb(step * step);
     if (const Value* e = named("KHR_materials_specular")) specular(*e);
     if (const Value* e = named("KHR_materials_emissive_strength")) {
-      m_.emission *= static_cast<float>(
-          std::clamp(numberOf(*e, "emissiveStrength", 1), 0.0, kLargestEmission));
+      m_.emission *= emission(numberOf(*e, "emissiveStrength", 1));
     }
     if (const Value* e = named("KHR_materials_transmission")) transmission(*e);
     if (const Value* e = named("KHR_materials_volume")) volume(*e);
@@ -165,8 +167,10 @@ class GltfMaterialReader {
   }
 
   void volume(const Value& e) {
+    if (numberOf(e, "thicknessFactor", 0) < 0) warn("negative thickness of a volume left out");
+    if (!e.Has("attenuationDistance")) return;  // infinite
     const double distance = numberOf(e, "attenuationDistance", 0);
-    if (!(distance > 0)) return;  // infinite
+    if (!(distance > 0)) return warn("attenuation distance that is not above 0 left out");
     const Rgb color = unit(colorOf(e, "attenuationColor", Rgb(1.0f)));
     for (int i = 0; i < 3; ++i) {
       const double kept = std::max(color[i], kLeastAttenuation);

@@ -1,11 +1,14 @@
 #include "io/gltf_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "core/error.h"
+#include "io/distinct_names.h"
+#include "io/gltf_accessor.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -13,14 +16,27 @@ namespace {
 
 constexpr double kLargestHeight = 1e9;  // of what an orthographic camera shows
 constexpr char kLightsExtension[] = "KHR_lights_punctual";
+constexpr char kInstancesExtension[] = "EXT_mesh_gpu_instancing";
+constexpr char kInstancesPath[] = "/extensions/EXT_mesh_gpu_instancing/attributes";
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
   return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
 }
 
-Affine rotationOf(const std::vector<double>& q) {
-  if (q.empty()) return {};
-  const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+using Quaternion = std::array<double, 4>;
+
+double squareOf(const Quaternion& q) {
+  return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+}
+
+// As far as 8 bits a component can tell.
+bool hasUnitLength(const Quaternion& q) {
+  constexpr double kRounding = 0.0077;
+  return std::abs(std::sqrt(squareOf(q)) - 1) <= kRounding;
+}
+
+Affine rotationOf(const Quaternion& q) {
+  const double norm = squareOf(q);
   if (!(norm > 0) || !std::isfinite(norm)) return {};
   const double x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / norm;
   return {{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
@@ -29,16 +45,12 @@ Affine rotationOf(const std::vector<double>& q) {
           {}};
 }
 
-// Translation * rotation * scale, or the matrix, which is column by column.
-Affine mapOf(const tinygltf::Node& node) {
-  if (!node.matrix.empty()) {
-    const auto column = [&](std::size_t i) {
-      return Vec3d{node.matrix[4 * i], node.matrix[4 * i + 1], node.matrix[4 * i + 2]};
-    };
-    return {column(0), column(1), column(2), column(3)};
-  }
-  return Affine::translation(tripleOr(node.translation, {})) * rotationOf(node.rotation) *
-         Affine::scaling(tripleOr(node.scale, {1, 1, 1}));
+// Column by column.
+Affine mapOf(const std::vector<double>& matrix) {
+  const auto column = [&](std::size_t i) {
+    return Vec3d{matrix[4 * i], matrix[4 * i + 1], matrix[4 * i + 2]};
+  };
+  return {column(0), column(1), column(2), column(3)};
 }
 
 // As Scene::finalize() wants maps to be.
@@ -58,6 +70,7 @@ class TreeReader {
   GltfStage read() {
     checkTree();
     for (const std::size_t root : roots()) visit(root, Affine(), 0);
+    nameCameras();
     return std::move(stage_);
   }
 
@@ -104,16 +117,78 @@ class TreeReader {
     }
     seen_[index] = true;
     const tinygltf::Node& node = model_.nodes[index];
-    const Affine map = toScene * mapOf(node);
+    const Affine map = toScene * mapOfNode(index);
     if (!isUsable(map)) return warn("node that flattens space left out", index);
-    if (node.mesh >= 0) stage_.meshes.push_back({static_cast<std::size_t>(node.mesh), map});
+    if (node.mesh >= 0) placeMesh(index, map);
     if (node.mesh >= 0 && node.skin >= 0) warn("skinned mesh shown as it was modelled", index);
     if (node.camera >= 0) addCamera(index, map);
-    const auto light = node.extensions.find(kLightsExtension);
-    if (light != node.extensions.end()) {
-      addLight(index, light->second.Get("light").GetNumberAsInt(), map);
+    if (const tinygltf::Value* light = findExtension(node.extensions, kLightsExtension)) {
+      addLight(index, light->Get("light").GetNumberAsInt(), map);
     }
     for (const int child : node.children) visit(static_cast<std::size_t>(child), map, depth + 1);
+  }
+
+  // Translation * rotation * scale, or the matrix.
+  Affine mapOfNode(std::size_t index) {
+    const tinygltf::Node& node = model_.nodes[index];
+    const std::vector<double>& m = node.matrix;
+    if (!m.empty()) {
+      if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+        warn("last row of a matrix, other than 0 0 0 1, left out", index);
+      }
+      return mapOf(m);
+    }
+    Quaternion rotation{0, 0, 0, 1};
+    std::copy(node.rotation.begin(), node.rotation.end(), rotation.begin());
+    return composed(tripleOr(node.translation, {}), rotation, tripleOr(node.scale, {1, 1, 1}),
+                    index);
+  }
+
+  Affine composed(const Vec3d& translation, const Quaternion& rotation, const Vec3d& scale,
+                  std::size_t index) {
+    if (!hasUnitLength(rotation)) warn("rotation that is not of unit length normalized", index);
+    return Affine::translation(translation) * rotationOf(rotation) * Affine::scaling(scale);
+  }
+
+  void placeMesh(std::size_t index, const Affine& map) {
+    const tinygltf::Node& node = model_.nodes[index];
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const tinygltf::Value* copies = findExtension(node.extensions, kInstancesExtension);
+    if (!copies) return stage_.meshes.push_back({mesh, map});
+    for (const Affine& copy : readCopies(copies->Get("attributes"), index)) {
+      const Affine toScene = map * copy;
+      if (isUsable(toScene)) {
+        stage_.meshes.push_back({mesh, toScene});
+      } else {
+        warn("copy of a mesh that is flattened left out", index);
+      }
+    }
+  }
+
+  // EXT_mesh_gpu_instancing: where they stand within the node.
+  std::vector<Affine> readCopies(const tinygltf::Value& attributes, std::size_t index) {
+    const auto accessor = [&](const char* name) {
+      return static_cast<std::size_t>(attributes.Get(name).GetNumberAsInt());
+    };
+    std::vector<Vec3f> translations, scales;
+    std::vector<Quaternion> rotations;
+    if (attributes.Has("TRANSLATION"))
+      translations = readVectors(document_, accessor("TRANSLATION"));
+    if (attributes.Has("ROTATION")) rotations = readQuaternions(document_, accessor("ROTATION"));
+    if (attributes.Has("SCALE")) scales = readVectors(document_, accessor("SCALE"));
+    const std::size_t count = std::max({translations.size(), rotations.size(), scales.size()});
+    const std::string where = document_.where("nodes", index, kInstancesPath);
+    for (const std::size_t size : {translations.size(), rotations.size(), scales.size()}) {
+      if (size != 0 && size != count) throwBadScene(where, "expected attributes of equal lengths");
+    }
+    document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance), where);
+    std::vector<Affine> copies;
+    for (std::size_t i = 0; i < count; ++i) {
+      copies.push_back(composed(translations.empty() ? Vec3d() : Vec3d(translations[i]),
+                                rotations.empty() ? Quaternion{0, 0, 0, 1} : rotations[i],
+                                scales.empty() ? Vec3d(1.0) : Vec3d(scales[i]), index));
+    }
+    return copies;
   }
 
   void addCamera(std::size_t index, const Affine& map) {
@@ -164,6 +239,14 @@ class TreeReader {
     light.direction = Vec3f(-normalized(map.z));
     light.intensity = Rgb(color * (source.intensity / kLumensPerWatt));
     stage_.lights.push_back(light);
+  }
+
+  // A camera is chosen by its name.
+  void nameCameras() {
+    std::vector<std::string> names;
+    for (const Camera& camera : stage_.cameras) names.push_back(camera.name);
+    names = distinctNames(names);
+    for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].name = names[i];
   }
 
   // False: they were not 0 <= inner <= outer, half a degree <= outer <= a right angle. Equal ones,

@@ -1,5 +1,5 @@
 // The node tree of a glTF document: what stands where. glTF 2.0 specification, section 3.5;
-// KHR_lights_punctual.
+// KHR_lights_punctual, EXT_mesh_gpu_instancing.
 #pragma once
 
 #include <cstddef>
@@ -32,9 +32,9 @@ struct GltfStage {
 };
 
 // Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
-// what they hold; the ranges of lights are left out; skins are not
-// applied: each is counted in the document's warnings. Throws badScene "file#/nodes/i" where the
-// nodes are no tree or deeper than kGltfDepthLimit.
+// what they hold; the ranges of lights are left out; rotations are normalized; skins are not
+// applied: each is counted in the document's warnings. Cameras have names of their own. Throws
+// badScene "file#/nodes/i" where the nodes are no tree or deeper than kGltfDepthLimit.
 GltfStage readGltfNodes(const GltfDocument& document);
 
 }  // namespace whit

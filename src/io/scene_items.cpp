@@ -4,13 +4,13 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "core/affine.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "io/distinct_names.h"
 #include "io/json_reader.h"
 #include "io/shape_parameters.h"
 #include "scene/generation_limit.h"
@@ -119,21 +119,11 @@ std::vector<Affine> readPlacements(JsonObject& item) {
       "unknown " + kind + (nearest.empty() ? std::string() : "; is \"" + nearest + "\" meant?"));
 }
 
-// By which scene files call the materials of a model: their names, with a number after those that
-// are taken.
-std::vector<std::string> distinctNames(const std::vector<Material>& materials) {
-  std::set<std::string> taken;
-  for (const Material& material : materials) taken.insert(material.name);
-  std::map<std::string, int> uses;
+// By which scene files call them.
+std::vector<std::string> namesOf(const std::vector<Material>& materials) {
   std::vector<std::string> names;
-  for (const Material& material : materials) {
-    std::string name = material.name;
-    int& use = uses[material.name];
-    while (++use > 1 && !taken.insert(name = material.name + "#" + std::to_string(use)).second) {
-    }
-    names.push_back(name);
-  }
-  return names;
+  for (const Material& material : materials) names.push_back(material.name);
+  return distinctNames(names);
 }
 
 }  // namespace
@@ -263,7 +253,7 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
 std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
   std::vector<Material> materials = model.materials();
   std::vector<GivenMembers> given(materials.size());
-  const std::vector<std::string> names = distinctNames(materials);
+  const std::vector<std::string> names = namesOf(materials);
   const std::string section = item.value().pointer() + "/materials/";
   for (std::size_t i = 0; i < materials.size(); ++i) {
     materials[i].pointer = section + escapePointer(names[i]);

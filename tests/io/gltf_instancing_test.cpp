@@ -1,0 +1,57 @@
+// EXT_mesh_gpu_instancing: copies of a mesh by attributes of its node.
+#include <cmath>
+
+#include "gltf_files.h"
+#include "scene/scene.h"
+
+namespace whit {
+namespace {
+
+class GltfInstancing : public GltfTest {
+ protected:
+  // A triangle with these attributes of its copies, in a node that is moved by (0, 0, 5).
+  static std::string textOf(GltfBuilder& b, const std::string& attributes) {
+    return b.json(
+        "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"],\"meshes\":[{"
+        "\"primitives\":[" +
+        triangle(b) +
+        "]}],\"nodes\":[{\"mesh\":0,"
+        "\"translation\":[0,0,5],\"extensions\":{\"EXT_mesh_gpu_instancing\":{"
+        "\"attributes\":{" +
+        attributes + "}}}}]");
+  }
+};
+
+TEST_F(GltfInstancing, CopiesStandWhereTheAttributesSay) {
+  GltfBuilder b;
+  const int translation = b.positions({1, 2, 3, -1, 0, 0});
+  const float half = std::sqrt(0.5f);  // a quarter turn about z
+  const int rotation =
+      b.accessor(b.view(bytesOf<float>({0, 0, half, half, 0, 0, 0, 1})), 5126, "VEC4", 2);
+  const int scale = b.positions({2, 2, 2, 1, 1, 1});
+  const SceneDescription scene =
+      loadText(textOf(b, "\"TRANSLATION\":" + std::to_string(translation) + ",\"ROTATION\":" +
+                             std::to_string(rotation) + ",\"SCALE\":" + std::to_string(scale)));
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.objects.size(), 1u);
+  expectNear(cornerOf(scene, 0, 0, 0), {1, 2, 8});
+  expectNear(cornerOf(scene, 0, 0, 1), {1, 4, 8});
+  expectNear(cornerOf(scene, 1, 0, 1), {0, 0, 5});
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+TEST_F(GltfInstancing, AttributesMustFitTogether) {
+  GltfBuilder b;
+  const std::string two = std::to_string(b.positions({1, 2, 3, -1, 0, 0}));
+  const std::string one = std::to_string(b.positions({1, 1, 1}));
+  EXPECT_EQ(errorOfText(textOf(b, "\"TRANSLATION\":" + two + ",\"SCALE\":" + one)),
+            "3 m.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: expected attributes "
+            "of equal lengths");
+  GltfBuilder flat;
+  const std::string zero = std::to_string(flat.positions({1, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(triangleCount(loadText(textOf(flat, "\"SCALE\":" + zero))), 1u);
+  EXPECT_EQ(warned("copy of a mesh that is flattened left out"), 1u);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,49 @@
+// Values of glTF files that are mended and counted, and files that show nothing.
+#include "gltf_files.h"
+#include "scene/scene.h"
+
+namespace whit {
+namespace {
+
+using GltfMended = GltfTest;
+
+TEST_F(GltfMended, WhatIsMendedIsCounted) {
+  loadText(
+      "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"rotation\":[0,0,0,2]},"
+      "{\"rotation\":[0,0,0,0]},{\"rotation\":[0,0.7071,0,0.7071]},"
+      "{\"matrix\":[1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1]}],\"materials\":["
+      "{\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_emissive_strength\":"
+      "{\"emissiveStrength\":-2}}},{\"emissiveFactor\":[-1,0,0]},"
+      "{\"extensions\":{\"KHR_materials_volume\":{\"attenuationDistance\":0,"
+      "\"thicknessFactor\":-1}}},{\"extensions\":{\"KHR_materials_volume\":"
+      "{\"attenuationDistance\":-3}}}]}");
+  EXPECT_EQ(warned("rotation that is not of unit length normalized"), 2u);
+  EXPECT_EQ(warned("last row of a matrix, other than 0 0 0 1, left out"), 1u);
+  EXPECT_EQ(warned("negative emission taken as 0"), 2u);
+  EXPECT_EQ(warned("attenuation distance that is not above 0 left out"), 2u);
+  EXPECT_EQ(warned("negative thickness of a volume left out"), 1u);
+}
+
+TEST_F(GltfMended, NothingToDrawIsSaidWithItsReason) {
+  loadText("{\"asset\":{\"version\":\"2.0\"}}");
+  EXPECT_EQ(warned("model with nothing to draw: no meshes"), 1u);
+  GltfBuilder b;
+  const std::string mesh = triangle(b), points = triangle(b, ",\"mode\":0");
+  loadText(replaced(b.json(oneMesh(mesh)), "{\"mesh\":0}", "{}"));
+  EXPECT_EQ(warned("model with nothing to draw: no node shows a mesh"), 1u);
+  loadText(b.json(oneMesh(points)));
+  EXPECT_EQ(warned("model with nothing to draw: its meshes have no triangles"), 1u);
+}
+
+TEST_F(GltfMended, CamerasOfOneNameCanBeToldApart) {
+  const SceneDescription scene = loadText(
+      "{\"asset\":{\"version\":\"2.0\"},\"cameras\":[{\"type\":\"perspective\",\"perspective\":"
+      "{\"yfov\":1,\"znear\":1}}],\"nodes\":[{\"camera\":0,\"name\":\"eye\"},{\"camera\":0},"
+      "{\"camera\":0,\"name\":\"eye\"},{\"camera\":0}]}");
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"eye", "camera", "eye#2", "camera#2"}));
+}
+
+}  // namespace
+}  // namespace whit
