@@ -47,7 +47,7 @@ class BmpReader {
     } else {
       readRows();
     }
-    if (image_.channels == 4) repairAlpha();
+    if (image_.channels == 4) repairAlpha(image_.codes);
     return std::move(image_);
   }
 
@@ -234,14 +234,6 @@ class BmpReader {
   std::uint32_t indexIn(int value, int i) const {
     if (bits_ == 8) return static_cast<std::uint32_t>(value);
     return static_cast<std::uint32_t>(i % 2 == 0 ? value >> 4 : value & 15);
-  }
-
-  // Where no pixel has any, the bits were not meant.
-  void repairAlpha() {
-    std::uint8_t any = 0;
-    for (std::size_t i = 3; i < image_.codes.size(); i += 4) any |= image_.codes[i];
-    if (any != 0) return;
-    for (std::size_t i = 3; i < image_.codes.size(); i += 4) image_.codes[i] = 255;
   }
 
   const std::string& path_;

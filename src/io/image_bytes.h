@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 
@@ -49,6 +50,14 @@ class ImageBytes {
 // A code of `most` + 1 as one of 256, rounded.
 inline std::uint8_t codeOf(std::uint64_t value, std::uint64_t most) {
   return static_cast<std::uint8_t>((value * 255 + most / 2) / most);
+}
+
+// For pixels of four channels of which the last need not be meant: where none has any, it was not.
+inline void repairAlpha(std::vector<std::uint8_t>& codes) {
+  std::uint8_t any = 0;
+  for (std::size_t i = 3; i < codes.size(); i += 4) any |= codes[i];
+  if (any != 0) return;
+  for (std::size_t i = 3; i < codes.size(); i += 4) codes[i] = 255;
 }
 
 }  // namespace whit

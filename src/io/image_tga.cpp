@@ -34,6 +34,7 @@ class TgaReader {
                             static_cast<std::uint64_t>(image_.channels), limits_);
     readPalette();
     readPixels();
+    if (image_.channels == 4 && alphaBits_ == 0) repairAlpha(image_.codes);
     return std::move(image_);
   }
 
@@ -55,6 +56,7 @@ class TgaReader {
     image_.height = static_cast<int>(bytes_.number(2));
     bits_ = bytes_.next();
     const int descriptor = bytes_.next();
+    alphaBits_ = descriptor & 0x0f;
     fromRight_ = (descriptor & 0x10) != 0;
     fromTop_ = (descriptor & 0x20) != 0;
     if ((descriptor & 0xc0) != 0) bytes_.fail("expected rows in order, found them interleaved");
@@ -130,7 +132,7 @@ class TgaReader {
   const std::string& path_;
   ImageBytes bytes_;
   const ImageLimits& limits_;
-  int kind_ = 0, bits_ = 0, entryBits_ = 0;
+  int kind_ = 0, bits_ = 0, entryBits_ = 0, alphaBits_ = 0;
   bool hasPalette_ = false, inRuns_ = false, fromRight_ = false, fromTop_ = false;
   std::uint32_t firstEntry_ = 0, entries_ = 0;
   std::vector<Codes> palette_;

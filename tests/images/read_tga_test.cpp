@@ -84,6 +84,18 @@ TEST_F(ReadTga, RunsGoOnInTheNextRow) {
             (Bytes{255, 0, 0, 255, 0, 0, 0, 0, 255, 0, 255, 0}));
 }
 
+// Whose number the header may not tell, and which many writers then leave 0.
+TEST_F(ReadTga, AlphaCountsWhereThereIsAny) {
+  const auto codes = [&](int descriptor, std::uint8_t alpha) {
+    return read({.bits = 32, .descriptor = descriptor, .width = 2, .height = 1},
+                {3, 2, 1, 0, 6, 5, 4, alpha})
+        .codes;
+  };
+  EXPECT_EQ(codes(0x20, 0), (Bytes{1, 2, 3, 255, 4, 5, 6, 255}));
+  EXPECT_EQ(codes(0x20, 9), (Bytes{1, 2, 3, 0, 4, 5, 6, 9}));
+  EXPECT_EQ(codes(0x28, 0), (Bytes{1, 2, 3, 0, 4, 5, 6, 0}));
+}
+
 TEST_F(ReadTga, DamageIsToldWithItsPlace) {
   EXPECT_EQ(errorOf("a.tga", tgaOf({.type = 1, .bits = 8, .entries = 1, .entryBits = 24},
                                    {1, 2, 3, 0, 0, 0, 1})),
