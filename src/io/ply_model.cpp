@@ -5,8 +5,10 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -265,8 +267,10 @@ double PlyData::textNumber() {
   const bool wellFormed =
       error != std::errc::invalid_argument && (rest == end || isPlySpace(*rest));
   if (!wellFormed) throwBadScene(place(), "expected a number");
-  at_ = static_cast<std::size_t>(rest - text_.data());
-  return value;
+  const std::size_t first = std::exchange(at_, static_cast<std::size_t>(rest - text_.data()));
+  if (error == std::errc()) return value;
+  // Beyond what a double holds: infinite, or as good as 0.
+  return std::strtod(text_.substr(first, at_ - first).c_str(), nullptr);
 }
 
 double PlyData::binaryNumber(PlyType type) {
@@ -301,7 +305,7 @@ std::uint64_t PlyData::listLength(const PlyProperty& property) {
   const double length = number(property.countType);
   const std::size_t least = format_ == PlyHeader::Format::ascii ? 2 : bytesOf(property.type);
   const std::size_t most = (text_.size() - at_ + 1) / least;
-  if (!(length >= 0 && length <= static_cast<double>(most))) {
+  if (!(length >= 0 && length <= static_cast<double>(most) && length == std::floor(length))) {
     throwBadScene(place(), "expected a list that fits into the rest of the file");
   }
   return static_cast<std::uint64_t>(length);
@@ -456,6 +460,7 @@ class PlyReader {
       throwBadScene(file_,
                     "expected a list \"vertex_indices\" in the element \"" + element.name + "\"");
     }
+    warnAboutFaces(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
@@ -475,9 +480,21 @@ class PlyReader {
     }
   }
 
+  // Of what faces may have that vertices have here.
+  void warnAboutFaces(const PlyElement& element) {
+    constexpr std::pair<const char*, const char*> kLeftOut[] = {
+        {"texcoord", "texture coordinates of a face's corners left out"},
+        {"red", "colors of faces left out"}};
+    for (const auto& [property, warning] : kLeftOut) {
+      const bool there = element.find(property) < element.properties.size();
+      if (there && element.count > 0) warnings_.add(warning, file_);
+    }
+  }
+
   // False: there is no such vertex.
   bool addCorner(double corner) {
-    if (!(corner >= 0 && corner < static_cast<double>(mesh_.positions.size()))) return false;
+    const bool exists = corner >= 0 && corner < static_cast<double>(mesh_.positions.size());
+    if (!exists || corner != std::floor(corner)) return false;
     numbers_.push_back(static_cast<std::uint32_t>(corner));
     return true;
   }

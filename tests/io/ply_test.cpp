@@ -1,6 +1,7 @@
 // PLY files: the same model in every form that the format has, and files that are wrong.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "scene/scene.h"
 #include "scene_files.h"
@@ -168,6 +169,34 @@ TEST_F(Ply, StripsAndTheirRestarts) {
   EXPECT_EQ(triangleCount(loadPly(header("ascii", vertices + strips) + points + "5 0 1 2 7 3\n")),
             1u);
   EXPECT_EQ(warned("rest of a strip behind a vertex index out of range dropped"), 1u);
+}
+
+// Not as 0, which is a place like any other.
+TEST_F(Ply, NumbersBeyondDoubleAreInfinite) {
+  const SceneDescription scene =
+      loadPly(header("ascii", kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  EXPECT_EQ(mesh.positions[0].z, 0);
+  EXPECT_EQ(mesh.positions[1].x, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(mesh.positions[2].y, -std::numeric_limits<float>::infinity());
+}
+
+TEST_F(Ply, IndicesAndLengthsAreWhole) {
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(triangleCount(loadPly(header("ascii", kTriangleHeader) + points + "3 0 1.5 2\n")), 0u);
+  EXPECT_EQ(warned("face with a vertex index out of range dropped"), 1u);
+  EXPECT_EQ(errorOfPly(header("ascii", kTriangleHeader) + points + "3.5 0 1 2\n"),
+            "3 m.ply:14: expected a list that fits into the rest of the file");
+}
+
+TEST_F(Ply, WhatOnlyFacesHaveIsCounted) {
+  const std::string vertices =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  loadPly(header("ascii", vertices + "element face 1\nproperty list uchar int vertex_indices\n"
+                                     "property list uchar float texcoord\nproperty uchar red\n") +
+          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 255\n");
+  EXPECT_EQ(warned("texture coordinates of a face's corners left out"), 1u);
+  EXPECT_EQ(warned("colors of faces left out"), 1u);
 }
 
 TEST_F(Ply, NothingToDrawIsSaidWithItsReason) {
