@@ -71,6 +71,11 @@ ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, Me
   std::string text = readTextFile(path, budget.left());
   budget.charge(text.size(), 1, path.string());
   text_.emplace(std::move(text), path.string());
+  const auto warn = [&](const char* kind, const ObjSummary::LeftOut& what) {
+    warnings.add(kind, path.string() + ":" + std::to_string(what.line), what.count);
+  };
+  warn("vertex colors left out", text_->summary().colors);
+  warn("points, lines or free forms left out", text_->summary().others);
   readMaterials();
   for (const MtlMaterial& source : sources_) materials_.push_back(source.material);
 }

@@ -118,6 +118,11 @@ void ObjText::readLine(std::size_t begin, std::size_t end) {
   const std::string_view line(text_.data() + begin, end - begin);
   if (line.starts_with("v")) return readVertex(begin, end);
   if (line.starts_with("f ") || line.starts_with("f\t")) return readFace(begin + 1, end);
+  for (const std::string_view keyword : {"l", "p", "curv", "curv2", "surf"}) {
+    const bool is = line.size() > keyword.size() && line.starts_with(keyword) &&
+                    isObjBlank(line[keyword.size()]);
+    if (is) return leaveOut(summary_.others);
+  }
   const auto nameAfter = [&](std::string_view keyword) {
     return line.size() > keyword.size() && line.starts_with(keyword) &&
                    isObjBlank(line[keyword.size()])
@@ -156,6 +161,12 @@ void ObjText::readVertex(std::size_t begin, std::size_t end) {
         .push_back(count);
   }
   ++count;
+  constexpr int kWithColor = 6;  // x y z r g b
+  if (isPosition && numbers.count >= kWithColor) leaveOut(summary_.colors);
+}
+
+void ObjText::leaveOut(ObjSummary::LeftOut& what) {
+  if (what.count++ == 0) what.line = line_;
 }
 
 void ObjText::readFace(std::size_t begin, std::size_t end) {

@@ -18,6 +18,11 @@ struct ObjSummary {
   std::vector<Name> libraries;  // what follows each mtllib
   std::vector<Name> materials;  // of usemtl, each name once
   std::uint64_t positions = 0, normals = 0, uvs = 0, faces = 0, corners = 0;
+  // What is not shown, and the first line of each: colors of vertices; points, lines, free forms.
+  struct LeftOut {
+    std::uint64_t count = 0, line = 0;
+  };
+  LeftOut colors, others;
   // Numbers of vertices, from 0, with a coordinate that is not finite ("nan", "1.#INF", 1e999).
   std::vector<std::uint64_t> nonFinitePositions, nonFiniteNormals, nonFiniteUvs;
 };
@@ -39,6 +44,7 @@ class ObjText {
   void readLine(std::size_t begin, std::size_t end);
   void readVertex(std::size_t begin, std::size_t end);
   void readFace(std::size_t begin, std::size_t end);
+  void leaveOut(ObjSummary::LeftOut& what);
   std::string here() const { return file_ + ":" + std::to_string(line_); }
 
   std::string text_, file_;

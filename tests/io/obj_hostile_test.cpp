@@ -91,6 +91,15 @@ TEST_F(ObjHostile, NothingAndNonsenseAreEmptyModels) {
   }
 }
 
+TEST_F(ObjHostile, WhatIsNotShownIsCounted) {
+  loadObj(std::string(kTriangleObj) +
+          "v 1 1 1 0.5 0.5 0.5\nv 1 1 1 2\nv 0 0 0 1 0 0 1\nl 1 2\np 3\n");
+  EXPECT_EQ(warned("vertex colors left out"), 2u);
+  EXPECT_EQ(placeOf("vertex colors left out"), "m.obj:5");
+  EXPECT_EQ(warned("points, lines or free forms left out"), 2u);
+  EXPECT_EQ(placeOf("points, lines or free forms left out"), "m.obj:8");
+}
+
 TEST_F(ObjHostile, NothingToDrawIsSaidWithItsReason) {
   loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\n");
   EXPECT_EQ(warned("model with nothing to draw: no faces"), 1u);
