@@ -72,6 +72,9 @@ class GltfMaterialReader {
     }
     if (source_.alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
     if (source_.alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
+    if (source_.alphaMode != "OPAQUE" && m_.alphaMode == GltfMaterial::Alpha::opaque) {
+      warn("unknown alpha mode taken as OPAQUE");
+    }
     m_.alphaCutoff = static_cast<float>(std::clamp(source_.alphaCutoff, 0.0, 2.0));
   }
 

@@ -16,7 +16,8 @@ TEST_F(GltfMended, WhatIsMendedIsCounted) {
       "{\"emissiveStrength\":-2}}},{\"emissiveFactor\":[-1,0,0]},"
       "{\"extensions\":{\"KHR_materials_volume\":{\"attenuationDistance\":0,"
       "\"thicknessFactor\":-1}}},{\"extensions\":{\"KHR_materials_volume\":"
-      "{\"attenuationDistance\":-3}}}]}");
+      "{\"attenuationDistance\":-3}}},{\"alphaMode\":\"blend\"}]}");
+  EXPECT_EQ(warned("unknown alpha mode taken as OPAQUE"), 1u);
   EXPECT_EQ(warned("rotation that is not of unit length normalized"), 2u);
   EXPECT_EQ(warned("last row of a matrix, other than 0 0 0 1, left out"), 1u);
   EXPECT_EQ(warned("negative emission taken as 0"), 2u);
