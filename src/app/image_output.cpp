@@ -24,13 +24,6 @@ bool readFrameNumber(const std::string& text, int& value) {
 
 }  // namespace
 
-std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
   const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
   if (!extensions.empty() && found == extensions.end()) {

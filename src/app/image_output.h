@@ -6,11 +6,10 @@
 
 #include "core/options.h"
 #include "io/image_file.h"
+#include "io/paths.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
-
-std::string extensionOf(const std::string& path);  // in lower case, ".exr"
 
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.

@@ -26,7 +26,6 @@ bool isPng(std::span<const std::uint8_t> file);
 bool isJpeg(std::span<const std::uint8_t> file);
 bool isBmp(std::span<const std::uint8_t> file);
 bool isHdr(std::span<const std::uint8_t> file);
-bool isTgaName(const std::string& path);
 RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits);
 // Refuses CMYK.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/srgb.h"
 #include "io/image_decoders.h"
+#include "io/paths.h"
 #include "io/read_file.h"
 
 namespace whit {
@@ -42,7 +43,7 @@ RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file
   if (isJpeg(file)) return decodeJpeg(name, file, limits);
   if (isBmp(file)) return decodeBmp(name, file, limits);
   if (isHdr(file)) return decodeHdr(name, file, limits);
-  if (isTgaName(name)) return decodeTga(name, file, limits);
+  if (extensionOf(name) == ".tga") return decodeTga(name, file, limits);
   throwBadScene(
       name, "expected a PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
 }

@@ -141,13 +141,6 @@ class TgaReader {
 
 }  // namespace
 
-bool isTgaName(const std::string& path) {
-  if (path.size() < 4) return false;
-  std::string end = path.substr(path.size() - 4);
-  for (char& c : end) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return end == ".tga";
-}
-
 RawImage decodeTga(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits) {
   return TgaReader(path, file, limits).read();

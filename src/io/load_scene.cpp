@@ -1,7 +1,6 @@
 #include "io/load_scene.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -25,12 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSchemaVersion = 1;
-
-bool isSceneFile(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".json";
-}
 
 std::vector<SceneSetting> parseSettings(const LoadOptions& options) {
   std::vector<SceneSetting> settings;
@@ -206,7 +199,7 @@ SceneDescription loadScene(const std::string& name, const LoadOptions& options, 
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, options.shippedScenes);
   if (isModelFile(path)) return loadModelFile(path, parsed, options, warnings, progress);
-  if (isSceneFile(path)) return loadSceneFile(path, parsed, options, warnings, progress);
+  if (extensionOf(path) == ".json") return loadSceneFile(path, parsed, options, warnings, progress);
   throwUsage("\"" + parsed.file + "\": expected a scene (.json), a model (" + modelExtensions() +
              "), or the name of a shipped scene");
 }

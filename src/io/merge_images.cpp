@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/error.h"
+#include "io/paths.h"
 
 namespace whit {
 
@@ -72,8 +73,6 @@ class Merger {
   std::string firstPath_;
 };
 
-bool isExrName(const std::string& path) { return path.ends_with(".exr") || path.ends_with(".EXR"); }
-
 // Keeps in `common` what `part` says too.
 void intersect(ImageMetadata& common, const ImageMetadata& part) {
   std::erase_if(common, [&](const auto& entry) {
@@ -91,7 +90,7 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   bool first = true;
   for (const std::string& path : paths) {
     merger.add(path, readImage(path, limits, warnings), warnings);
-    if (!isExrName(path)) continue;
+    if (extensionOf(path) != ".exr") continue;
     if (first)
       merged.metadata = readExrMetadata(path);
     else

@@ -1,7 +1,6 @@
 #include "io/model.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <string>
 
@@ -20,9 +19,7 @@ const std::map<std::string, Opener>& openers() {
 }
 
 Opener openerOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto found = openers().find(extension);
+  const auto found = openers().find(extensionOf(path));
   return found == openers().end() ? nullptr : found->second;
 }
 

@@ -3,6 +3,7 @@
 #include <sys/auxv.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -69,6 +70,12 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
 }
 
 }  // namespace
+
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
 
 fs::path dataFolder() {
   if (const char* variable = std::getenv("WHIT_DATA"); variable && *variable) return variable;

@@ -8,6 +8,8 @@
 
 namespace whit {
 
+std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
+
 // $WHIT_DATA, else the folder `shared/data` beside the source tree.
 std::filesystem::path dataFolder();
 

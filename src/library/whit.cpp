@@ -1,7 +1,6 @@
 #include "library/whit.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -12,6 +11,7 @@
 #include "core/version.h"
 #include "io/image_file.h"
 #include "io/load_scene.h"
+#include "io/paths.h"
 #include "render/describe_image.h"
 #include "render/renderer.h"
 
@@ -128,8 +128,7 @@ std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.r
 
 void Image::write(const std::string& path) const {
   guarded([&] {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = extensionOf(path);
     if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
     if (extension == ".exr") {
       writeExr(path, data_->film.image, data_->metadata);
