@@ -6,6 +6,7 @@
 
 #include "app/interrupt.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "io/image_file.h"
 #include "viewer/panel.h"
 
@@ -239,7 +240,7 @@ void App::say(const std::string& message) {
 
 void App::fail(const std::string& error) {
   if (!surviveErrors_) throw Error(ExitStatus::checkFailed, error);
-  std::fprintf(stderr, "whit-view: %s\n", error.c_str());
+  std::fprintf(stderr, "whit-view: %s\n", printable(error).c_str());
   error_ = error;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/load_scene.h"
 
@@ -22,8 +23,8 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
 
 void tellWarnings(const Warnings& warnings) {
   for (const auto& [kind, entry] : warnings.entries()) {
-    std::fprintf(stderr, "whit: warning: %s (%llu times, first: %s)\n", kind.c_str(),
-                 static_cast<unsigned long long>(entry.count), entry.first.c_str());
+    std::fprintf(stderr, "whit: warning: %s (%llu times, first: %s)\n", printable(kind).c_str(),
+                 static_cast<unsigned long long>(entry.count), printable(entry.first).c_str());
   }
 }
 

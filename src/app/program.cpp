@@ -7,13 +7,14 @@
 
 #include "app/interrupt.h"
 #include "core/error.h"
+#include "core/printable.h"
 
 namespace whit::cli {
 
 namespace {
 
-int fail(const std::string& name, ExitStatus status, const char* what) {
-  std::fprintf(stderr, "%s: %s\n", name.c_str(), what);
+int fail(const std::string& name, ExitStatus status, const std::string& what) {
+  std::fprintf(stderr, "%s: %s\n", name.c_str(), printable(what).c_str());
   return static_cast<int>(status);
 }
 
@@ -30,7 +31,7 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
     return status;
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
-    return fail(name, failure.status, failure.what.c_str());
+    return fail(name, failure.status, failure.what);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/formatted.h"
+#include "core/printable.h"
 #include "core/stopwatch.h"
 
 namespace whit::cli {
@@ -27,7 +28,7 @@ class ProgressBar : public Progress {
     if (drawn_ && sinceDrawn_.ms() < kBetweenDrawingsMs) return;
     sinceDrawn_ = Stopwatch();
     drawn_ = true;
-    std::fprintf(stderr, "\r%s\x1b[K", progressText(phase, fraction).c_str());
+    std::fprintf(stderr, "\r%s\x1b[K", printable(progressText(phase, fraction)).c_str());
     std::fflush(stderr);
   }
 

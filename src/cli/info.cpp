@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "core/printable.h"
 
 namespace whit::cli {
 
@@ -24,7 +25,7 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
   std::printf("  %-12s", "cameras");
-  for (const Camera& camera : s.cameras) std::printf("%s ", camera.name.c_str());
+  for (const Camera& camera : s.cameras) std::printf("%s ", printable(camera.name).c_str());
   std::printf("\n  %-12s%.1f MB\n", "memory", memoryMb(s, renderer));
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
               renderer.buildMs());
@@ -48,7 +49,7 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
   std::printf("\nwarnings\n");
   for (const auto& [kind, entry] : open.warnings.entries()) {
     std::printf("  %8llu  %s (first: %s)\n", static_cast<unsigned long long>(entry.count),
-                kind.c_str(), entry.first.c_str());
+                printable(kind).c_str(), printable(entry.first).c_str());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "farm/farm.h"
@@ -128,7 +129,7 @@ int Farm::run(const std::function<int(Farm&)>& command) {
     const Failure failure = failureOf(error);
     const auto status = static_cast<std::int32_t>(failure.status);
     if (farm.leads()) {
-      std::fprintf(stderr, "whit: %s\n", failure.what.c_str());
+      std::fprintf(stderr, "whit: %s\n", printable(failure.what).c_str());
       MPI_Abort(MPI_COMM_WORLD, status);
     }
     std::vector<char> bytes(sizeof status);

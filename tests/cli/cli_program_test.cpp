@@ -79,6 +79,24 @@ TEST(Program, RefusesBadScenes) {
   expectFailure({"compare", folder / "no.png", folder / "no.png"}, 3, "no.png");
 }
 
+// A file must not be able to clear the screen, or to write lines of its own.
+TEST(Program, ControlCharactersOfFilesAreSpelled) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "a.json", model = folder / "a.gltf";
+  std::ofstream(scene) << "{\"whit\": 1, \"a\\u001b[2Jb\\nwhit: done\": 1}";
+  expectFailure({"info", scene}, 3, "#/a\\x1b[2Jb\\x0awhit: done: unknown key");
+  std::ofstream(model) << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["A\u001bB"],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+    "nodes": [{"camera": 0, "name": "C\u0007D"}]})";
+  const Outcome told = runWhit({"info", model});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_NE(told.out.find("extension ignored: A\\x1bB"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find("C\\x07D"), std::string::npos) << told.out;
+  const Outcome warned = runWhit({"render", model, "-o", folder / "a.png", "--size", "1x1"});
+  EXPECT_NE(warned.err.find("warning: extension ignored: A\\x1bB"), std::string::npos)
+      << warned.err;
+}
+
 TEST(Program, SaysWhatCannotBeReadOrWritten) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
