@@ -46,6 +46,12 @@ TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position
   dropped.badIndex.report(warnings, "triangle with a vertex index out of range dropped", mesh);
   dropped.badCorner.report(warnings, "triangle with a non-finite or enormous corner dropped", mesh);
   dropped.degenerate.report(warnings, "degenerate triangle dropped", mesh);
+  const bool nothingLeft =
+      !mesh.triangles.empty() && result.count[kDroppedClass] == mesh.triangles.size();
+  if (nothingLeft) {
+    warnings.add("mesh with nothing to draw: all its triangles were dropped",
+                 "mesh '" + mesh.name + "'");
+  }
   for (std::uint8_t c = 0; c <= kDroppedClass; ++c) {
     if (result.count[c] != mesh.triangles.size()) continue;
     result.only = c;

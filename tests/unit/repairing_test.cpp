@@ -47,6 +47,18 @@ TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   EXPECT_EQ(scene.upper, (Vec3f{1, 1, 9}));
 }
 
+TEST(Repairing, MeshesOfWhichNothingIsLeftAreCounted) {
+  constexpr char kNothing[] = "mesh with nothing to draw: all its triangles were dropped";
+  Mesh mesh = square();
+  Warnings some, all;
+  mesh.triangles = {{0, 0, 1}, {0, 1, 2}};
+  Scene::finalize(sceneOf(mesh), some);
+  EXPECT_EQ(warned(some, kNothing), 0u);
+  mesh.triangles = {{0, 0, 1}, {0, 1, 9}};
+  Scene::finalize(sceneOf(mesh), all);
+  EXPECT_EQ(warned(all, kNothing), 1u);
+}
+
 // H15
 TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
   for (const bool glass : {false, true}) {
