@@ -201,32 +201,30 @@ class BmpReader {
         x = 0;
         ++row;
       } else if (value == kMove) {
-        x += bytes_.next();
+        x = std::min(x + bytes_.next(), image_.width);
         row += bytes_.next();
-        checkRun(x, 0);
       } else {
         readPlain(x, row, value);
       }
     }
   }
 
-  void checkRun(int x, int count) const {
-    if (count > image_.width - x) bytes_.fail("expected pixels up to the row's end, found more");
+  // Writers fill rows up to a multiple of four bytes.
+  void storeNext(std::uint32_t index, int& x, int row) {
+    if (x < image_.width) storeColor(index, pixel(x++, row));
   }
 
   // The value's two halves in turn where a pixel has 4 bits.
   void readRun(int& x, int row, int count, int value) {
-    checkRun(x, count);
-    for (int i = 0; i < count; ++i, ++x) storeColor(indexIn(value, i), pixel(x, row));
+    for (int i = 0; i < count; ++i) storeNext(indexIn(value, i), x, row);
   }
 
   // Pixel by pixel, up to a multiple of two bytes.
   void readPlain(int& x, int row, int count) {
-    checkRun(x, count);
     int value = 0;
-    for (int i = 0; i < count; ++i, ++x) {
+    for (int i = 0; i < count; ++i) {
       if (bits_ == 8 || i % 2 == 0) value = bytes_.next();
-      storeColor(indexIn(value, i), pixel(x, row));
+      storeNext(indexIn(value, i), x, row);
     }
     if ((count * bits_ + 7) / 8 % 2 == 1) bytes_.skip(1);
   }
