@@ -50,6 +50,19 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::vertexColors)};
 }
 
+// Along one axis of texture space, from corner 0 to corners 1 and 2. Brought to the order of 1 by a
+// power of two, as the edges are for GeometricNormal: products of tiny spans would vanish.
+struct TextureSpans {
+  VF to1, to2;
+};
+
+HWY_INLINE TextureSpans UnitSpans(VF c0, VF c1, VF c2) {
+  const VF to1 = hn::Sub(c1, c0), to2 = hn::Sub(c2, c0);
+  const VF largest = hn::Max(hn::Abs(to1), hn::Abs(to2));
+  const VF scale = InverseExponent(hn::Min(largest, hn::Set(FloatTag(), 0x1p126f)));
+  return {hn::Mul(to1, scale), hn::Mul(to2, scale)};
+}
+
 // The frame that the texture coordinates span about `ns`: T along u, B along v. False where they
 // span none.
 struct TangentFrame {
@@ -60,8 +73,8 @@ struct TangentFrame {
 HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, const V3& edge2,
                                          const V3& ns, VF handedness) {
   const FloatTag d;
-  const VF du1 = hn::Sub(t.u1, t.u0), dv1 = hn::Sub(t.v1, t.v0);
-  const VF du2 = hn::Sub(t.u2, t.u0), dv2 = hn::Sub(t.v2, t.v0);
+  const auto [du1, du2] = UnitSpans(t.u0, t.u1, t.u2);
+  const auto [dv1, dv2] = UnitSpans(t.v0, t.v1, t.v2);
   const VF det = DifferenceOfProducts(du1, dv2, du2, dv1);
   const VF sign = hn::CopySign(hn::Set(d, 1.0f), det);
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
