@@ -99,6 +99,25 @@ HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lane
   return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
 }
 
+// The mirror coat's reflectance.
+HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, const V3& mirror, VF cosine) {
+  return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), mirror);
+}
+
+// What a dielectric lets through of the light that Fresnel's law does not reflect: the coat comes
+// first.
+HWY_INLINE V3 TransmittanceUnder(const V3& coat, const V3& transmission) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(transmission);
+  const MF enough = hn::Ge(hn::Sub(one, MaxComponent(coat)), largest);
+  if (HWY_LIKELY(hn::AllTrue(d, enough))) return transmission;
+  const auto share = [&](VF reflected) HWY_ATTR {
+    const VF left = hn::Max(hn::Sub(one, reflected), zero);
+    return hn::IfThenElse(hn::Ge(left, largest), one, hn::Div(left, largest));
+  };
+  return Mul3(transmission, {share(coat.x), share(coat.y), share(coat.z)});
+}
+
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
@@ -174,10 +193,10 @@ void AddReflections(Chunk& c) noexcept {
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const auto [mirror, impulseShare] = material.Mirror();
-    V3 weight = MulAdd3(material.GrazingMinusMirror(), SchlickTerm(lanes.cosine), mirror);
+    V3 weight = CoatReflectance(material, mirror, lanes.cosine);
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
       const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
-      weight = Add3(weight, {f, f, f});
+      weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
@@ -246,10 +265,12 @@ void AddRefractions(Chunk& c) noexcept {
     if (hn::AllFalse(d, lanes.live)) continue;
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, material.Mirror().impulseShare);
+    const auto [mirror, ownShare] = material.Mirror();
+    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, ownShare);
     const VF through = hn::Sub(one, interface.reflectance);
-    const V3 weight =
-        Select3(lanes.hidden, {one, one, one}, Scale3(material.Transmission(), through));
+    const V3 transmittance = TransmittanceUnder(CoatReflectance(material, mirror, lanes.cosine),
+                                                material.Transmission());
+    const V3 weight = Select3(lanes.hidden, {one, one, one}, Scale3(transmittance, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,
                        job.shading.reciprocal);

@@ -38,6 +38,19 @@ RgbD coatReflectance(const Material& material, double c) {
   return normal + (grazing - normal) * schlickTerm(c);
 }
 
+// What a dielectric lets through of the light that Fresnel's law does not reflect. The coat comes
+// first: it takes what the transmission leaves, and of that only what is missing, in proportion, so
+// that the glass keeps its hue.
+RgbD transmittanceUnder(const RgbD& coat, const Material& material) {
+  const RgbD transmission(material.transmission);
+  const double largest = maxComponent(transmission);
+  const auto share = [&](double reflected) {
+    const double left = std::max(0.0, 1 - reflected);
+    return left >= largest ? 1 : left / largest;
+  };
+  return transmission * RgbD(share(coat.x), share(coat.y), share(coat.z));
+}
+
 // Seen from nearer to the normal than this, as a sine, the plane of incidence is lost in rounding,
 // and any other serves as well.
 constexpr double kLeastSine = 0.01;
@@ -104,13 +117,15 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   }
   const Material& material = scene.materials[surfel.material];
   const double c = std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
-  RgbD reflectance;
-  if (effects.has(Effect::mirror)) reflectance = coatReflectance(material, c);
+  const bool mirrors = effects.has(Effect::mirror);
+  const RgbD coat = mirrors ? coatReflectance(material, c) : RgbD();
+  RgbD reflectance = coat;
   if (crossing.dielectric) {
     const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
-    if (effects.has(Effect::mirror)) reflectance += RgbD(interface.reflectance);
-    if (interface.reflectance < 1) {
-      result.refracted = {RgbD(material.transmission) * (1 - interface.reflectance),
+    const double passed = 1 - interface.reflectance;
+    if (mirrors) reflectance = RgbD(interface.reflectance) + coat * passed;
+    if (passed > 0) {
+      result.refracted = {transmittanceUnder(coat, material) * passed,
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
   }

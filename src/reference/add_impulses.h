@@ -21,7 +21,8 @@ struct Impulses {
 };
 
 // `stack` is that of the incoming ray, `crossing` what it makes of the surfel. A hidden surface
-// lets the ray pass as it is.
+// lets the ray pass as it is. A dielectric's weights add up to 1 at most, to 1 with a transmission
+// of 1, whatever its coat (Material).
 Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfel,
                       const Crossing& crossing, MediaStack stack,
                       const ShadingChoices& choices = {});

@@ -43,9 +43,11 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   r.alpha = roughness * roughness;
   r.flags = flagsOf(m, effects);
   r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
-  copy3(m.mirror, r.mirror);
+  if (effects.has(Effect::mirror)) {
+    copy3(m.mirror, r.mirror);
+    copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
+  }
   r.impulseShare = m.impulseShare();
-  copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
   copy3(m.transmission, r.transmission);
   return r;
 }

@@ -10,7 +10,12 @@
 //   + sum over lights of (diffuse / pi + glossy lobe) * biradiance * max(0, n.l)
 //   + reflectance * radiance along the mirrored ray
 //   + mean of radiance along rays that sample the glossy lobe (where glossyReflection)
-//   + (1 - F) * transmission * radiance along the refracted ray
+//   + transmittance * radiance along the refracted ray
+// With the mirror's weight m and Fresnel's reflectance F of the interface (0 of what is no
+// dielectric),
+//   reflectance = m + (1 - m) * F
+//   transmittance = (1 - F) * transmission * min(1, (1 - m) / largest channel of the transmission)
+// so that they never make light: the mirror comes first, and what it leaves is all that passes.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +45,7 @@ struct Material {
   // already a mirrored impulse. Frames take --glossy samples of it.
   bool glossyReflection = true;
   Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
-  std::int32_t emissionMap = kNoTexture;  // color
+  std::int32_t emissionMap = kNoTexture;  // color, or radiance where it goes beyond 1
   std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
   // Whether these two are looked up with Mesh::secondUvs.
   bool emissionBySecondUvs = false, normalBySecondUvs = false;
@@ -48,8 +53,8 @@ struct Material {
   float alphaCutoff = 0.5f;
 
   // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at
-  // grazing incidence with Schlick's (1 - cos)^5. A dielectric (transmission above zero) adds its
-  // exact Fresnel reflectance to that.
+  // grazing incidence with Schlick's (1 - cos)^5. A dielectric (transmission above zero) reflects
+  // by its exact Fresnel reflectance besides.
   Rgb mirror{0, 0, 0};
   Rgb mirrorGrazing{0, 0, 0};
 
@@ -72,18 +77,18 @@ struct Material {
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool hasAbsorption() const { return hasTransmission() && maxComponent(absorption) > 0; }
   // What --cutoff counts of the weights of the impulses that start here: 1, or less where they can
-  // add up to more than 1 (a mirror coat on glass). So a pixel's paths never count for more than 1
+  // add up to more than 1 (a glossy lobe on glass). So a pixel's paths never count for more than 1
   // together, and a cutoff c leaves 1/c of them at most, whatever the materials and the depth;
   // times the number of samples where a lobe is sampled several times.
   float impulseShare() const;
 };
 
 inline float Material::impulseShare() const {
-  // Fresnel's reflectance goes to the mirrored ray, the rest of it to the refracted one.
-  const float interface = hasTransmission() ? std::max(1.0f, maxComponent(transmission)) : 0.0f;
   const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
+  // What is not mirrored is refracted.
+  const float both = hasTransmission() ? std::max(1.0f, coat) : coat;
   const float lobe = hasGlossyReflection() ? 1.0f : 0.0f;
-  return 1 / std::max(1.0f, interface + coat + lobe);
+  return 1 / std::max(1.0f, both + lobe);
 }
 
 inline constexpr float kMinRoughness = 0.03f;

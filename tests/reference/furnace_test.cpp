@@ -58,6 +58,68 @@ TEST(Furnace, BoxVanishes) {
   }
 }
 
+Material coatedGlass(float mirror, const Rgb& transmission) {
+  Material m = glassMaterial(1.5f);
+  m.mirror = m.mirrorGrazing = Rgb(mirror);
+  m.transmission = transmission;
+  return m;
+}
+// What is seen of a slab at normal incidence up to the `inside`-th reflection within.
+RgbD seenOfSlab(const Material& material, int inside) {
+  SceneBuilder builder;
+  addSlab(builder, 0, -1, builder.add(material));
+  builder.sky(1);
+  return radianceAlong(builder.build(), {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1));
+}
+
+// A mirror coat takes its share from what the glass reflects and lets through: both faces reflect
+// R = m + (1 - m) F and let the rest through.
+TEST(Furnace, CoatedSlabLosesOnlyTheTail) {
+  for (const float mirror : {0.05f, 0.2f, 0.5f, 1.0f}) {
+    const double r = double{mirror} + (1 - double{mirror}) * 0.04;
+    for (const int inside : {1, 8, 64}) {
+      const double seen = seenOfSlab(coatedGlass(mirror, Rgb(1.0f)), inside).x;
+      EXPECT_NEAR(seen, 1 - std::pow(r, inside) * (1 - r), 1e-14) << mirror << " " << inside;
+    }
+  }
+}
+
+// R + T^2 (1 + R + R^2 + ...), where T = (1 - F) t. A transmission t of 0.9 leaves room for a
+// mirror of 0.05; one of 0.2 leaves 0.8 for it, in all channels alike.
+TEST(Furnace, CoatTakesWhatTintedGlassAbsorbsFirst) {
+  const RgbD tint(Rgb{0.9f, 0.6f, 0.3f});
+  for (const float mirror : {0.05f, 0.2f}) {
+    const double r = double{mirror} + (1 - double{mirror}) * 0.04;
+    const RgbD t = tint * (0.96 * (mirror < 0.1f ? 1 : (1 - double{mirror}) / tint.x));
+    const RgbD wanted = RgbD(r) + t * t / (1 - r);
+    const RgbD seen = seenOfSlab(coatedGlass(mirror, Rgb(tint)), 64);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(seen[i], wanted[i], 1e-14) << mirror << " channel " << i;
+      EXPECT_LE(seen[i], 1 + 1e-14);
+    }
+  }
+}
+
+// From all sides and at all angles, a mirror that grows towards grazing incidence included.
+TEST(Furnace, CoatedBoxIsNoBrighterThanTheRoom) {
+  SceneBuilder builder;
+  Material coated = coatedGlass(0.2f, {1, 0.9f, 0.5f});
+  coated.mirrorGrazing = Rgb(1.0f);
+  const auto material = builder.add(coated);
+  builder.place({"box", {test::box({-1, -0.5f, -1}, {1, 0.5f, 1}, material)}},
+                {Affine::rotation({1, 2, 3}, 33)});
+  builder.sky(1);
+  const Scene scene = builder.build();
+  test::Numbers numbers(13);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d eye = numbers.direction() * 5.0;
+    const Vec3d target{numbers.in(-0.9, 0.9), numbers.in(-0.4, 0.4), numbers.in(-0.9, 0.9)};
+    const double seen = maxComponent(radianceAlong(scene, eye, target - eye, test::uncut(64)));
+    EXPECT_LE(seen, 1 + 1e-12) << i;
+    EXPECT_GE(seen, 0.9) << i;
+  }
+}
+
 // At either face the path is cut short by offset = 32 u (|x| + |y| + |z|) of the interpolated
 // magnitudes, at most 4 + 1 + 4.
 constexpr double kOffsetsOfTwoFaces = 2 * 32 * 9 / 16777216.0;

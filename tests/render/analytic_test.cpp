@@ -137,6 +137,27 @@ TEST(Analytic, H43_whiteFurnaceThroughAGlassSlab) {
   }
 }
 
+// The same through a coated slab, whose faces reflect R = m + (1 - m) F.
+TEST(Analytic, H43_whiteFurnaceThroughACoatedSlab) {
+  for (const float mirror : {0.05f, 0.2f, 0.5f, 1.0f}) {
+    Material coated = glassMaterial(1.5f);
+    coated.mirror = coated.mirrorGrazing = Rgb(mirror);
+    SceneBuilder builder;
+    addSlab(builder, 0, -1, builder.add(coated), 50);
+    builder.sky(1);
+    const Scene scene = builder.build();
+    const double r = static_cast<double>(mirror) * 0.96 + 0.04;
+    for (const int inside : {1, 4, 31}) {
+      RenderOptions o = smallOptions();
+      o.size = ImageSize{1, 1};
+      o.depth = inside + 1;
+      o.cutoff = 0;
+      const double got = static_cast<double>(pictureOf(scene, lookingDown(), o).pixels[0].x);
+      EXPECT_NEAR(got, 1 - std::pow(r, inside) * (1 - r), 1e-6) << mirror << " " << inside;
+    }
+  }
+}
+
 // H62: between two mirrors of reflectance R that emit 1, each pixel is the sum of R^k, k = 0 ..
 // depth.
 TEST(Analytic, H62_hallOfMirrorsIsAGeometricSeries) {

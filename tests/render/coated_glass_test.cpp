@@ -1,0 +1,46 @@
+// Mirror coats on dielectrics: the vector pipeline against the reference.
+#include <gtest/gtest.h>
+
+#include "render/row_of_tiles.h"
+
+namespace whit::test {
+namespace {
+
+// Blocks of glass with coats and tints of all kinds, some of ior 1 and one without a coat.
+Scene blocks() {
+  SceneBuilder builder;
+  builder.sky(1);
+  return rowOfTiles(builder, [&](int i) {
+    Material m = glassMaterial(i % 2 ? 1.5f : 1.0f);
+    m.transmission = i % 3 ? Rgb{0.9f, 0.5f, 0.25f} : Rgb(1.0f);
+    if (i > 0) m.mirror = Rgb{0.6f, 0.2f, 0.05f} * (0.2f * static_cast<float>(i));
+    if (i > 0) m.mirrorGrazing = i == 4 ? m.mirror : Rgb(1.0f);
+    return box({0, 0, -1}, {1, 0.25f, 0}, builder.add(m));
+  });
+}
+
+TEST(CoatedGlass, EveryStageAgreesWithItsTwinOnEveryTarget) {
+  expectStagesAgreeOnEveryTarget(blocks(), smallOptions());
+}
+
+// No pixel is brighter than the sky: nothing emits, and nothing scatters the lamp's light.
+TEST(CoatedGlass, IsNoBrighterThanTheRoom) {
+  constexpr float kRoundingsOfAPath = 1e-5f;
+  for (const Rgb& pixel : render(blocks(), smallOptions()).image.pixels) {
+    ASSERT_LE(maxComponent(pixel), 1 + kRoundingsOfAPath);
+  }
+}
+
+TEST(CoatedGlass, HasTheSameBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(blocks(), smallOptions());
+}
+
+// Without the effect there is no coat that would take light away.
+TEST(CoatedGlass, LetsAllLightThroughWithoutMirrors) {
+  RenderOptions o = smallOptions();
+  o.disable = EffectSet().with(Effect::mirror);
+  expectThePictureOfTheReference(blocks(), o, "without mirrors");
+}
+
+}  // namespace
+}  // namespace whit::test
