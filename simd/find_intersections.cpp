@@ -242,6 +242,17 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on
   }
 }
 
+// Stretched ones to unit length; those that have it keep their bits.
+HWY_INLINE Corners UnitNormals(Corners normals) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f), most = hn::Set(d, static_cast<float>(kStretchedNormal));
+  for (V3* n : {&normals.c0, &normals.c1, &normals.c2}) {
+    const MF stretched = hn::Gt(hn::Abs(hn::Sub(Dot(*n, *n), one)), most);
+    *n = Select3(stretched, NormalizeOr(*n, *n), *n);
+  }
+  return normals;
+}
+
 // The scalar twin is terminatorLift in src/reference/find_intersections.cpp.
 void LiftShadowOrigins(Chunk& c) noexcept {
   const FloatTag d;
@@ -254,7 +265,7 @@ void LiftShadowOrigins(Chunk& c) noexcept {
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto [valid, triangle] = LoadHits(hits, i);
     const TriangleLanes t = LoadTriangles(tables, triangle);
-    WorldCorners w{{t.p0, t.p1, t.p2}, LoadNormals(tables, triangle)};
+    WorldCorners w{{t.p0, t.p1, t.p2}, UnitNormals(LoadNormals(tables, triangle))};
     if (instanced) {
       const InstanceHits on = LoadInstances(hits, valid, i);
       if (!hn::AllFalse(d, on.placed)) CarryToWorld(tables, on, w);

@@ -234,6 +234,8 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
     Vec3d n = triple(normals + 3 * i);
     if (candidate.instance != kNoHit) {
       n = normalized(scene.instances[candidate.instance].toWorld.normal(n));
+    } else if (isStretched(dot(n, n))) {
+      n = normalized(n);
     }
     if (dot(n, s.geometricNormal) < 0) n = -n;
     const double below = -dot(s.position - corners[i], n) - s.offset;

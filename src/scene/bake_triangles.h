@@ -43,7 +43,8 @@ UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const Materi
                             std::uint64_t& repaired);
 
 // The mesh's normals have unit length, or are zero where they are of no use: those become the
-// face's and are added to `repaired`.
+// face's and are added to `repaired`. Where Mesh::fromModel has stretched the model, they get the
+// lengths back that it gave them.
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
                               std::uint64_t& repaired);
 

@@ -170,7 +170,7 @@ bool hasSmoothNormals(const Scene& scene) {
     const Vec3d face = faceNormal(scene.triangles[i]);
     const float* n = scene.normals[i].normal;
     for (int corner = 0; corner < 9; corner += 3) {
-      const Vec3d normal(n[corner], n[corner + 1], n[corner + 2]);
+      const Vec3d normal = normalized(Vec3d(n[corner], n[corner + 1], n[corner + 2]));
       if (maxComponent(abs(normal - face)) > kFlat) return true;
     }
   }

@@ -21,6 +21,7 @@ void transform(Mesh& mesh, const Affine& map) {
     for (Vec3f& n : mesh.normals) n = unitOrZero(Vec3d(n));
     return;
   }
+  mesh.fromModel = map * mesh.fromModel;
   for (Vec3f& p : mesh.positions) p = Vec3f(map.point(Vec3d(p)));
   for (Vec3f& n : mesh.normals) n = unitOrZero(map.normal(Vec3d(n)));
   if (map.determinant() < 0) {

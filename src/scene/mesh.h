@@ -21,6 +21,7 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
+  Affine fromModel;  // what transform() has applied so far
 
   std::uint32_t material(std::size_t triangle) const {
     return materials.size() == 1 ? materials[0] : materials[triangle];
@@ -41,6 +42,8 @@ struct Instance {
 
 // Applies `map` to positions and normals (rounded once), flips the winding if it mirrors. Normals
 // come out as unit vectors, zero where they have no direction. The identity leaves positions alone.
+// What lengths a map that stretches space gives to the normals follows from Mesh::fromModel
+// (makeNormalRecord).
 void transform(Mesh& mesh, const Affine& map);
 
 }  // namespace whit

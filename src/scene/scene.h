@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -50,9 +51,16 @@ struct alignas(64) TriangleRecord {
 };
 static_assert(sizeof(TriangleRecord) == 64);
 
+// One a corner; all three equal the face's where the mesh has none. Of unit length, or where a
+// transform has stretched the model, of lengths in the proportion that this gives them, the longest
+// about 1: so their mean anywhere on the triangle is that of the model's unit normals, carried
+// along.
 struct NormalRecord {
-  float normal[9];  // unit, one a corner; all three equal the face's where the mesh has none
+  float normal[9];
 };
+// By the square of a normal's length: whether that is not 1 up to the rounding of its components.
+inline constexpr double kStretchedNormal = 1e-6;
+inline bool isStretched(double square) { return std::abs(square - 1) > kStretchedNormal; }
 
 struct UvRecord {
   float uv[6];  // as in TriangleRecord

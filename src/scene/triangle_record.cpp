@@ -24,6 +24,28 @@ float finiteOrZero(float x, std::uint64_t& repaired) {
   return 0;
 }
 
+// Lengths that differ by less differ by rounding: of unit vectors in float, and of maps that turn
+// and scale evenly but come from a file of floats.
+constexpr double kSameLength = 1e-6;
+
+// Carries unit normals n by the inverse transpose of `map`, up to a common factor: the unit normal
+// m that n ends as has had the length 1 / |transpose(map) m|. Records of maps that keep angles are
+// left as they are.
+void giveLengths(const Affine& map, NormalRecord& record) {
+  std::array<double, 3> inverse{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float* m = record.normal + 3 * i;
+    const Vec3d normal(m[0], m[1], m[2]);
+    inverse[i] = length(Vec3d(dot(map.x, normal), dot(map.y, normal), dot(map.z, normal)));
+  }
+  const auto [least, most] = std::minmax({inverse[0], inverse[1], inverse[2]});
+  if (!(least > 0) || !(most - least > kSameLength * most)) return;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double component = static_cast<double>(record.normal[i]);
+    record.normal[i] = static_cast<float>(component * (least / inverse[i / 3]));
+  }
+}
+
 // Of the mesh's triangle, to the six numbers `to`.
 void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& corners,
              const MaterialUse& use, float* to, std::uint64_t& repaired) {
@@ -100,6 +122,7 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
     }
     std::copy_n(&n.x, 3, result.normal + 3 * i);
   }
+  if (!(mesh.fromModel == Affine())) giveLengths(mesh.fromModel, result);
   return result;
 }
 

@@ -38,6 +38,28 @@ TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
   expectPoint(cornerOf(scene, 0, 1), {5, 6, 11});
 }
 
+// Stretched within an object, it looks the same whether that is used once or twice.
+TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
+  const std::string egg =
+      "\"objects\": {\"egg\": [{\"shape\": \"sphere\", \"transform\": {\"scale\": [1, 3, 0.5]}}]}, "
+      "\"scene\": [{\"use\": \"egg\"}";
+  const Scene once = Scene::finalize(loadMembers(egg + "]"), warnings_);
+  const Scene twice = Scene::finalize(
+      loadMembers(egg + ", {\"use\": \"egg\", \"transform\": {\"translate\": [5, 0, 0]}}]"),
+      warnings_);
+  EXPECT_TRUE(once.instances.empty());
+  EXPECT_EQ(twice.instances.size(), 2u);
+  ASSERT_EQ(once.normals.size(), twice.normals.size());
+  constexpr float kUlpsOfOne = 3e-7f;  // an object that is instanced is normalized once more
+  float shortest = 1;
+  for (std::size_t i = 0; i < once.normals.size(); ++i) {
+    const float* n = once.normals[i].normal;
+    for (int k = 0; k < 9; ++k) ASSERT_NEAR(n[k], twice.normals[i].normal[k], kUlpsOfOne) << i;
+    shortest = std::min(shortest, length(Vec3f{n[0], n[1], n[2]}));
+  }
+  EXPECT_LT(shortest, 0.9f) << "the object was meant to be stretched";
+}
+
 TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
   const auto error = [&](const std::string& transform) {
     return errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"transform\": " + transform + "}]");

@@ -213,9 +213,8 @@ TEST_F(NormalMapTest, MirroredInstance) {
 TEST(Surfel, InstancesMatchBakedGeometry) {
   const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
                      Affine::scaling({-1000, 0.5, 2});
-  // The same at all corners: baking normalizes them before they are interpolated.
-  const Vec3f n{0, 0.8f, 0.6f};
-  const Mesh mesh = withNormals(test::floorAt(0, 1, 0), {n, n, n, n});
+  const Mesh mesh = withNormals(test::floorAt(0, 1, 0),
+                                {{0, 0.8f, 0.6f}, {0.6f, 0.8f, 0}, {0, 1, 0}, {-0.28f, 0.96f, 0}});
   SceneBuilder instanced, baked;
   instanced.place({"floor", {mesh}}, {map, Affine::translation({0, 1e6, 0})});
   baked.place({"floor", {mesh}}, {map});
@@ -234,6 +233,38 @@ TEST(Surfel, InstancesMatchBakedGeometry) {
     EXPECT_EQ(s.entering, side > 0);
     // |M| times the magnitudes is at least what the moved corners show.
     EXPECT_GE(s.offset, t.offset * (1 - 1e-6));
+  }
+}
+
+// The mean of the model's unit normals, carried by the inverse transpose: of a mesh that is baked
+// into the world as of an instance.
+TEST(Surfel, NormalsAreInterpolatedAsModelled) {
+  const Vec3d scale{1, 4, 0.25};
+  const Affine map = Affine::rotation({1, 2, 3}, 40) * Affine::scaling(scale);
+  const double s = std::sqrt(0.5);
+  const Mesh mesh =
+      withNormals(test::floorAt(0, 1, 0), {{static_cast<float>(-s), static_cast<float>(s), 0},
+                                           {0, static_cast<float>(s), static_cast<float>(s)},
+                                           {0, 1, 0},
+                                           {0, 1, 0}});
+  for (const bool baked : {true, false}) {
+    SceneBuilder builder;
+    std::vector<Affine> placements{map};
+    if (!baked) placements.push_back(Affine::translation({0, 1e4, 0}));
+    builder.place({"floor", {mesh}}, placements);
+    const Scene scene = builder.build();
+    ASSERT_EQ(scene.instances.empty(), baked);
+    // In the triangle of corners 0, 1 and 2, which lie at (-1, 0, 1), (1, 0, 1) and (1, 0, -1).
+    constexpr double kWeights[][2] = {{0.25, 0.25}, {0.5, 0.1}, {0.05, 0.05}, {0.9, 0.05}};
+    for (const auto& [u, v] : kWeights) {
+      const double w = 1 - u - v;
+      const Vec3d mean = Vec3d{-s, s, 0} * w + Vec3d{0, s, s} * u + Vec3d{0, 1, 0} * v;
+      const Vec3d wanted = normalized(map.normal(mean));
+      const Vec3d at = map.point({-w + u + v, 0, w + u - v}), up = map.normal({0, 1, 0});
+      const Surfel seen = surfelAlong(scene, at + up, -up);
+      // Baked corners are rounded to float, and the map stretches by 16.
+      expectVectorNear(seen.shadingNormal, wanted, 1e-5);
+    }
   }
 }
 

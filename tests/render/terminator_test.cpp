@@ -6,34 +6,11 @@
 #include "pi.h"
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
+#include "render/facetted_sphere.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {
 namespace {
-
-// A sphere of radius 1 about the origin, 16 x 32 facets with the sphere's own normals.
-Mesh facettedSphere(std::uint32_t material) {
-  constexpr int kRows = 16, kColumns = 32;
-  Mesh mesh;
-  for (int row = 0; row <= kRows; ++row) {
-    for (int column = 0; column <= kColumns; ++column) {
-      const double polar = kPi * row / kRows, turn = 2 * kPi * column / kColumns;
-      const Vec3f n(Vec3d(std::sin(polar) * std::cos(turn), std::cos(polar),
-                          -std::sin(polar) * std::sin(turn)));
-      mesh.positions.push_back(n);
-      mesh.normals.push_back(n);
-    }
-  }
-  for (std::uint32_t row = 0; row < kRows; ++row) {
-    for (std::uint32_t column = 0; column < kColumns; ++column) {
-      const std::uint32_t a = row * (kColumns + 1) + column, b = a + kColumns + 1;
-      if (row != 0) mesh.triangles.push_back({a, b, a + 1});
-      if (row != kRows - 1) mesh.triangles.push_back({a + 1, b, b + 1});
-    }
-  }
-  mesh.materials = {material};
-  return mesh;
-}
 
 // Not along an edge between facets. The irradiance at the origin is 1.
 const Vec3f kLight{224, 96, 64};

@@ -139,6 +139,38 @@ TEST(Bake, MirroredObjectsKeepTheirOutside) {
   }
 }
 
+// Carried by (1 / 2, 1, 1), the normal that leans along x keeps a length of 0.72 beside the
+// others' 1.
+TEST(Bake, StretchedNormalsKeepTheProportionOfTheirLengths) {
+  Mesh mesh = square();
+  mesh.normals = {{0.8f, 0, 0.6f}, {0, 0.8f, 0.6f}, {0, 0, 1}, {0, 0, 1}};
+  SceneDescription d = sceneOf(mesh);
+  d.instances[0].toWorld = Affine::scaling({2, 1, 1});
+  const NormalRecord record = finalized(std::move(d)).normals.at(0);
+  const Vec3f wanted[] = {{0.4f, 0, 0.6f}, {0, 0.8f, 0.6f}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(length(Vec3d(normalOf(record, i)) - Vec3d(wanted[i])), 2e-7) << i;
+  }
+}
+
+// A map that keeps angles leaves unit vectors, and so does any where all three are as long.
+TEST(Bake, NormalsOfEqualLengthsAreUnitVectors) {
+  Mesh mesh = square();
+  mesh.normals = {{0.8f, 0, 0.6f}, {0, 0.8f, 0.6f}, {0, 0, 1}, {0, 0, 1}};
+  SceneDescription turned = sceneOf(mesh);
+  turned.instances[0].toWorld = Affine::rotation({1, 2, 3}, 33) * Affine::scaling({-7, 7, 7});
+  for (Vec3f& n : mesh.normals) n = {0.8f, 0, 0.6f};
+  SceneDescription stretched = sceneOf(mesh);
+  stretched.instances[0].toWorld = Affine::scaling({2, 1, 1});
+  for (SceneDescription* d : {&turned, &stretched}) {
+    const Scene scene = finalized(std::move(*d));
+    ASSERT_EQ(scene.normals.size(), 2u);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(length(Vec3d(normalOf(scene.normals[0], i))), 1, 2e-7) << i;
+    }
+  }
+}
+
 TEST(Bake, ObjectsUsedMoreOftenAreInstanced) {
   SceneDescription d = sceneOf(square());
   d.objects.push_back({"unused", {square()}});

@@ -1,0 +1,75 @@
+// A stretched object looks the same whether it is used once, and baked into the world, or more
+// often.
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+#include "render/facetted_sphere.h"
+#include "render/pipeline_laws.h"
+
+namespace whit::test {
+namespace {
+
+const Affine kStretched = Affine::rotation({1, 2, 3}, 40) * Affine::scaling({1, 3, 0.3});
+
+// An ellipsoid of few facets under sunlight; used twice, the second one far behind the camera.
+Scene ellipsoid(bool twice, bool terminator = false) {
+  SceneBuilder builder;
+  const Mesh sphere = facettedSphere(builder.add(diffuseMaterial(0.5f)), 8, 12);
+  std::vector<Affine> placements{kStretched};
+  if (twice) placements.push_back(Affine::translation({0, 0, 1000}) * kStretched);
+  builder.place({"sphere", {sphere}}, placements);
+  builder.description.lights = {whit::test::sun({-2, -1, -2}, 2)};
+  if (terminator) builder.description.lights = {lightAt({224, 96, 224}, 1e5f)};
+  builder.description.ambient = {Rgb(0.5f), Rgb(0.1f)};
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0, 0, 8};
+  builder.description.cameras[0].at = {0, 0, 0};
+  return builder.build();
+}
+
+// Corners are rounded to float where they are baked: at the edges of facets another is met, and so
+// much do the others differ by.
+constexpr std::size_t kPixelsAtFacetEdges = 36;  // 0.5 % of the picture
+constexpr float kCornersRounded = 1e-4f;
+
+void expectAlike(const Image& a, const Image& b, const char* what) {
+  std::size_t differences = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    differences += !(maxComponent(abs(a.pixels[i] - b.pixels[i])) < kCornersRounded);
+  }
+  EXPECT_LE(differences, kPixelsAtFacetEdges) << what;
+}
+
+Image referenceOf(const Scene& scene, const RenderOptions& o) {
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.renderReference(chooseCamera(scene, o), film);
+  return film.image;
+}
+
+TEST(StretchedNormals, AreThoseOfAnInstance) {
+  for (const bool terminator : {false, true}) {
+    const Scene once = ellipsoid(false, terminator), twice = ellipsoid(true, terminator);
+    ASSERT_TRUE(once.instances.empty());
+    ASSERT_EQ(twice.instances.size(), 2u);
+    RenderOptions o = smallOptions();
+    o.shading.terminator = terminator;
+    const Image packets = render(once, o).image, reference = referenceOf(once, o);
+    expectAlike(packets, render(twice, o).image, "packets");
+    expectAlike(reference, referenceOf(twice, o), "reference");
+    expectAlike(packets, reference, "packets against reference");
+  }
+}
+
+TEST(StretchedNormals, AgreeWithTheReferenceOnEveryTarget) {
+  for (const bool terminator : {false, true}) {
+    RenderOptions o = smallOptions();
+    o.shading.terminator = terminator;
+    for (const bool twice : {false, true}) {
+      expectStagesAgreeOnEveryTarget(ellipsoid(twice, terminator), o);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
