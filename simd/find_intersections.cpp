@@ -167,7 +167,9 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
                               size_t i) {
   const SurfelColumns& surfels = job.surfels;
   if constexpr ((kBits & kTextured) != 0) {
-    if (job.emissionFactors) {
+    if (job.emissionFactors && HWY_UNLIKELY(job.radianceMaps)) {
+      ApplyRadianceMaps(job, block.emission, slot, i);
+    } else if (job.emissionFactors) {
       ApplyColor(job, block.emission, slot, surfels.emissionR, surfels.emissionG, surfels.emissionB,
                  i);
     }

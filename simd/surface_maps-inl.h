@@ -30,7 +30,8 @@ struct SurfelJob {
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, glossy, instances, secondUvs, transmission, vertexColors;
+  bool absorption, cones, emissionFactors, glossy, instances, radianceMaps, secondUvs, transmission,
+      vertexColors;
 };
 
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
@@ -45,6 +46,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::emissionFactors),
           c.has(Feature::glossy),
           c.has(Feature::instances),
+          c.tables().radianceMaps,
           c.has(Feature::secondUvs),
           c.has(Feature::transmission),
           c.has(Feature::vertexColors)};
@@ -196,6 +198,25 @@ HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t s
   const V3 texture =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
   Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
+}
+
+// Multiplies the emission's factors at slot i with the map that waits at `slot`, of scenes in which
+// some are of radiance. Not inlined: other frames shall not carry this along.
+inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue& queue, size_t slot,
+                                           size_t i) {
+  if (!queue.level.any[slot]) return;
+  const SurfelColumns& to = job.surfels;
+  const MF queued = QueuedLanes(queue.level, slot);
+  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(to.material) + i);
+  const VU flags = MaterialLanes(job.tables, number, queued).Lobe().flags;
+  const V3 color =
+      FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
+  const V3 radiance =
+      FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterRadiance(f); });
+  const V3 texture = Select3(HasFlags(flags, kMaterialEmissionIsRadiance), radiance, color);
+  const V3 factor = Load3(to.emissionR, to.emissionG, to.emissionB, i);
+  Store3(Select3(queued, Mul3(factor, texture), factor), to.emissionR, to.emissionG, to.emissionB,
+         i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.

@@ -189,6 +189,34 @@ HWY_INLINE V3 FilterColor(const Footprint& f) {
   return {FilterColorChannel<0>(f), FilterColorChannel<10>(f), FilterColorChannel<20>(f)};
 }
 
+// code * 2^(exponent - 24) of 9-bit channels (TexelFormat::radiance): the weight of a texel times
+// its power of two, which is exact.
+HWY_INLINE VF RadianceWeight(VU texel, VF weight) {
+  const UintTag du;
+  constexpr uint32_t kBias = 127 - 24;
+  const VU exponent = hn::Add(hn::ShiftRight<27>(texel), hn::Set(du, kBias));
+  return hn::Mul(weight, hn::BitCast(FloatTag(), hn::ShiftLeft<23>(exponent)));
+}
+template <int kShift>
+HWY_INLINE VF RadianceCode(VU texel) {
+  const VU code = hn::And(hn::ShiftRight<kShift>(texel), hn::Set(UintTag(), 511u));
+  return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), code));
+}
+HWY_INLINE V3 FilterRadiance(const Footprint& f) {
+  const VF w00 = RadianceWeight(f.t00, f.w00), w10 = RadianceWeight(f.t10, f.w10);
+  const VF w01 = RadianceWeight(f.t01, f.w01), w11 = RadianceWeight(f.t11, f.w11);
+  const auto sum = [&](const V4& code) HWY_ATTR {
+    const VF lower = hn::MulAdd(code.y, w10, hn::Mul(code.x, w00));
+    return hn::MulAdd(code.w, w11, hn::MulAdd(code.z, w01, lower));
+  };
+  return {sum({RadianceCode<0>(f.t00), RadianceCode<0>(f.t10), RadianceCode<0>(f.t01),
+               RadianceCode<0>(f.t11)}),
+          sum({RadianceCode<9>(f.t00), RadianceCode<9>(f.t10), RadianceCode<9>(f.t01),
+               RadianceCode<9>(f.t11)}),
+          sum({RadianceCode<18>(f.t00), RadianceCode<18>(f.t10), RadianceCode<18>(f.t01),
+               RadianceCode<18>(f.t11)})};
+}
+
 // code / 255 of an 8-bit channel (TexelFormat::data).
 template <int kShift>
 HWY_INLINE VF Code(VU texel) {

@@ -68,7 +68,8 @@ class Baker {
     for (const GltfBakedMap map : {kGltfDiffuse, kGltfSpecular}) {
       if (!wantsBaked(material_, map)) continue;
       maps[map].emplace();
-      start(*maps[map], TexelFormat::color);
+      const bool emits = material_.unlit && map == kGltfDiffuse && rawBase_;
+      start(*maps[map], emits ? emissionFormat(*rawBase_) : TexelFormat::color);
     }
     sum(maps);
     const double texels = static_cast<double>(width_) * height_;
@@ -108,7 +109,7 @@ class Baker {
         tint_ += RgbD(tint);
         if (maps[kGltfDiffuse]) {
           const Rgb diffuse = mixes ? base.color * (1 - metal) : base.color;
-          maps[kGltfDiffuse]->texels.push_back(encodeColorTexel(diffuse));
+          maps[kGltfDiffuse]->texels.push_back(encodeTexel(diffuse, maps[kGltfDiffuse]->format));
         }
         if (!maps[kGltfSpecular]) continue;
         const Rgb f0 =

@@ -65,8 +65,8 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
   return texture;
 }
 
-Texture emissionTexture(const GltfMaterial& material, const RawImage& raw) {
-  Texture texture = makeTexture(material.name, raw, TexelFormat::color);
+Texture emissionTexture(const GltfMaterial& material, const RawImage& raw, Warnings& warnings) {
+  Texture texture = makeEmissionTexture(material.name, raw, warnings);
   texture.wrapU = material.emissiveMap.wrapU;
   texture.wrapV = material.emissiveMap.wrapV;
   return texture;
@@ -130,8 +130,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     if (wantsBaked(m, kGltfSpecular)) maps.specular = slots[kGltfSpecular];
     if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kGltfAlpha];
   }
-  const auto single = [&](const GltfTexture& map,
-                          Texture (*make)(const GltfMaterial&, const RawImage&)) {
+  const auto single = [&](const GltfTexture& map, const auto& make) {
     return textures.add(1, [=, image = image(map), &textures] {
       const ImageLimits limits = textures.limits();
       const auto raw = decoded(image, limits);
@@ -143,8 +142,11 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       return made;
     })[0];
   };
+  const auto emissive = [&warnings = warnings_](const GltfMaterial& from, const RawImage& raw) {
+    return emissionTexture(from, raw, warnings);
+  };
   if (m.normalMap.exists()) maps.normal = single(m.normalMap, normalTexture);
-  if (m.emitsByMap()) maps.emission = single(m.emissiveMap, emissionTexture);
+  if (m.emitsByMap()) maps.emission = single(m.emissiveMap, emissive);
   addMeans(m, means, textures);
   return maps;
 }

@@ -139,6 +139,15 @@ RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> f
   return raw;
 }
 
+bool holdsRadiance(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::vector<std::uint8_t> beginning(4);
+  std::ifstream in(path, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(beginning.data()), 4)) return false;
+  return isExr(beginning) || (beginning[0] == '#' && beginning[1] == '?');
+}
+
 Image readImage(const std::string& path, const ImageLimits& limits, Warnings&) {
   ExrPixels source;
   if (isExrFile(path)) {

@@ -42,6 +42,10 @@ RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnin
 RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
                         const ImageLimits& limits, Warnings& warnings);
 
+// Whether the file holds linear light without an upper bound (Radiance HDR, OpenEXR), by its first
+// bytes; not where it cannot be read.
+bool holdsRadiance(const std::string& path);
+
 // As linear RGB: 8-bit codes decoded from sRGB, gray spread to three channels, alpha dropped. EXR
 // keeps its data window (the part inside the display window), and floats keep their bits, NaN and
 // infinities included.

@@ -17,11 +17,12 @@ constexpr int kLargestPriority = 1000;
 std::vector<std::string> useNames() { return {"color", "data"}; }
 
 const char* formatName(TexelFormat format) {
-  return format == TexelFormat::color ? "color" : "data";
+  return format == TexelFormat::data ? "data" : "color";
 }
 
 TexelFormat formatOf(TextureUse use) {
-  return use == TextureUse::color ? TexelFormat::color : TexelFormat::data;
+  const bool isColor = use == TextureUse::color || use == TextureUse::emission;
+  return isColor ? TexelFormat::color : TexelFormat::data;
 }
 
 Wrap readWrapWord(const JsonValue& value) {
@@ -133,7 +134,7 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
     const bool data = as->word(useNames()) == "data";
     const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
     if (is != formatOf(use)) failFormat(name, is, formatOf(use));
-    use = data ? TextureUse::data : TextureUse::color;
+    if (data) use = TextureUse::data;
   }
   object.finish();
   return context_.textures.add(source, {use})[0];
@@ -142,6 +143,9 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
 std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
   findNamed(textures_, name, "texture");
   NamedTexture& named = textures_.at(name.text());
+  // Patterns do not go beyond 1.
+  const bool isPattern = JsonObject(named.definition).has("pattern");
+  if (use == TextureUse::emission && isPattern) use = TextureUse::color;
   const auto known = named.slots.find(use);
   if (known != named.slots.end()) return known->second;
   return named.slots[use] = load(named.definition, name, use);
@@ -176,7 +180,7 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   readMap(object, "specularMap", TextureUse::color, m.specularMap);
   m.roughness = object.number("roughness", m.roughness, 0, 1);
   m.emission = object.color("emission", m.emission);
-  readMap(object, "emissionMap", TextureUse::color, m.emissionMap);
+  readMap(object, "emissionMap", TextureUse::emission, m.emissionMap);
   readMap(object, "normalMap", TextureUse::data, m.normalMap);
   readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
   m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);

@@ -63,8 +63,18 @@ std::uint32_t texelOfCodes(const std::array<std::uint8_t, 4>& c, TexelFormat for
 }
 
 std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
-  if (format == TexelFormat::color) return encodeColorTexel({v[0], v[1], v[2]});
-  return encodeDataTexel(v[0], v[1], v[2], v[3]);
+  if (format == TexelFormat::data) return encodeDataTexel(v[0], v[1], v[2], v[3]);
+  return encodeTexel({v[0], v[1], v[2]}, format);
+}
+
+// The pixels of a linear image of which some color is larger.
+std::uint64_t countAbove(const RawImage& raw, float limit) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; raw.linear && i < texelCount(raw); ++i) {
+    const auto c = channelsOf(raw.values, raw.channels, i, 1.0f);
+    count += std::max({c[0], c[1], c[2]}) > limit;
+  }
+  return count;
 }
 
 }  // namespace
@@ -84,6 +94,19 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
             : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format));
   }
   return texture;
+}
+
+TexelFormat emissionFormat(const RawImage& raw) {
+  return countAbove(raw, 1) > 0 ? TexelFormat::radiance : TexelFormat::color;
+}
+
+std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format) {
+  return format == TexelFormat::radiance ? encodeRadianceTexel(linear) : encodeColorTexel(linear);
+}
+
+Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings) {
+  warnings.add("emission texel above 65408 clamped", name, countAbove(raw, kLargestRadianceTexel));
+  return makeTexture(name, raw, emissionFormat(raw));
 }
 
 EnvironmentImage makeEnvironment(const RawImage& raw) {

@@ -12,6 +12,12 @@ namespace whit {
 // codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
 // alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
+// The same for what is emitted, of colors: linear images with texels above 1 keep their range
+// (TexelFormat::radiance), all others are color textures. What is beyond that format's largest
+// value is clamped, and counted in `warnings`.
+Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings);
+TexelFormat emissionFormat(const RawImage& raw);
+std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format);  // of color or radiance
 // Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
 EnvironmentImage makeEnvironment(const RawImage& raw);
 

@@ -16,10 +16,12 @@ std::uint64_t texelsOf(const RawImage& raw) {
 
 // Nothing: the image has no such texture.
 std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
-                               const TextureSource& source) {
+                               const TextureSource& source, Warnings& warnings) {
   switch (use) {
     case TextureUse::color:
       return makeTexture(name, raw, TexelFormat::color);
+    case TextureUse::emission:
+      return makeEmissionTexture(name, raw, warnings);
     case TextureUse::data:
       return makeTexture(name, raw, TexelFormat::data);
     case TextureUse::bump:
@@ -45,7 +47,8 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
                                              const std::vector<TextureUse>& uses) {
   std::vector<std::int32_t> slots, newSlots;
   std::vector<TextureUse> newUses;
-  for (const TextureUse use : uses) {
+  for (TextureUse use : uses) {
+    if (use == TextureUse::emission && !holdsRadiance(source.path)) use = TextureUse::color;
     const Key key{source.path, use, source.wrapU, source.wrapV,
                   use == TextureUse::bump ? source.bumpScale : 1.0f};
     const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
@@ -135,7 +138,7 @@ void TextureLoader::decode(const TextureSource& source, const std::vector<Textur
   for (std::size_t i = 0; i < uses.size(); ++i) {
     MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), source.path);
     const MemoryHold copy = holdCopy(raw, uses[i]);
-    std::optional<Texture> texture = makeUse(name, raw, uses[i], source);
+    std::optional<Texture> texture = makeUse(name, raw, uses[i], source, warnings_);
     if (texture) {
       texels.keep();
       texture->wrapU = source.wrapU;

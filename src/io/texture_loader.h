@@ -22,6 +22,7 @@ namespace whit {
 // What an image is used for.
 enum class TextureUse {
   color,
+  emission,  // a color that is not held to 1
   data,
   bump,        // a height map becomes a normal map, a normal map stays what it is
   mask,        // alpha, if any texel is not opaque; else the first channel
@@ -42,7 +43,7 @@ class TextureLoader {
   TextureLoader(int threads, MemoryBudget& budget, Warnings& warnings, Progress* progress);
 
   // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
-  // use gives the same slot again.
+  // use gives the same slot again; emission is color where the file cannot go beyond 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
   // A texture that `make` computes, beside the rest.
   std::int32_t add(std::function<Texture()> make);

@@ -60,13 +60,15 @@ double filtered(const Texture& texture, double u, double v, TextureFilter filter
 }  // namespace
 
 RgbD sampleColor(const Texture& texture, double u, double v, TextureFilter filter) {
-  const auto channel = [&](int shift) {
-    return filtered(texture, u, v, filter, [shift](std::uint32_t texel) {
-      const double root = (texel >> shift & 1023u) / 1023.0;
+  const bool radiance = texture.format == TexelFormat::radiance;
+  const auto channel = [&](int number) {
+    return filtered(texture, u, v, filter, [=](std::uint32_t texel) {
+      if (radiance) return static_cast<double>(decodeRadianceTexel(texel)[number]);
+      const double root = (texel >> (10 * number) & 1023u) / 1023.0;
       return root * root;
     });
   };
-  return {channel(0), channel(10), channel(20)};
+  return {channel(0), channel(1), channel(2)};
 }
 
 DataSample sampleData(const Texture& texture, double u, double v, TextureFilter filter) {

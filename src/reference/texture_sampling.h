@@ -8,7 +8,7 @@ namespace whit::reference {
 
 // u to the right, v upwards; texel centers lie at half-integers. Coordinates that are not finite or
 // beyond 2^20 either way, where a float holds no fraction of a texel any more, count as 0.
-// Linear light, of a texture in TexelFormat::color.
+// Linear light, of a texture in TexelFormat::color or TexelFormat::radiance.
 RgbD sampleColor(const Texture& texture, double u, double v,
                  TextureFilter filter = TextureFilter::bilinear);
 

@@ -52,10 +52,21 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   return r;
 }
 
+bool isRadiance(const Scene& scene, std::int32_t map) {
+  return map != kNoTexture &&
+         scene.textures[static_cast<std::size_t>(map)].format == TexelFormat::radiance;
+}
+
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   tables.materials.clear();
+  tables.radianceMaps = false;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    tables.materials.push_back(recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects));
+    MaterialRecord r = recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects);
+    if (isRadiance(scene, r.emissionMap)) {
+      r.flags |= kMaterialEmissionIsRadiance;
+      tables.radianceMaps = true;
+    }
+    tables.materials.push_back(r);
   }
   if (tables.materials.empty()) tables.materials.push_back(recordOf(Material{}, 0, effects));
 }

@@ -34,9 +34,12 @@ std::vector<Cover> coversOf(int size, int half) {
 }
 
 // Light of a 10-bit color channel, or the value of an 8-bit one, in units of the largest code
-// (squared).
+// (squared); of radiance itself.
 double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
   if (format == TexelFormat::data) return texel >> (8 * channel) & 255u;
+  if (format == TexelFormat::radiance) {
+    return static_cast<double>(decodeRadianceTexel(texel)[channel]);
+  }
   const double root = texel >> (10 * channel) & 1023u;
   return root * root;
 }
@@ -60,6 +63,9 @@ std::uint32_t meanTexel(const Texture& texture, const Cover& columns, const Cove
         sum[static_cast<std::size_t>(c)] += share * valueOf(texture.format, texel, c);
       }
     }
+  }
+  if (texture.format == TexelFormat::radiance) {
+    return encodeRadianceTexel(Rgb(RgbD(sum[0], sum[1], sum[2])));
   }
   std::uint32_t mean = 0;
   for (int c = 0; c < channels; ++c) {

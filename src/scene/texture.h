@@ -17,6 +17,10 @@ enum class TexelFormat : std::uint8_t {
   color,
   // Data (normals, factors): 8 bits a channel, value = code / 255.
   data,
+  // Radiance, of emission maps that go beyond 1: 9 bits a channel and in the top 5 an exponent that
+  // they share, value = code * 2^(exponent - 24) (EXT_texture_shared_exponent). Up to 65408; each
+  // channel is within 1/512 of the texel's largest, or within 2^-25 of what is nearly black.
+  radiance,
 };
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
@@ -31,10 +35,15 @@ struct Texture {
   std::vector<std::uint32_t> texels;
 };
 
-// One texel of each format from channels in [0, 1]; out-of-range and NaN channels are clamped.
+// One texel of each format from channels in [0, 1], of radiance to kLargestRadianceTexel;
+// out-of-range and NaN channels are clamped.
 std::uint32_t encodeColorTexel(const Rgb& linear);
 std::uint32_t encodeDataTexel(float r, float g, float b, float a);
+std::uint32_t encodeRadianceTexel(const Rgb& radiance);
 Rgb decodeColorTexel(std::uint32_t texel);
+Rgb decodeRadianceTexel(std::uint32_t texel);  // exact
+
+inline constexpr float kLargestRadianceTexel = 65408;  // 511 * 2^7
 
 // Equirectangular radiance map: row 0 is the zenith (+y), column 0 begins at direction -z and
 // columns run towards +x. Planes, so that kernels gather one channel at a time.

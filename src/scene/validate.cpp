@@ -129,13 +129,14 @@ void checkTextures(const SceneDescription& d) {
 }
 
 void checkMap(const SceneDescription& d, const std::string& where, const char* slot,
-              std::int32_t index, TexelFormat format) {
+              std::int32_t index, TexelFormat format, bool orRadiance = false) {
   if (index == kNoTexture) return;
   if (index < 0 || static_cast<std::size_t>(index) >= d.textures.size()) {
     throwBadScene(where, std::string(slot) + " is texture " + std::to_string(index) +
                              ", expected below " + std::to_string(d.textures.size()));
   }
-  if (d.textures[static_cast<std::size_t>(index)].format != format) {
+  const TexelFormat is = d.textures[static_cast<std::size_t>(index)].format;
+  if (is != format && !(orRadiance && is == TexelFormat::radiance)) {
     throwBadScene(where, std::string(slot) + " expected a texture of " +
                              (format == TexelFormat::color ? "color" : "data"));
   }
@@ -166,7 +167,7 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
     const std::string where = place(d.name, "material", i, m.name);
     checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::color);
     checkMap(d, where, "specularMap", m.specularMap, TexelFormat::color);
-    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color);
+    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color, true);
     checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
     checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
     if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {

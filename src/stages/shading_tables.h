@@ -36,6 +36,8 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
                                kMaterialTintsSpecular = 32, kMaterialTintsEmission = 64;
 // Maps that are looked up with the second texture coordinates.
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
+// The emission map's texels are of radiance, not of color.
+inline constexpr std::uint32_t kMaterialEmissionIsRadiance = 512;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
 // kTexelCells bilinear footprints that begin in it whole, so that neighbors repeat a row and a
@@ -96,7 +98,8 @@ struct ShadingTables {
   std::vector<Light> lights;
   SkyTable sky;
   Ambient ambient;
-  bool samePriority = true;  // no medium outranks another
+  bool samePriority = true;   // no medium outranks another
+  bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance
 };
 
 }  // namespace whit

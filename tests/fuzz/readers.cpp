@@ -154,6 +154,7 @@ void readImageFile(const fs::path& file) {
   }
   checkTexture(makeTexture("t", raw, TexelFormat::color));
   checkTexture(makeTexture("t", raw, TexelFormat::data));
+  checkTexture(makeEmissionTexture("t", raw, warnings));
   checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
   if (hasTranslucentAlpha(raw)) checkTexture(makeTexture("t", alphaOf(raw), TexelFormat::data));
   require(!makeEnvironment(raw).r.empty(), "a sky without pixels");

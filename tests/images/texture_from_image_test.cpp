@@ -52,6 +52,31 @@ TEST(TextureFromImage, LinearValuesAreEncoded) {
   EXPECT_EQ(makeTexture("t", floats(1, {1}), TexelFormat::data).texels[0], 0xffffffffu);
 }
 
+// Only what goes beyond 1 is kept otherwise than any color is.
+TEST(TextureFromImage, EmissionAboveOneKeepsItsRange) {
+  Warnings warnings;
+  const Texture bright = makeEmissionTexture("t", floats(3, {8, 0.5f, 3, 0, 0.25f, 1}), warnings);
+  EXPECT_EQ(bright.format, TexelFormat::radiance);
+  EXPECT_EQ(decodeRadianceTexel(bright.texels.at(0)), (Rgb{8, 0.5f, 3}));
+  EXPECT_EQ(decodeRadianceTexel(bright.texels.at(1)), (Rgb{0, 0.25f, 1}));
+  const RawImage dim = floats(3, {0.25f, 1, 0.1f}), coded = codes(3, {255, 128, 0});
+  for (const RawImage* raw : {&dim, &coded}) {
+    const Texture color = makeEmissionTexture("t", *raw, warnings);
+    EXPECT_EQ(color.format, TexelFormat::color);
+    EXPECT_EQ(color.texels, makeTexture("t", *raw, TexelFormat::color).texels);
+  }
+  // Alpha is no color.
+  EXPECT_EQ(makeEmissionTexture("t", floats(4, {1, 1, 1, 7}), warnings).format, TexelFormat::color);
+  EXPECT_TRUE(warnings.entries().empty());
+}
+
+TEST(TextureFromImage, EmissionBeyondTheLargestIsClampedAndCounted) {
+  Warnings warnings;
+  const Texture t = makeEmissionTexture("sun", floats(1, {1e6f, 2, 65409}), warnings);
+  EXPECT_EQ(decodeRadianceTexel(t.texels.at(0)), Rgb(kLargestRadianceTexel));
+  EXPECT_EQ(warnings.entries().at("emission texel above 65408 clamped").count, 2u);
+}
+
 TEST(TextureFromImage, KeepsNameSizeAndOrder) {
   RawImage raw = codes(1, {1, 2, 3, 4, 5, 6});
   raw.width = 2;

@@ -44,6 +44,16 @@ TEST(Halved, ColorsAreMeansOfLight) {
   EXPECT_EQ(half.texels[0], gray(512));
 }
 
+TEST(Halved, RadianceIsTheMeanOfRadiance) {
+  const Texture t = makeTexture(TexelFormat::radiance, 2, 2,
+                                {encodeRadianceTexel({1000, 4, 0}), encodeRadianceTexel({8, 4, 0}),
+                                 encodeRadianceTexel({0, 4, 0}), encodeRadianceTexel({0, 4, 0})});
+  const Texture half = halved(t);
+  EXPECT_EQ(half.format, TexelFormat::radiance);
+  ASSERT_EQ(half.texels.size(), 1u);
+  EXPECT_EQ(decodeRadianceTexel(half.texels[0]), (Rgb{252, 4, 0}));
+}
+
 TEST(Halved, DataAreMeansOfCodes) {
   const Texture t =
       makeTexture(TexelFormat::data, 2, 2, {0x000000ffu, 0x80000201u, 0x80000201u, 0x000000ffu});

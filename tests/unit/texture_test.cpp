@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "core/srgb.h"
 
@@ -54,6 +55,43 @@ TEST(Texel, OutOfRangeAndNanAreClamped) {
   EXPECT_EQ(encodeColorTexel({nan, -1, inf}), 0x3ffu << 20);
   EXPECT_EQ(encodeColorTexel({-inf, 7, -0.0f}), 0x3ffu << 10);
   EXPECT_EQ(encodeDataTexel(nan, -1, inf, 2), 0xffff0000u);
+}
+
+// Half a code, of 256 at least in the largest channel.
+constexpr double kOfTheLargest = 1.0 / 512;
+
+TEST(RadianceTexel, IsWithinItsBoundFromBlackToTheLargest) {
+  std::mt19937 random(1);
+  const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
+  for (int i = 0; i < 100000; ++i) {
+    const float largest = std::min(std::ldexp(1 + unit(), i % 48 - 32), kLargestRadianceTexel);
+    const Rgb wanted{largest * unit(), largest, largest * unit()};
+    const Rgb got = decodeRadianceTexel(encodeRadianceTexel(wanted));
+    const double bound = std::max(static_cast<double>(largest) * kOfTheLargest, 0x1p-25);
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_NEAR(static_cast<double>(got[c]), static_cast<double>(wanted[c]), bound) << i;
+    }
+  }
+}
+
+TEST(RadianceTexel, KeepsWhatNineBitsHold) {
+  for (const float x :
+       {0.0f, 0x1p-24f, 0.25f, 1.0f, 8.0f, 511.0f, 1000.0f, kLargestRadianceTexel}) {
+    EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel(Rgb(x))), Rgb(x));
+  }
+  EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel({8, 0.5f, 3})), (Rgb{8, 0.5f, 3}));
+  // 511.75 is rounded up to the next power of two.
+  EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel(Rgb(511.75f))), Rgb(512.0f));
+  EXPECT_EQ(encodeRadianceTexel({8, 0.5f, 3}), 256u | 16u << 9 | 96u << 18 | 19u << 27);
+}
+
+TEST(RadianceTexel, OutOfRangeAndNanAreClamped) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel({nan, -1, inf})),
+            (Rgb{0, 0, kLargestRadianceTexel}));
+  EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel({1e30f, 65536, 0})),
+            (Rgb{kLargestRadianceTexel, kLargestRadianceTexel, 0}));
 }
 
 TEST(DataTexel, EightBitsAChannel) {

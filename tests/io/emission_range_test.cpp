@@ -1,0 +1,100 @@
+// Emission maps from images that hold radiance: what is above 1 stays above 1.
+#include "gltf_pictures.h"
+#include "io/image_file.h"
+
+namespace whit {
+namespace {
+
+// Of a texel's largest channel (TexelFormat::radiance), and some roundings.
+constexpr double kOfTheLargest = 1.0 / 512 + 1e-6;
+
+const std::vector<Rgb> kTexels{{8, 6.5f, 0.3f}, {60000, 41234, 999}};
+
+void expectTexels(const std::vector<Rgb>& pixels, const std::vector<Rgb>& wanted) {
+  ASSERT_EQ(pixels.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const double bound = static_cast<double>(maxComponent(wanted[i])) * kOfTheLargest;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(static_cast<double>(pixels[i][c]), static_cast<double>(wanted[i][c]), bound)
+          << "pixel " << i << " channel " << c;
+    }
+  }
+}
+
+class EmissionRange : public GltfMaterials {
+ protected:
+  void saveExr(const std::vector<Rgb>& texels) const {
+    Image image(static_cast<int>(texels.size()), 1);
+    image.pixels = texels;
+    writeExr(root_ + "glow.exr", image, {});
+  }
+  // Each pixel sees the middle of a texel, in packets or by the reference.
+  std::vector<Rgb> pixels(bool reference) {
+    const Scene scene = Scene::finalize(
+        loadMembers("\"size\": [2, 1], \"cameras\": {\"above\": {\"eye\": [0, 3, 0], "
+                    "\"at\": [0, 0, 0], \"up\": [0, 0, -1], \"orthographicHeight\": 1}}, "
+                    "\"textures\": {\"glow\": {\"image\": \"glow.exr\", \"wrap\": \"clamp\"}}, "
+                    "\"materials\": {\"lamp\": {\"diffuse\": 0, \"emission\": [1, 1, 1], "
+                    "\"emissionMap\": \"glow\"}}, \"scene\": [{\"shape\": \"quad\", "
+                    "\"width\": 2, \"depth\": 1, \"material\": \"lamp\"}]"),
+        warnings_);
+    RenderOptions options;
+    options.threads = 1;
+    Renderer renderer(scene, options);
+    Film film = makeFilm(scene, options);
+    if (reference) {
+      renderer.renderReference(scene.cameras[0], film);
+    } else {
+      renderer.render(scene.cameras[0], film);
+    }
+    return film.image.pixels;
+  }
+};
+
+TEST_F(EmissionRange, OfExrFilesIsKept) {
+  saveExr(kTexels);
+  for (const bool reference : {true, false}) expectTexels(pixels(reference), kTexels);
+  EXPECT_TRUE(warnings_.entries().empty());
+}
+
+TEST_F(EmissionRange, BeyondTheLargestIsClampedAndCounted) {
+  saveExr({{1e6f, 0, 0}, {70000, 1, 1}});
+  expectTexels(pixels(false), {{65408, 0, 0}, {65408, 1, 1}});
+  EXPECT_EQ(warned("emission texel above 65408 clamped"), 2u);
+}
+
+// 128 / 256 * 2^(132 - 128) = 8, and 192 / 256 * 2^(138 - 128) = 768.
+std::string hdrFile() {
+  return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
+         std::string("\x80\x40\x20\x84\xc0\xc0\x60\x8a", 8);
+}
+
+TEST_F(EmissionRange, OfGltfModelsIsKept) {
+  save("glow.hdr", hdrFile());
+  useImages({"glow.hdr"});
+  const std::vector<Rgb> wanted{{8, 4, 2}, {768, 768, 384}};
+  const std::string map = "\"emissiveTexture\":{\"index\":0}";
+  const auto glows = picture(
+      {{0, matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":[1,1,1]," + map), 1}}, 2);
+  expectTexels({glows[0], glows[1]}, wanted);
+  const auto unlit = picture({{0,
+                               "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
+                               "\"extensions\":{\"KHR_materials_unlit\":{}}}",
+                               1}},
+                             2);
+  expectTexels({unlit[0], unlit[1]}, wanted);
+}
+
+// One decoding serves both where the image cannot go beyond 1.
+TEST_F(EmissionRange, ImagesOfCodesAreSharedWithOtherMaps) {
+  save("t.tga", tga(1, 1, {{200, 100, 50}}));
+  const SceneDescription scene = loadMembers(
+      "\"textures\": {\"t\": {\"image\": \"t.tga\"}}, \"materials\": {\"m\": "
+      "{\"diffuseMap\": \"t\", \"emission\": 1, \"emissionMap\": \"t\"}}, "
+      "\"scene\": [{\"shape\": \"quad\", \"material\": \"m\"}]");
+  EXPECT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].format, TexelFormat::color);
+}
+
+}  // namespace
+}  // namespace whit
