@@ -1,0 +1,82 @@
+// The stacks of nested media that the kernels keep: every stack of up to four, against the
+// reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/media.h"
+#include "reference/small_scenes.h"
+#include "render/kernel_surfels.h"
+
+namespace whit::test {
+namespace {
+
+constexpr std::uint32_t kMedia = 5;  // four that fit a stack, and one that is in none
+// An exponential in float and what it is taken of.
+constexpr double kAbsorbed = 12 * 0x1p-24;
+
+// Triangle 2 m of the scene bounds medium m + 1.
+Scene sceneOfMedia(const std::vector<int>& priorities) {
+  SceneBuilder builder;
+  for (std::uint32_t m = 0; m < kMedia; ++m) {
+    Material glass = glassMaterial(1.1f + 0.1f * static_cast<float>(m), priorities[m]);
+    glass.absorption = Rgb(0.25f * static_cast<float>(m + 1));
+    builder.add(floorAt(static_cast<float>(m), 1, builder.add(glass)));
+  }
+  return builder.build();
+}
+
+// All of media 1 to 4, the empty one first.
+std::vector<std::uint32_t> everyStack() {
+  std::vector<std::uint32_t> stacks{0};
+  for (std::size_t first = 0, depth = 0; depth < 4; ++depth) {
+    const std::size_t end = stacks.size();
+    for (; first < end; ++first) {
+      for (std::uint32_t medium = 1; medium < kMedia; ++medium) {
+        stacks.push_back(stacks[first] << 8 | medium);
+      }
+    }
+  }
+  return stacks;
+}
+
+// Each stack meets each medium from outside and from inside.
+void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) {
+  KernelSurfels kernel(scene, simd);
+  const std::vector<std::uint32_t> stacks = everyStack();
+  ASSERT_EQ(stacks.size(), 1u + 4 + 16 + 64 + 256);
+  for (const std::uint32_t stack : stacks) {
+    const auto triangleAt = [](std::size_t slot) { return static_cast<std::uint32_t>(slot & ~1u); };
+    for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
+      kernel.hit(slot, triangleAt(slot), {0, slot % 2 ? 1.0f : -1.0f, 0}, stack);
+    }
+    kernel.interpolate();
+    const double left = reference::transmittance(scene, stack, 1).x;
+    const Chunk& c = kernel.chunk();
+    for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
+      const SurfelRow twin = kernel.twin(slot);
+      ASSERT_EQ(c.surfels.mediaBehind[slot], twin.mediaBehind)
+          << simd << " stack " << std::hex << stack << " slot " << slot;
+      ASSERT_EQ(c.surfels.flags[slot], twin.flags)
+          << simd << " stack " << std::hex << stack << " slot " << slot;
+      ASSERT_NEAR(static_cast<double>(c.rays.weightR[slot]), left, kAbsorbed)
+          << simd << " stack " << std::hex << stack << " slot " << slot;
+    }
+  }
+}
+
+// The medium that counts is the newest, the oldest or one between; or of two alike the newer one.
+TEST(MediaStacks, AreThoseOfTheReferenceOnEveryTarget) {
+  for (const std::vector<int>& priorities :
+       {std::vector<int>{0, 0, 0, 0, 0}, {1, 2, 3, 4, 5}, {4, 3, 2, 1, 0}, {-1, 3, 3, -2, 2}}) {
+    const Scene scene = sceneOfMedia(priorities);
+    ASSERT_EQ(scene.media.size(), 1u + kMedia);
+    for (const std::string& target : simd::availableTargets()) {
+      expectTheStacksOfTheReference(scene, target);
+    }
+  }
+  simd::chooseTarget("auto");
+}
+
+}  // namespace
+}  // namespace whit::test
