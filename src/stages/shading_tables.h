@@ -55,7 +55,8 @@ struct TextureRecord {
 // has one above it.
 inline constexpr int kMipStride = kMipLevels + 1;
 
-// Object to world; `normal` holds the cofactors (Affine::normal).
+// Object to world; `normal` holds the cofactors (Affine::normal), times the power of two by which
+// the largest is of the order of 1: so that the squares of what they carry are in a float's range.
 struct alignas(64) InstanceTransform {
   float toWorld[12];  // row-major 3x4
   float normal[12];   // row-major 3x3, rows padded to four

@@ -1,0 +1,61 @@
+// What a surface of an instance has of its transform: how far rays start from it, and its normals.
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+#include "render/kernel_surfels.h"
+
+namespace whit::test {
+namespace {
+
+// 32 u times what goes into the point: of the middle, |x| + |y| + |z| of the corners by weight,
+// scaled by 2, and the translation.
+TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
+  for (const double far : {0.0, 1.0, 1e3, 1e6}) {
+    SceneBuilder builder;
+    const Mesh mesh = floorAt(3, 2, builder.add(diffuseMaterial(0.5f)));
+    const Affine carried = Affine::translation({far, -far, 0.5 * far}) * Affine::scaling(Vec3d(2));
+    builder.place({"floor", {mesh}}, {carried, Affine()});
+    const Scene scene = builder.build();
+    ASSERT_EQ(scene.instances.size(), 2u);
+    const double wanted = 0x1p-19 * (2 * (2 + 3 + 2) + 2.5 * far);
+    for (const std::string& target : simd::availableTargets()) {
+      KernelSurfels kernel(scene, target);
+      kernel.hit(0, 0, {0, -1, 0}, 0, 0);
+      kernel.interpolate();
+      // A dozen sums of nonnegative numbers.
+      const double rounding = 12 * 0x1p-24 * wanted;
+      EXPECT_NEAR(static_cast<double>(kernel.chunk().surfels.offset[0]), wanted, rounding)
+          << target << " " << far;
+      EXPECT_NEAR(kernel.twin(0).offset, wanted, 1e-15 * wanted) << far;
+    }
+  }
+  simd::chooseTarget("auto");
+}
+
+// Cofactors are of the order of the scale's square, whose own square is in no float's range.
+TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
+  const Affine turn = Affine::rotation({1, 2, 3}, 40);
+  const Vec3d wanted = turn.normal({0, 1, 0});
+  for (const double scale : {1.0, 1e-6, 1e-9, 1e-11, 1e9, 1e11}) {
+    SceneBuilder builder;
+    const Mesh mesh = floorAt(0, 1, builder.add(diffuseMaterial(0.5f)));
+    builder.place({"floor", {mesh}}, {turn * Affine::scaling(Vec3d(scale)), Affine()});
+    const Scene scene = builder.build();
+    ASSERT_EQ(scene.instances.size(), 2u);
+    for (const std::string& target : simd::availableTargets()) {
+      KernelSurfels kernel(scene, target);
+      kernel.hit(0, 0, Vec3f(-wanted), 0, 0);
+      kernel.interpolate();
+      const SurfelColumns& s = kernel.chunk().surfels;
+      const Vec3d ng(s.ngX[0], s.ngY[0], s.ngZ[0]), ns(s.nsX[0], s.nsY[0], s.nsZ[0]);
+      EXPECT_LE(length(ng - wanted), 1e-6) << target << " " << scale;
+      EXPECT_LE(length(ns - wanted), 1e-6) << target << " " << scale;
+      const SurfelRow twin = kernel.twin(0);
+      EXPECT_LE(length(Vec3d(twin.nsX, twin.nsY, twin.nsZ) - wanted), 1e-6) << scale;
+    }
+  }
+  simd::chooseTarget("auto");
+}
+
+}  // namespace
+}  // namespace whit::test
