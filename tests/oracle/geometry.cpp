@@ -1,0 +1,135 @@
+#include "oracle/geometry.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace oracle {
+
+namespace {
+
+// A ray does not meet what it starts on: its start is exact to some 1e-15 of the coordinates, and
+// no scene has gaps as narrow as this.
+constexpr double kSelf = 1e-9;
+
+Vec turned(const Vec& v, const Transform& transform) {
+  const Vec k = normalized(transform.axis);
+  const double angle = transform.degrees * std::numbers::pi / 180;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return v * c + cross(k, v) * s + k * (dot(k, v) * (1 - c));  // Rodrigues
+}
+
+Vec placed(const Vec& point, const Transform& transform) {
+  return turned(point * transform.scale, transform) + transform.translate;
+}
+
+// Normals go with the inverse transpose, which keeps them outside of what is mirrored.
+Vec placedNormal(const Vec& n, const Transform& transform) {
+  const Vec& s = transform.scale;
+  return normalized(turned({n.x / s.x, n.y / s.y, n.z / s.z}, transform));
+}
+
+Triangle placedTriangle(const Mesh& mesh, const std::array<int, 3>& indices, int material,
+                        const Transform& transform) {
+  Triangle triangle;
+  triangle.material = material;
+  triangle.smooth = !mesh.normals.empty();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto index = static_cast<std::size_t>(indices[i]);
+    Corner& corner = triangle.corners[i];
+    corner.position = placed(mesh.positions[index], transform);
+    if (triangle.smooth) corner.normal = placedNormal(mesh.normals[index], transform);
+    corner.color = mesh.colors.empty() ? gray(1) : mesh.colors[index];
+    if (!mesh.uvs.empty()) corner.uv = mesh.uvs[index];
+  }
+  const auto& [a, b, c] = triangle.corners;
+  const Vec& s = transform.scale;
+  const double mirrored = s.x * s.y * s.z < 0 ? -1 : 1;
+  triangle.outward = normalized(cross(b.position - a.position, c.position - a.position)) * mirrored;
+  return triangle;
+}
+
+// Moeller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
+std::optional<Hit> meet(const Ray& ray, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  const Vec e1 = b.position - a.position, e2 = c.position - a.position;
+  const Vec p = cross(ray.direction, e2);
+  const double determinant = dot(e1, p);
+  if (determinant == 0) return std::nullopt;
+  const Vec from = ray.origin - a.position;
+  const double u = dot(from, p) / determinant;
+  if (u < 0 || u > 1) return std::nullopt;
+  const Vec q = cross(from, e1);
+  const double v = dot(ray.direction, q) / determinant;
+  if (v < 0 || u + v > 1) return std::nullopt;
+  return Hit{dot(e2, q) / determinant, &triangle, {1 - u - v, u, v}};
+}
+
+bool passes(const Ray& ray, const Vec& center, double radius) {
+  const Vec from = center - ray.origin;
+  const double along = dot(from, ray.direction);
+  return dot(from, from) - along * along / dot(ray.direction, ray.direction) <= radius * radius;
+}
+
+}  // namespace
+
+Geometry::Geometry(const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+    Part part;
+    for (const auto& indices : mesh.triangles) {
+      part.triangles.push_back(placedTriangle(mesh, indices, object.material, body.transform));
+    }
+    for (const Vec& p : mesh.positions) part.center += placed(p, body.transform);
+    part.center = part.center / static_cast<double>(mesh.positions.size());
+    for (const Vec& p : mesh.positions) {
+      part.radius = std::max(part.radius, length(placed(p, body.transform) - part.center));
+    }
+    part.radius *= 1 + kSelf;
+    part.castsShadow = scene.materials[static_cast<std::size_t>(object.material)].castsShadow;
+    parts_.push_back(std::move(part));
+  }
+}
+
+// visit(part, hit) for every hit in front, until it answers false.
+template <typename Visit>
+void Geometry::visit(const Ray& ray, const Visit& visit) const {
+  for (const Part& part : parts_) {
+    if (!passes(ray, part.center, part.radius)) continue;
+    for (const Triangle& triangle : part.triangles) {
+      const std::optional<Hit> hit = meet(ray, triangle);
+      if (!hit || !(hit->t * length(ray.direction) > kSelf * (1 + length(ray.origin)))) continue;
+      if (!visit(part, *hit)) return;
+    }
+  }
+}
+
+std::optional<Hit> Geometry::nearest(const Ray& ray) const {
+  std::optional<Hit> best;
+  visit(ray, [&](const Part&, const Hit& hit) {
+    if (!best || hit.t < best->t) best = hit;
+    return true;
+  });
+  return best;
+}
+
+bool Geometry::blocked(const Ray& ray, double end) const {
+  bool found = false;
+  visit(ray, [&](const Part& part, const Hit& hit) {
+    found = part.castsShadow && hit.t < end;
+    return !found;
+  });
+  return found;
+}
+
+std::vector<Hit> Geometry::all(const Ray& ray) const {
+  std::vector<Hit> hits;
+  visit(ray, [&](const Part&, const Hit& hit) {
+    hits.push_back(hit);
+    return true;
+  });
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
+  return hits;
+}
+
+}  // namespace oracle

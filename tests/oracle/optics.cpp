@@ -1,0 +1,147 @@
+#include "oracle/optics.h"
+
+#include <numbers>
+
+namespace oracle {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double clamped(double value) { return std::clamp(value, 0.0, 1.0); }
+
+Color mix(const Color& a, const Color& b, double t) { return a * (1 - t) + b * t; }
+
+int wrapped(int i, int count) { return ((i % count) + count) % count; }
+
+// texel(x, y) at (x, y), in texels whose centers lie at half-integers.
+template <typename Texel>
+Color bilinear(double x, double y, const Texel& texel) {
+  const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
+  const int i = static_cast<int>(left), j = static_cast<int>(top);
+  const double s = x - 0.5 - left, t = y - 0.5 - top;
+  return mix(mix(texel(i, j), texel(i + 1, j), s), mix(texel(i, j + 1), texel(i + 1, j + 1), s), t);
+}
+
+// Between the cones as glTF's KHR_lights_punctual has it.
+double spotFalloff(const Light& light, const Vec& toLight) {
+  const double cosine = -dot(normalized(light.direction), toLight);
+  const double inner = std::cos(light.innerConeAngle * kPi / 180),
+               outer = std::cos(light.outerConeAngle * kPi / 180);
+  const double s = clamped((cosine - outer) / (inner - outer));
+  return s * s;
+}
+
+}  // namespace
+
+double fresnel(double n1, double n2, double cosine) {
+  if (n1 == n2) return 0;
+  const double sine2 = n1 / n2 * (n1 / n2) * (1 - cosine * cosine);  // of the refracted ray
+  if (sine2 >= 1) return 1;
+  const double behind = std::sqrt(1 - sine2);
+  const double s = (n1 * cosine - n2 * behind) / (n1 * cosine + n2 * behind);
+  const double p = (n1 * behind - n2 * cosine) / (n1 * behind + n2 * cosine);
+  return (s * s + p * p) / 2;
+}
+
+double fresnelBySchlick(double n1, double n2, double cosine) {
+  if (n1 == n2) return 0;
+  const double sine2 = n1 / n2 * (n1 / n2) * (1 - cosine * cosine);
+  if (sine2 >= 1) return 1;
+  const double outside = n1 < n2 ? cosine : std::sqrt(1 - sine2);
+  const double normal = (n1 - n2) / (n1 + n2) * ((n1 - n2) / (n1 + n2));
+  return schlick(gray(normal), gray(1), outside).x;
+}
+
+Color schlick(const Color& normal, const Color& grazing, double cosine) {
+  return mix(normal, grazing, std::pow(1 - cosine, 5));
+}
+
+Vec mirrored(const Vec& direction, const Vec& normal) {
+  return direction - normal * (2 * dot(direction, normal));
+}
+
+Vec refracted(const Vec& direction, const Vec& normal, double n1, double n2) {
+  const double cosine = -dot(direction, normal), eta = n1 / n2;
+  const double behind = std::sqrt(1 - eta * eta * (1 - cosine * cosine));
+  return normalized(direction * eta + normal * (eta * cosine - behind));
+}
+
+Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
+                 const Vec& toLight) {
+  const Vec half = normalized(toViewer + toLight);
+  const double nl = dot(normal, toLight), nv = dot(normal, toViewer), nh = dot(normal, half);
+  const double alpha = material.roughness * material.roughness, a2 = alpha * alpha;
+  const double width = nh * nh * (a2 - 1) + 1;
+  const double distribution = a2 / (kPi * width * width);
+  const auto lambda = [&](double cosine) {
+    const double tangent2 = 1 / (cosine * cosine) - 1;
+    return (std::sqrt(1 + a2 * tangent2) - 1) / 2;
+  };
+  const double masking = 1 / (1 + lambda(nl) + lambda(nv));
+  const double grazing = clamped(largest(material.specular) / 0.04);
+  const Color reflectance = schlick(material.specular, gray(grazing), dot(toViewer, half));
+  return reflectance * (distribution * masking / (4 * nl * nv));
+}
+
+Arrival arrivalOf(const Light& light, const Vec& point) {
+  if (light.kind == Light::Kind::directional) {
+    return {light.intensity, -normalized(light.direction), INFINITY};
+  }
+  const Vec way = light.position - point;
+  const double distance = length(way);
+  Arrival arrival{{}, way / distance, distance};
+  const double nearness = std::max(distance * distance, light.radius * light.radius);
+  arrival.irradiance = light.intensity / nearness;
+  if (light.kind == Light::Kind::spot) {
+    arrival.irradiance = arrival.irradiance * spotFalloff(light, arrival.toLight);
+  }
+  return arrival;
+}
+
+Color skyAlong(const Sky& sky, const Vec& direction) {
+  if (sky.kind == Sky::Kind::gradient) {  // linear in the sine of the elevation
+    const Color& pole = direction.y > 0 ? sky.zenith : sky.ground;
+    return mix(sky.horizon, pole, std::abs(direction.y)) * sky.scale;
+  }
+  // Equirectangular: the first column begins at -z, further ones lie towards +x. The image turned
+  // about +y, right-handed, shows towards -x what it has at -z.
+  const double angle = std::atan2(direction.x, -direction.z) / (2 * kPi) + sky.rotation / 360;
+  const double polar = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
+  return bilinear(
+             angle * sky.width, polar * sky.height,
+             [&](int x, int y) {
+               const int row = std::clamp(y, 0, sky.height - 1);
+               return sky.texels[static_cast<std::size_t>(row * sky.width + wrapped(x, sky.width))];
+             }) *
+         sky.scale;
+}
+
+Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal) {
+  const double up = (1 + normal.y) / 2;
+  if (ambient.fromSky == 0) return mix(ambient.down, ambient.up, up);
+  // Means over either hemisphere, weighed by the cosine c to its pole: that of c itself is the
+  // integral of 2 c c over [0, 1].
+  constexpr double kMeanCosine = 2.0 / 3;
+  const Color above = mix(sky.horizon, sky.zenith, kMeanCosine),
+              below = mix(sky.horizon, sky.ground, kMeanCosine);
+  return mix(below, above, up) * (ambient.fromSky * sky.scale);
+}
+
+Color textureAt(const Texture& texture, double u, double v, bool nearest) {
+  const auto texel = [&](int x, int y) {
+    const auto& [r, g, b] = texture.texels[static_cast<std::size_t>(
+        wrapped(y, texture.height) * texture.width + wrapped(x, texture.width))];
+    return Color{r ? 1.0 : 0.0, g ? 1.0 : 0.0, b ? 1.0 : 0.0};
+  };
+  const double x = u * texture.width, y = (1 - v) * texture.height;
+  if (!nearest) return bilinear(x, y, texel);
+  return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+}
+
+Color transmittance(const Color& absorption, double distance) {
+  const auto channel = [&](double sigma) { return sigma > 0 ? std::exp(-sigma * distance) : 1.0; };
+  return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};
+}
+
+}  // namespace oracle

@@ -1,0 +1,45 @@
+// The formulas of surfaces and light, each from its source.
+#pragma once
+
+#include "oracle/scene.h"
+
+namespace oracle {
+
+// Mean of both polarizations (Fresnel's equations) for a ray that goes from index n1 to n2 at this
+// cosine; 1 where reflection is total.
+double fresnel(double n1, double n2, double cosine);
+// Schlick's polynomial instead, in the cosine on the side of the lower index.
+double fresnelBySchlick(double n1, double n2, double cosine);
+
+// From a value at normal incidence to one at grazing incidence (Schlick 1994).
+Color schlick(const Color& normal, const Color& grazing, double cosine);
+
+Vec mirrored(const Vec& direction, const Vec& normal);
+// By Snell's law; `normal` is on the ray's side. Not for total reflection.
+Vec refracted(const Vec& direction, const Vec& normal, double n1, double n2);
+
+// The glossy lobe, 1/sr: GGX of width roughness^2 (Walter et al. 2007) with height-correlated
+// masking (Heitz 2014), Schlick's reflectance from `specular` to 1, less than that at grazing
+// incidence where it is below 4 %.
+Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
+                 const Vec& toLight);
+
+// What arrives of a light at a point that faces it, and from where.
+struct Arrival {
+  Color irradiance;
+  Vec toLight;  // unit
+  double distance = INFINITY;
+};
+Arrival arrivalOf(const Light& light, const Vec& point);
+
+Color skyAlong(const Sky& sky, const Vec& direction);
+// Ambient radiance on a surface of this normal.
+Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal);
+
+// The texture's color, u to the right and v upwards, repeated.
+Color textureAt(const Texture& texture, double u, double v, bool nearest);
+
+// What a way of this length leaves of light (Beer and Lambert).
+Color transmittance(const Color& absorption, double distance);
+
+}  // namespace oracle

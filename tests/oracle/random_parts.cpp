@@ -1,0 +1,108 @@
+#include "oracle/random_parts.h"
+
+#include "oracle/shapes.h"
+
+namespace oracle {
+
+Transform Random::placement(const Vec& translate, double size) {
+  Transform transform;
+  transform.scale = gray(asFloat(size));
+  transform.axis = inBox({-1, 0.3, -1}, {1, 1, 1});
+  transform.degrees = between(10, 350);
+  transform.translate = asFloat(translate);
+  return transform;
+}
+
+int SceneMaker::add(Mesh mesh) {
+  scene.meshes.push_back(std::move(mesh));
+  return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+int SceneMaker::add(const Material& material) {
+  scene.materials.push_back(material);
+  return static_cast<int>(scene.materials.size()) - 1;
+}
+
+int SceneMaker::addObject(Mesh mesh, const Material& material) {
+  const int number = add(std::move(mesh));
+  scene.objects.push_back({number, add(material)});
+  return static_cast<int>(scene.objects.size()) - 1;
+}
+
+void SceneMaker::room() {
+  scene.sky.zenith = random.color(0.1, 0.6);
+  scene.sky.horizon = random.color(0.3, 0.8);
+  scene.sky.ground = random.color(0.05, 0.3);
+  scene.ambient = {random.color(0.02, 0.2), random.color(0.02, 0.1)};
+  scene.camera.eye = random.inBox({-2, 1, 5}, {2, 2.5, 6});
+  scene.camera.at = random.inBox({-0.3, 0.7, -0.3}, {0.3, 1, 0.3});
+  scene.camera.up = random.inBox({-0.2, 1, -0.2}, {0.2, 1, 0.2});
+  scene.camera.fov = random.between(35, 50);
+  floor(matte());
+}
+
+void SceneMaker::floor(const Material& material) {
+  Transform transform;
+  transform.scale = {9, 1, 9};
+  transform.degrees = random.between(0, 90);
+  transform.translate = {0, random.between(-0.1, 0), 0};
+  add(pane(), material, transform);
+}
+
+Light SceneMaker::lamp() {
+  Light light;
+  light.position = random.inBox({-4, 2.5, 1}, {4, 4.5, 4});
+  light.intensity = random.color(8, 25);
+  return light;
+}
+
+Material SceneMaker::matte() {
+  Material material;
+  material.diffuse = random.color(0.2, 0.9);
+  return material;
+}
+
+Material SceneMaker::glossy() {
+  Material material = matte();
+  material.specular = random.color(0.05, 0.6);
+  material.roughness = random.between(0.25, 0.8);
+  return material;
+}
+
+Material SceneMaker::mirror() {
+  Material material = matte();
+  material.mirror = random.color(0.2, 0.7);
+  material.mirrorGrazing = random.chance(0.5) ? random.color(0.7, 1) : material.mirror;
+  return material;
+}
+
+Material SceneMaker::glass(double ior, int priority) {
+  Material material;
+  material.diffuse = random.chance(0.3) ? random.color(0.02, 0.1) : gray(0);
+  material.transmission = random.color(0.6, 0.98);
+  material.ior = asFloat(ior);
+  material.absorption = random.color(0, 0.6);
+  material.priority = priority;
+  material.castsShadow = random.chance(0.3);
+  return material;
+}
+
+Mesh SceneMaker::solid() {
+  switch (random.below(3)) {
+    case 0:
+      return box();
+    case 1:
+      return tetrahedron();
+    default:
+      return ball(12, 8);
+  }
+}
+
+Transform SceneMaker::standing(int place, int count) {
+  const double width = 4.4 / count;
+  const double x = (place + 0.5 - 0.5 * count) * width;
+  const Vec at{x, random.between(0.8, 1.3), random.between(-0.8, 0.8)};
+  return random.placement(at, std::min(1.0, 0.57 * width) * random.between(0.8, 1));
+}
+
+}  // namespace oracle

@@ -1,0 +1,112 @@
+// What the oracle renders, in its own words: those of scenes/README.md. write_scene.h makes a scene
+// file of it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "oracle/vector.h"
+
+namespace oracle {
+
+inline constexpr int kNone = -1;
+
+struct Texture {
+  int width = 0, height = 0;
+  std::vector<std::array<bool, 3>> texels;  // from the top left: channels of 0 or 1, exact as sRGB
+};
+
+struct Material {
+  Color diffuse = gray(0.8);
+  Color specular;
+  double roughness = 0.5;
+  Color emission;
+  Color mirror, mirrorGrazing;
+  Color transmission;
+  double ior = 1.5;
+  Color absorption;
+  int priority = 0;
+  bool castsShadow = true;
+  int diffuseMap = kNone, specularMap = kNone, emissionMap = kNone;  // multiply what they name
+
+  bool isDielectric() const { return largest(transmission) > 0; }
+};
+
+struct Mesh {
+  std::vector<Vec> positions;
+  std::vector<Vec> normals;                   // empty: flat
+  std::vector<Color> colors;                  // empty: white
+  std::vector<std::array<double, 2>> uvs;     // empty: all 0
+  std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside
+};
+
+// A mesh of one material. Where several bodies show one object, whit makes instances of it.
+struct Object {
+  int mesh = 0, material = 0;
+};
+
+// Scaled first, then turned about the axis, then moved.
+struct Transform {
+  Vec scale{1, 1, 1};
+  Vec axis{0, 1, 0};
+  double degrees = 0;
+  Vec translate;
+};
+
+struct Body {
+  int object = 0;
+  Transform transform;
+};
+
+struct Light {
+  enum class Kind { point, spot, directional };
+  Kind kind = Kind::point;
+  Vec position;
+  Color intensity;  // of a directional light its irradiance
+  double radius = 0.01;
+  Vec direction{0, -1, 0};
+  double innerConeAngle = 0, outerConeAngle = 45;  // degrees
+};
+
+struct Sky {
+  enum class Kind { gradient, image };
+  Kind kind = Kind::gradient;
+  Color zenith, horizon, ground;
+  int width = 0, height = 0;  // of the image
+  std::vector<Color> texels;  // from the top left; fractions of 256, exact in the file's format
+  double scale = 1, rotation = 0;
+};
+
+struct Ambient {
+  Color up, down;
+  double fromSky = 0;  // above 0: so much of a gradient's mean instead
+};
+
+struct Camera {
+  Vec eye{0, 1, 5}, at, up{0, 1, 0};
+  double fov = 45;                // vertical, degrees
+  double orthographicHeight = 0;  // above 0: parallel rays
+};
+
+struct Scene {
+  int width = 48, height = 32;
+  Camera camera;
+  std::vector<Light> lights;
+  Sky sky;
+  Ambient ambient;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Object> objects;
+  std::vector<Body> bodies;
+};
+
+// Of a render: the options of whit of the same names.
+struct Options {
+  int depth = 8;
+  bool terminator = false;
+  bool nearestTexel = false;
+  bool schlickFresnel = false;
+};
+
+}  // namespace oracle

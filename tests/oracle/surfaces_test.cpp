@@ -1,0 +1,301 @@
+// Opaque surfaces and what lights them.
+#include "oracle/agreement.h"
+#include "oracle/shapes.h"
+
+namespace oracle {
+namespace {
+
+class Surfaces : public Agreement {};
+
+void addSolids(SceneMaker& maker, int count, const std::function<Material()>& material) {
+  for (int i = 0; i < count; ++i) {
+    maker.add(maker.solid(), material(), maker.standing(i, count));
+  }
+}
+
+void addLamps(SceneMaker& maker, int count) {
+  for (int i = 0; i < count; ++i) maker.scene.lights.push_back(maker.lamp());
+}
+
+void hangPane(SceneMaker& maker, const Material& material) {
+  maker.add(pane(), material, maker.random.placement({0.4, 2.3, -1.2}, 1.6));
+}
+
+void opaque(SceneMaker& maker) {
+  maker.room();
+  addSolids(maker, 4, [&] { return maker.random.chance(0.6) ? maker.glossy() : maker.matte(); });
+  hangPane(maker, maker.matte());
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, OpaqueOnesAndTheirShadows) { expectAgreement({"opaque", opaque}); }
+
+// Within its radius a light grows no brighter; its center is what casts shadows.
+TEST_F(Surfaces, LightsWithARadius) {
+  expectAgreement({"lights with a radius", [](SceneMaker& maker) {
+                     maker.room();
+                     addSolids(maker, 4, [&] { return maker.glossy(); });
+                     for (int i = 0; i < 3; ++i) {
+                       Light light = maker.lamp();
+                       light.position = maker.random.inBox({-2, 0.5, 1}, {2, 2, 2});
+                       light.intensity = maker.random.color(1, 4);
+                       light.radius = maker.random.between(0.8, 2.5);
+                       maker.scene.lights.push_back(light);
+                     }
+                   }});
+}
+
+// A shade right beside a light still shades. Shadow rays end short of the light by the rounding of
+// its position and of their own length, which is a few millionths: of these distances it is less
+// than a third.
+void shadedLights(SceneMaker& maker, double height, double gap) {
+  maker.room();
+  const double down = height - 2.2;  // where the floor is
+  for (Body& body : maker.scene.bodies) body.transform.translate.y += asFloat(down);
+  maker.scene.camera.eye.y = asFloat(maker.scene.camera.eye.y + down);
+  maker.scene.camera.at.y = asFloat(maker.scene.camera.at.y + down);
+  for (int i = 0; i < 3; ++i) {
+    Transform standing = maker.standing(i, 3);
+    standing.translate.y = asFloat(standing.translate.y + down);
+    maker.add(maker.solid(), maker.glossy(), standing);
+  }
+  const bool near = height == 0;
+  for (const double side : {1.0, -1.0}) {
+    const Vec at =
+        near && side > 0 ? Vec{} : asFloat(Vec{1.8 * side, height, maker.random.between(0, 1)});
+    Transform shade;
+    shade.degrees = maker.random.between(0, 90);
+    shade.scale = {1.5, 1, 1.5};
+    shade.translate = at;
+    maker.add(pane(), maker.matte(), shade);
+    Light light;
+    light.position = asFloat(at + Vec{0, side * (at.x == 0 ? gap / 4 : gap), 0});
+    light.intensity = maker.random.color(8, 20);
+    light.radius = 1e-3;
+    maker.scene.lights.push_back(light);
+  }
+}
+
+TEST_F(Surfaces, LightsRightBesideAShade) {
+  constexpr double kGap = 4e-5;
+  expectAgreement(
+      {"lights beside a shade", [](SceneMaker& maker) { shadedLights(maker, 2.2, kGap); }});
+  expectAgreement({"lights beside a shade about the origin",
+                   [](SceneMaker& maker) { shadedLights(maker, 0, kGap); }});
+}
+
+void spotsAndSuns(SceneMaker& maker) {
+  maker.room();
+  addSolids(maker, 4, [&] { return maker.glossy(); });
+  Random& random = maker.random;
+  for (int i = 0; i < 3; ++i) {
+    Light spot = maker.lamp();
+    spot.kind = Light::Kind::spot;
+    const Vec aim = random.inBox({-1.5, 0, -1}, {1.5, 1, 1}) - spot.position;
+    spot.direction = asFloat(aim * random.between(0.3, 2));
+    spot.innerConeAngle = i == 0 ? 0 : random.between(3, 12);
+    spot.outerConeAngle = random.between(16, 40);
+    spot.radius = random.between(0.01, 2);
+    maker.scene.lights.push_back(spot);
+    Light sun;
+    sun.kind = Light::Kind::directional;
+    sun.direction = random.inBox({-1, -2, -1}, {1, -0.5, 0.2});
+    sun.intensity = random.color(0.2, 1);
+    maker.scene.lights.push_back(sun);
+  }
+}
+
+TEST_F(Surfaces, SpotAndDirectionalLights) {
+  expectAgreement({"spot and directional lights", spotsAndSuns});
+}
+
+void mirrors(SceneMaker& maker) {
+  maker.room();
+  maker.floor(maker.mirror());
+  maker.scene.bodies.back().transform.translate.y = 0.1;
+  addSolids(maker, 3, [&] { return maker.mirror(); });
+  hangPane(maker, maker.mirror());
+  maker.add(box(), maker.glossy(), maker.random.placement({1, 1.9, 0.9}, 0.4));
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, Mirrors) { expectAgreement({"mirrors", mirrors, {.depth = 10}}); }
+
+// No real surface reflects less than 4 %: below, the lobe fades out at grazing incidence as well.
+TEST_F(Surfaces, HighlightsBelowFourPercent) {
+  expectAgreement({"highlights below 4 %", [](SceneMaker& maker) {
+                     const auto faint = [&] {
+                       Material material = maker.matte();
+                       material.diffuse = material.diffuse * asFloat(0.0625);
+                       material.specular = maker.random.color(0.001, 0.039);
+                       material.roughness = maker.random.between(0.3, 0.6);
+                       return material;
+                     };
+                     maker.room();
+                     maker.scene.ambient = {};
+                     maker.scene.camera.eye.y = 0.6;  // grazing, against the light
+                     maker.scene.bodies.clear();
+                     maker.floor(faint());
+                     addSolids(maker, 4, faint);
+                     for (int i = 0; i < 3; ++i) {
+                       Light light = maker.lamp();
+                       light.position = maker.random.inBox({-3, 0.6, -4}, {3, 2, -2});
+                       light.intensity = maker.random.color(20, 60);
+                       maker.scene.lights.push_back(light);
+                     }
+                   }});
+}
+
+TEST_F(Surfaces, ColorsOfVertices) {
+  expectAgreement({"vertex colors", [](SceneMaker& maker) {
+                     maker.room();
+                     for (int i = 0; i < 4; ++i) {
+                       Mesh mesh = maker.solid();
+                       for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+                         mesh.colors.push_back(maker.random.color(0, 1));
+                       }
+                       const bool mirror = maker.random.chance(0.3);
+                       maker.add(mesh, mirror ? maker.mirror() : maker.glossy(),
+                                 maker.standing(i, 4));
+                     }
+                     addLamps(maker, 2);
+                   }});
+}
+
+TEST_F(Surfaces, Emission) {
+  expectAgreement({"emission", [](SceneMaker& maker) {
+                     maker.room();
+                     addSolids(maker, 4, [&] {
+                       Material material =
+                           maker.random.chance(0.4) ? maker.mirror() : maker.matte();
+                       material.emission = maker.random.color(0, 1.5);
+                       return material;
+                     });
+                     Material glowing = maker.matte();
+                     glowing.emission = maker.random.color(0.2, 1);
+                     hangPane(maker, glowing);  // from both sides
+                     addLamps(maker, 1);
+                   }});
+}
+
+TEST_F(Surfaces, AmbientLightFromTheSky) {
+  expectAgreement({"ambient from the sky", [](SceneMaker& maker) {
+                     maker.room();
+                     maker.scene.sky.scale = maker.random.between(0.5, 2);
+                     maker.scene.ambient.fromSky = maker.random.between(0.2, 1);
+                     addSolids(maker, 4, [&] { return maker.matte(); });
+                     addLamps(maker, 1);
+                   }});
+}
+
+TEST_F(Surfaces, ImagesOfTheSky) {
+  expectAgreement(
+      {"sky images", [](SceneMaker& maker) {
+         maker.room();
+         Sky& sky = maker.scene.sky;
+         sky.kind = Sky::Kind::image;
+         sky.width = 7, sky.height = 4;
+         for (int i = 0; i < sky.width * sky.height; ++i) {
+           const Color c = maker.random.color(0, 250);
+           sky.texels.push_back(Color{std::floor(c.x), std::floor(c.y), std::floor(c.z)} / 256);
+         }
+         sky.scale = maker.random.between(0.5, 2);
+         sky.rotation = maker.random.between(-180, 360);
+         maker.scene.camera.fov = 80;
+         addSolids(maker, 4, [&] { return maker.mirror(); });
+         addLamps(maker, 1);
+       }});
+}
+
+// A ball of large facets that fills the picture, lit from the side: the light ends across it.
+void facetedBall(SceneMaker& maker) {
+  maker.room();
+  Transform large = maker.random.placement({0, 1.3, 0}, 2.4);
+  const bool fine = maker.random.chance(0.5);
+  maker.add(ball(fine ? 12 : 8, fine ? 8 : 5), maker.matte(), large);
+  maker.add(box(), maker.matte(), maker.random.placement({-1.6, 1.9, 0.9}, 0.4));
+  for (const double side : {-1.0, 1.0}) {
+    Light light = maker.lamp();
+    light.position = maker.random.inBox({4, 0.5, -2}, {6, 3, 1}) * Vec{side, 1, 1};
+    maker.scene.lights.push_back(light);
+  }
+}
+
+TEST_F(Surfaces, ShadowRaysFromAboveTheFacets) {
+  expectAgreement({"--terminator on", facetedBall, {.terminator = true}});
+  expectAgreement({"--terminator off", facetedBall});
+}
+
+void textured(SceneMaker& maker) {
+  maker.room();
+  maker.scene.bodies.clear();
+  for (int i = 0; i < 2; ++i) {
+    Texture texture;
+    texture.width = 5 + 3 * i, texture.height = 4;
+    for (int k = 0; k < texture.width * texture.height; ++k) {
+      const auto channel = [&] { return maker.random.chance(0.5); };
+      texture.texels.push_back({channel(), channel(), channel()});
+    }
+    maker.scene.textures.push_back(texture);
+  }
+  for (int i = 0; i < 4; ++i) {
+    Mesh mesh = pane();
+    for (auto& [u, v] : mesh.uvs) {  // repeated, turned and from below 0
+      const double across = u, up = v;
+      u = asFloat(1.7 * across + 0.6 * up - 0.9);
+      v = asFloat(1.2 * up - 0.5 * across - 0.3);
+    }
+    Material material = maker.glossy();
+    material.diffuseMap = i % 2;
+    if (i == 1) material.specularMap = 0;
+    if (i == 2) material.emission = maker.random.color(0.2, 1), material.emissionMap = 1;
+    if (i == 0) {
+      Transform below;
+      below.scale = {9, 1, 9};
+      maker.add(mesh, material, below);
+    } else {
+      maker.add(mesh, material, maker.standing(i - 1, 3));
+    }
+  }
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, TexturesOfNearestAndMixedTexels) {
+  expectAgreement({"bilinear textures", textured});
+  expectAgreement({"textures of nearest texels", textured, {.nearestTexel = true}});
+}
+
+// Turned, scaled, stretched where flat, and mirrored.
+void addInstances(SceneMaker& maker) {
+  maker.room();
+  const int solids[] = {maker.addObject(box(), maker.glossy()),
+                        maker.addObject(tetrahedron(), maker.mirror()),
+                        maker.addObject(ball(12, 8), maker.glossy())};
+  for (int i = 0; i < 9; ++i) {
+    Transform transform = maker.standing(i % 5, 5);
+    if (i >= 5) transform.translate.z -= 1.5, transform.translate.y += 0.5;
+    if (i % 3 != 2) transform.scale = transform.scale * maker.random.color(0.6, 1);
+    if (i % 2 == 0) transform.scale.x = -transform.scale.x;
+    transform.scale = asFloat(transform.scale);
+    maker.place(solids[i % 3], transform);
+  }
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, Instances) { expectAgreement({"instances", addInstances}); }
+
+TEST_F(Surfaces, InstancesFarFromTheOrigin) {
+  const auto make = [](SceneMaker& maker) {
+    addInstances(maker);
+    const Vec away{150, -90, 120};
+    const auto move = [&](Vec& p) { p = asFloat(p + away); };
+    for (Body& body : maker.scene.bodies) move(body.transform.translate);
+    for (Light& light : maker.scene.lights) move(light.position);
+    move(maker.scene.camera.eye);
+    move(maker.scene.camera.at);
+  };
+  expectAgreement({"instances far away", make, {}, 10, 10});
+}
+
+}  // namespace
+}  // namespace oracle

@@ -1,0 +1,203 @@
+#include "oracle/write_scene.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace oracle {
+
+namespace {
+
+void save(const std::string& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+}
+
+// A stream in which every double comes back.
+std::ostringstream exactStream() {
+  std::ostringstream out;
+  out.precision(17);
+  return out;
+}
+
+std::string number(double value) {
+  std::ostringstream out = exactStream();
+  out << value;
+  return out.str();
+}
+
+std::string list(const Vec& v) {
+  return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
+}
+
+// The elements of a JSON list or object, one a line.
+template <typename Element, typename Describe>
+std::string joined(const std::vector<Element>& elements, const Describe& describe) {
+  std::string text;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    text += (i == 0 ? "\n    " : ",\n    ") + describe(elements[i], std::to_string(i));
+  }
+  return text;
+}
+
+std::string cameraText(const Camera& c) {
+  std::string text = R"({"main": {"eye": )" + list(c.eye) + R"(, "at": )" + list(c.at) +
+                     R"(, "up": )" + list(c.up) + R"(, "fov": )" + number(c.fov);
+  if (c.orthographicHeight > 0) {
+    text += R"(, "orthographicHeight": )" + number(c.orthographicHeight);
+  }
+  return text + "}}";
+}
+
+std::string lightText(const Light& light) {
+  if (light.kind == Light::Kind::directional) {
+    return R"({"type": "directional", "direction": )" + list(light.direction) +
+           R"(, "irradiance": )" + list(light.intensity) + "}";
+  }
+  std::string text = R"({"position": )" + list(light.position) + R"(, "intensity": )" +
+                     list(light.intensity) + R"(, "radius": )" + number(light.radius);
+  if (light.kind == Light::Kind::spot) {
+    text += R"(, "type": "spot", "direction": )" + list(light.direction) +
+            R"(, "innerConeAngle": )" + number(light.innerConeAngle) + R"(, "outerConeAngle": )" +
+            number(light.outerConeAngle);
+  }
+  return text + "}";
+}
+
+std::string skyText(const Sky& sky) {
+  const std::string scale = R"(, "scale": )" + number(sky.scale) + "}";
+  if (sky.kind == Sky::Kind::image) {
+    return R"({"image": "sky.hdr", "rotation": )" + number(sky.rotation) + scale;
+  }
+  return R"({"zenith": )" + list(sky.zenith) + R"(, "horizon": )" + list(sky.horizon) +
+         R"(, "ground": )" + list(sky.ground) + scale;
+}
+
+std::string ambientText(const Ambient& ambient) {
+  if (ambient.fromSky > 0) return R"({"fromSky": )" + number(ambient.fromSky) + "}";
+  return R"({"up": )" + list(ambient.up) + R"(, "down": )" + list(ambient.down) + "}";
+}
+
+std::string materialText(const Material& m) {
+  std::string text = R"({"diffuse": )" + list(m.diffuse) + R"(, "specular": )" + list(m.specular) +
+                     R"(, "roughness": )" + number(m.roughness) + R"(, "emission": )" +
+                     list(m.emission) + R"(, "mirror": )" + list(m.mirror) +
+                     R"(, "mirrorGrazing": )" + list(m.mirrorGrazing);
+  const auto map = [&](const char* key, int number) {
+    if (number != kNone) text += R"(, ")" + (key + (R"(": "map)" + std::to_string(number))) + '"';
+  };
+  map("diffuseMap", m.diffuseMap);
+  map("specularMap", m.specularMap);
+  map("emissionMap", m.emissionMap);
+  if (m.isDielectric()) {
+    text += R"(, "transmission": )" + list(m.transmission) + R"(, "ior": )" + number(m.ior) +
+            R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
+            std::to_string(m.priority);
+  }
+  // Said only where it is not what the rest makes of it.
+  if (m.castsShadow == m.isDielectric()) {
+    text += std::string(R"(, "castsShadow": )") + (m.castsShadow ? "true" : "false");
+  }
+  return text + "}";
+}
+
+std::string transformText(const Transform& t) {
+  return R"({"scale": )" + list(t.scale) + R"(, "rotate": [)" + number(t.axis.x) + ", " +
+         number(t.axis.y) + ", " + number(t.axis.z) + ", " + number(t.degrees) +
+         R"(], "translate": )" + list(t.translate) + "}";
+}
+
+std::string ply(const Mesh& mesh) {
+  std::ostringstream out = exactStream();
+  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty()) out << "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.colors.empty())
+    out << "property float red\nproperty float green\nproperty float blue\n";
+  if (!mesh.uvs.empty()) out << "property float u\nproperty float v\n";
+  out << "element face " << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto put = [&](const Vec& v) { out << v.x << ' ' << v.y << ' ' << v.z << ' '; };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    put(mesh.positions[i]);
+    if (!mesh.normals.empty()) put(mesh.normals[i]);
+    if (!mesh.colors.empty()) put(mesh.colors[i]);
+    if (!mesh.uvs.empty()) out << mesh.uvs[i][0] << ' ' << mesh.uvs[i][1];
+    out << '\n';
+  }
+  for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return out.str();
+}
+
+// Radiance's format without run lengths: channels in 256ths, by an exponent that is always 0.
+std::string hdr(const Sky& sky) {
+  std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(sky.height) +
+                     " +X " + std::to_string(sky.width) + "\n";
+  for (const Color& c : sky.texels) {
+    for (const double channel : {c.x, c.y, c.z}) {
+      file += static_cast<char>(static_cast<unsigned char>(channel * 256));
+    }
+    file += static_cast<char>(128);
+  }
+  return file;
+}
+
+// Uncompressed, rows from the top, blue first.
+std::string tga(const Texture& texture) {
+  std::string file(18, '\0');
+  file[2] = 2;
+  file[12] = static_cast<char>(texture.width);
+  file[14] = static_cast<char>(texture.height);
+  file[16] = 24;
+  file[17] = 0x20;
+  for (const auto& [r, g, b] : texture.texels) {
+    for (const bool channel : {b, g, r}) file += static_cast<char>(channel ? 255 : 0);
+  }
+  return file;
+}
+
+std::string sceneText(const Scene& scene) {
+  std::ostringstream out;
+  out << "{\n  \"whit\": 1,\n  \"size\": [" << scene.width << ", " << scene.height << "],\n"
+      << "  \"cameras\": " << cameraText(scene.camera) << ",\n  \"lights\": ["
+      << joined(scene.lights,
+                [](const Light& light, const std::string&) { return lightText(light); })
+      << "],\n  \"sky\": " << skyText(scene.sky)
+      << ",\n  \"ambient\": " << ambientText(scene.ambient) << ",\n  \"textures\": {"
+      << joined(scene.textures,
+                [](const Texture&, const std::string& i) {
+                  return "\"map" + i + "\": {\"image\": \"map" + i + ".tga\"}";
+                })
+      << "},\n  \"objects\": {"
+      << joined(scene.objects,
+                [&](const Object& o, const std::string& i) {
+                  const Material& m = scene.materials[static_cast<std::size_t>(o.material)];
+                  return "\"object" + i + R"(": [{"model": "mesh)" + std::to_string(o.mesh) +
+                         R"(.ply", "materials": {"*": )" + materialText(m) + "}}]";
+                })
+      << "},\n  \"scene\": ["
+      << joined(scene.bodies,
+                [](const Body& body, const std::string&) {
+                  return R"({"use": "object)" + std::to_string(body.object) +
+                         R"(", "transform": )" + transformText(body.transform) + "}";
+                })
+      << "]\n}\n";
+  return out.str();
+}
+
+}  // namespace
+
+std::string writeScene(const Scene& scene, const std::string& folder) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    save(folder + "/mesh" + std::to_string(i) + ".ply", ply(scene.meshes[i]));
+  }
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    save(folder + "/map" + std::to_string(i) + ".tga", tga(scene.textures[i]));
+  }
+  if (scene.sky.kind == Sky::Kind::image) save(folder + "/sky.hdr", hdr(scene.sky));
+  save(folder + "/scene.json", sceneText(scene));
+  return folder + "/scene.json";
+}
+
+}  // namespace oracle
