@@ -1,0 +1,209 @@
+#include "scene/flush_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <utility>
+
+#include "core/worker_pool.h"
+#include "scene/facet_pairs.h"
+#include "scene/facet_space.h"
+
+namespace whit {
+
+namespace {
+
+// Of instances of one object in exactly one place so many take part.
+constexpr int kInstancesInOnePlace = 4;
+
+using Orders = std::vector<std::uint64_t>;  // of placed triangles, ascending, each once
+
+void sortUnique(Orders& orders) {
+  std::sort(orders.begin(), orders.end());
+  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+}
+
+void addBoth(const std::vector<FacetPair>& pairs, Orders& orders) {
+  for (const auto& [a, b] : pairs) orders.insert(orders.end(), {a, b});
+}
+
+// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+std::size_t hashOf(PlacedTriangleId id) {
+  std::uint64_t x = orderOf(id);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<std::size_t>(x ^ (x >> 31));
+}
+
+class FlushFinder {
+ public:
+  FlushFinder(const Scene& scene, int threads);
+
+  FlushTriangles find();
+
+ private:
+  std::vector<BoxedBlock> everything() const;
+  std::vector<BoxedBlock> boxesOf(const Orders& orders) const;
+  std::vector<FacetPair> pairs(std::vector<BoxedBlock> of, PairsOf which, FacetTest test) const {
+    return findPairs(world_, std::move(of), which, test, scene_.triangles.size(), threads_);
+  }
+  void addWithinInstances(std::uint32_t geometry, Orders& all) const;
+  Orders overlapping() const;
+
+  const Scene& scene_;
+  int threads_;
+  std::vector<TriangleBlocks> blocks_;  // one a geometry
+  FacetSpace world_;
+  std::vector<bool> leftOut_;  // one an instance
+};
+
+std::vector<TriangleBlocks> blocksOf(const Scene& scene, int threads) {
+  std::vector<TriangleBlocks> blocks;
+  for (const Geometry& g : scene.geometries) blocks.emplace_back(scene, g, threads);
+  return blocks;
+}
+
+// Those of one object that have as many before them in their place as take part.
+std::vector<bool> instancesInHeaps(const Scene& scene) {
+  const auto placeOf = [](const InstanceRecord& i) {
+    const auto& [x, y, z, p] = i.toWorld;
+    return std::array{static_cast<double>(i.geometry),
+                      x.x,
+                      x.y,
+                      x.z,
+                      y.x,
+                      y.y,
+                      y.z,
+                      z.x,
+                      z.y,
+                      z.z,
+                      p.x,
+                      p.y,
+                      p.z};
+  };
+  std::map<std::array<double, 13>, int> count;
+  std::vector<bool> leftOut;
+  for (const InstanceRecord& i : scene.instances) {
+    leftOut.push_back(++count[placeOf(i)] > kInstancesInOnePlace);
+  }
+  return leftOut;
+}
+
+FlushFinder::FlushFinder(const Scene& scene, int threads)
+    : scene_(scene),
+      threads_(threads),
+      blocks_(blocksOf(scene, threads)),
+      world_(scene, blocks_),
+      leftOut_(instancesInHeaps(scene)) {}
+
+std::vector<BoxedBlock> FlushFinder::everything() const {
+  std::vector<BoxedBlock> all = world_.everything();
+  std::erase_if(
+      all, [&](const BoxedBlock& b) { return b.instance != kNoInstance && leftOut_[b.instance]; });
+  return all;
+}
+
+std::vector<BoxedBlock> FlushFinder::boxesOf(const Orders& orders) const {
+  std::vector<BoxedBlock> boxes;
+  boxes.reserve(orders.size());
+  for (const std::uint64_t order : orders) boxes.push_back(world_.triangle(placedTriangle(order)));
+  return boxes;
+}
+
+// Of triangles that one instance carries. What may overlap is looked for once for all instances.
+void FlushFinder::addWithinInstances(std::uint32_t geometry, Orders& all) const {
+  const FacetSpace object = FacetSpace::ofObject(scene_, blocks_, geometry);
+  Orders candidates;
+  addBoth(findPairs(object, object.everything(), PairsOf::differentPlaces, facetsOverlap,
+                    scene_.triangles.size(), threads_),
+          candidates);
+  if (candidates.empty()) return;
+  sortUnique(candidates);
+  std::vector<Orders> found(scene_.instances.size());
+  parallelFor(threads_, scene_.instances.size(), [&](std::size_t i, int) {
+    if (scene_.instances[i].geometry != geometry || leftOut_[i]) return;
+    std::vector<BoxedBlock> boxes;
+    for (const std::uint64_t order : candidates) {
+      boxes.push_back(
+          world_.triangle({placedTriangle(order).triangle, static_cast<std::uint32_t>(i)}));
+    }
+    addBoth(findPairs(world_, std::move(boxes), PairsOf::all, facetsOverlap,
+                      scene_.triangles.size(), 1),
+            found[i]);
+    sortUnique(found[i]);
+  });
+  for (const Orders& some : found) all.insert(all.end(), some.begin(), some.end());
+}
+
+Orders FlushFinder::overlapping() const {
+  Orders found;
+  addBoth(pairs(everything(), PairsOf::differentPlaces, facetsOverlap), found);
+  for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) addWithinInstances(g, found);
+  sortUnique(found);
+  return found;
+}
+
+FlushTriangles FlushFinder::find() {
+  Orders flush = overlapping();
+  if (flush.empty()) return {};
+  std::vector<BoxedBlock> blocks = boxesOf(flush);
+  for (BoxedBlock& b : blocks) b.asked = true;
+  const std::vector<BoxedBlock> all = everything();
+  blocks.insert(blocks.end(), all.begin(), all.end());
+  addBoth(pairs(std::move(blocks), PairsOf::asked, facetsTouch), flush);
+  sortUnique(flush);
+  return {scene_.triangles.size(), pairs(boxesOf(flush), PairsOf::all, facetsTouch)};
+}
+
+}  // namespace
+
+FlushTriangles::FlushTriangles(std::uint64_t triangles,
+                               std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs) {
+  if (pairs.empty()) return;
+  const std::size_t half = pairs.size();
+  pairs.reserve(2 * half);
+  for (std::size_t i = 0; i < half; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
+  std::sort(pairs.begin(), pairs.end());
+  std::size_t owners = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    owners += i == 0 || pairs[i].first != pairs[i - 1].first;
+  }
+  any_.resize(triangles / 64 + 1);
+  slots_.resize(std::bit_ceil(2 * owners));
+  partners_.reserve(pairs.size());
+  for (const auto& [order, partner] : pairs) {
+    const PlacedTriangleId id = placedTriangle(order);
+    any_[id.triangle / 64] |= std::uint64_t{1} << id.triangle % 64;
+    Slot& slot = slots_[slotOf(id)];
+    if (slot.count == 0) slot = {id, 0, partners_.size()};
+    ++slot.count;
+    partners_.push_back(placedTriangle(partner));
+  }
+}
+
+// That of the triangle, or the free one where it would be.
+std::size_t FlushTriangles::slotOf(PlacedTriangleId id) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = hashOf(id) & mask;
+  while (slots_[i].count != 0 && slots_[i].id != id) i = (i + 1) & mask;
+  return i;
+}
+
+std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id) const {
+  if (empty()) return {};
+  const Slot& slot = slots_[slotOf(id)];
+  return std::span(partners_).subspan(slot.first, slot.count);
+}
+
+std::uint64_t FlushTriangles::bytes() const {
+  return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
+         partners_.size() * sizeof(PlacedTriangleId);
+}
+
+FlushTriangles findFlushTriangles(const Scene& scene, int threads) {
+  if (scene.triangles.size() > kMostSearched) return {};
+  return FlushFinder(scene, threads).find();
+}
+
+}  // namespace whit

@@ -1,0 +1,83 @@
+// Triangles that share their place with another one in its plane: flush boxes, decals in a floor,
+// instances in one place, glass that stands on a floor. A ray meets them at the same distance, and
+// which of them is nearer has to be settled by a rule.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace whit {
+
+class Scene;
+
+inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
+
+// A triangle where it stands: in the world (kNoInstance) or carried by an instance. Indices into
+// Scene::triangles and Scene::instances.
+struct PlacedTriangleId {
+  std::uint32_t triangle = 0, instance = kNoInstance;
+  bool operator==(const PlacedTriangleId&) const = default;
+};
+
+// Ascending in this are the world's triangles, then those of one instance after the other.
+inline std::uint64_t orderOf(PlacedTriangleId id) {
+  return std::uint64_t{id.instance + 1} << 32 | id.triangle;
+}
+inline PlacedTriangleId placedTriangle(std::uint64_t order) {
+  return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
+}
+
+class FlushTriangles {
+ public:
+  FlushTriangles() = default;
+  // From each pair once, by the orders of its triangles, whichever first.
+  FlushTriangles(std::uint64_t triangles,
+                 std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs);
+
+  bool empty() const { return partners_.empty(); }
+
+  // Whether the triangle is flush with another one in some placement of it.
+  bool any(std::uint32_t triangle) const {
+    const std::size_t word = triangle / 64;
+    return word < any_.size() && (any_[word] >> triangle % 64 & 1) != 0;
+  }
+
+  // The triangles that lie in the plane of this one and touch it, itself excluded, ascending by
+  // orderOf(). Empty where it is not flush.
+  std::span<const PlacedTriangleId> partnersOf(PlacedTriangleId id) const;
+
+  std::uint64_t bytes() const;
+
+ private:
+  struct Slot {
+    PlacedTriangleId id;
+    std::uint32_t count = 0;  // 0: the slot is free
+    std::uint64_t first = 0;  // in partners_
+  };
+  std::size_t slotOf(PlacedTriangleId id) const;
+
+  std::vector<std::uint64_t> any_;  // a bit a triangle
+  std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
+  std::vector<PlacedTriangleId> partners_;
+};
+
+// Two placed triangles lie in one plane if the corners of each are no farther from the plane of the
+// other than the sum of their error bounds (see Facet). They overlap if no edge of either, by its
+// normal in the plane, leaves them less than that sum in common, and touch if none separates them
+// by more. What is found are the triangles that overlap another one in their plane, and those that
+// touch one of these in its plane; both are partners of all of them that they touch in their plane.
+// Triangles without area are left out.
+//
+// The work is bounded, and pairs beyond the bound are not found: where more than some thousands of
+// triangles are in one place each is compared with a part of the others, and of instances that lie
+// in heaps so deep that they have thousands of pairs for each triangle of the scene some heaps are
+// not searched to their end. Of instances of one object in exactly one place, only the first four
+// take part. Scenes of more triangles than kMostSearched, each instanced object counted once, are
+// not searched: at a microsecond or two each that would take longer than all else at the start. The
+// result is the same for any number of threads.
+inline constexpr std::uint64_t kMostSearched = 4'000'000;
+FlushTriangles findFlushTriangles(const Scene& scene, int threads);
+
+}  // namespace whit
