@@ -318,10 +318,23 @@ void ReturnImpulses(Chunk& c) noexcept {
   }
 }
 
+void ReturnToEye(Chunk& c) noexcept {
+  const FloatTag d;
+  const RayColumns rays = c.rays;
+  const RadianceColumns radiance = c.radiance;
+  const size_t n = c.n;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+    const V3 light = Load3(radiance.r, radiance.g, radiance.b, i);
+    Store3(Mul3(weight, light), radiance.r, radiance.g, radiance.b, i);
+  }
+}
+
 StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
 StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddGlossyReflections; }
 StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
 StepFunction FindReturnImpulses(size_t /*index*/) { return ReturnImpulses; }
+StepFunction FindReturnToEye(size_t /*index*/) { return ReturnToEye; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -343,6 +356,10 @@ StepFunction findAddRefractions(std::size_t index) {
 HWY_EXPORT(FindReturnImpulses);
 StepFunction findReturnImpulses(std::size_t index) {
   return HWY_DYNAMIC_DISPATCH(FindReturnImpulses)(index);
+}
+HWY_EXPORT(FindReturnToEye);
+StepFunction findReturnToEye(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindReturnToEye)(index);
 }
 }  // namespace whit::simd
 #endif

@@ -157,7 +157,10 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.alpha, d, surfels.alpha + i);
   }
-  if (job.transmission) StoreMedia(tables, rays, lobe.medium, entering, i, surfels);
+  if (job.transmission) {
+    const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
+    StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);
+  }
   return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);
 }
 

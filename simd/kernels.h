@@ -77,6 +77,7 @@ StepFunction findAddReflections(std::size_t index);
 StepFunction findAddGlossyReflections(std::size_t index);
 StepFunction findAddRefractions(std::size_t index);
 StepFunction findReturnImpulses(std::size_t index);
+StepFunction findReturnToEye(std::size_t index);
 
 // Origin, direction, weight 1, throughput 1, parent = slot, the media around the eye, and the
 // number of the path.
@@ -153,6 +154,12 @@ inline constexpr Kernel kReturnImpulses{
     findReturnImpulses,     {Part::rays, Part::radiance, Part::parentRadiance},
     {Part::parentRadiance}, {}};
 
+// The last of it, where media absorb: what the queue of depth 0 has gathered, times the weight that
+// its rays have left between the eye and the first surface.
+inline constexpr Kernel kReturnToEye{"returnToEye",    Stage::addImpulses,
+                                     findReturnToEye,  {Part::rays, Part::radiance},
+                                     {Part::radiance}, {}};
+
 // Exposure, tone curve and sRGB (encodeDisplay below).
 inline constexpr Kernel kEncodeDisplay{"encodeDisplay",  Stage::updateImage, nullptr,
                                        {Part::radiance}, {Part::codes},      {}};
@@ -172,6 +179,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kAddGlossyReflections,
                                      kAddRefractions,
                                      kReturnImpulses,
+                                     kReturnToEye,
                                      kEncodeDisplay};
 
 // The place of a kernel in the table.

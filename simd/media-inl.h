@@ -68,15 +68,32 @@ HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
       tables.media.data(), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
 }
 
-// Media on both sides of the surface, and whether it is there at all.
+// The stack behind the dielectrics whose faces share the place of the one that was crossed
+// (HitColumns::alsoCrossed).
+HWY_INLINE VU CrossOthers(VU stack, VU others) {
+  const UintTag du;
+  const VU zero = hn::Zero(du), one = hn::Set(du, 1u);
+  while (!hn::AllTrue(du, hn::Eq(others, zero))) {
+    const VU other = hn::And(others, hn::Set(du, 0x3FFu)), medium = hn::ShiftRight<1>(other);
+    const auto enters = hn::Eq(hn::And(other, one), one);
+    const VU behind =
+        hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+    stack = hn::IfThenElse(hn::Ne(medium, zero), behind, stack);
+    others = hn::ShiftRight<10>(others);
+  }
+  return stack;
+}
+
+// Media on both sides of the surface, and whether it is there at all. `others`: as CrossOthers has
+// it.
 HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VU medium,
-                           MF entering, size_t i, const SurfelColumns& surfels) {
+                           MF entering, VU others, size_t i, const SurfelColumns& surfels) {
   const UintTag du;
   const VU stack = hn::Load(du, rays.media + i);
   const auto dielectric = hn::Ne(medium, hn::Zero(du));
   const auto enters = hn::RebindMask(du, entering);
   VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
-  behind = hn::IfThenElse(dielectric, behind, stack);
+  behind = hn::IfThenElse(dielectric, CrossOthers(behind, others), stack);
   const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
   const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
   hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,

@@ -30,8 +30,8 @@ struct SurfelJob {
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, glossy, instances, radianceMaps, secondUvs, transmission,
-      vertexColors;
+  bool absorption, cones, emissionFactors, flush, glossy, instances, radianceMaps, secondUvs,
+      transmission, vertexColors;
 };
 
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
@@ -44,6 +44,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::absorption),
           c.has(Feature::cones),
           c.has(Feature::emissionFactors),
+          c.has(Feature::flush),
           c.has(Feature::glossy),
           c.has(Feature::instances),
           c.tables().radianceMaps,

@@ -6,7 +6,7 @@
 namespace whit {
 
 Accel::Accel(const Scene& scene, const AccelOptions& options, Progress* progress)
-    : parts_(std::make_unique<Parts>(scene, options, progress)) {
+    : scene_(scene), parts_(std::make_unique<Parts>(scene, options, progress)) {
   const RTCDevice device = parts_->embree.device();
   const bool native16 = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
   const bool native8 = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED);

@@ -80,7 +80,7 @@ class Accel {
   bool enclosed() const { return enclosed_; }
 
   // Single rays, for the reference's candidates.
-  Hit closest(const Vec3f& origin, const Vec3f& direction) const noexcept;
+  Hit closest(const Vec3f& origin, const Vec3f& direction, float tNear = 0) const noexcept;
   bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
 
   // Milliseconds that Embree needs for the rays of a log, in full packets.
@@ -93,6 +93,7 @@ class Accel {
   struct Parts;  // accel/accel_parts.h
 
  private:
+  const Scene& scene_;
   std::unique_ptr<Parts> parts_;
   bool enclosed_ = false;
 };

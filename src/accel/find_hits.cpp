@@ -6,6 +6,7 @@
 #include "accel/accel_parts.h"
 #include "accel/packets.h"
 #include "accel/single_rays.h"
+#include "scene/world_corners.h"
 
 namespace whit {
 
@@ -110,6 +111,33 @@ void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
   }
 }
 
+// Whether a hit is so near that the ray may start in its plane, seen at no less than a thousandth
+// of a right angle.
+int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
+  constexpr float kNear = 0x1p-12f;
+  const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
+  return static_cast<int>(t[i] <= kNear * size);
+}
+
+// Of primary rays: the nearest triangle that they do not start in. Robust traversal accepts hits at
+// a distance of 0, whatever the direction.
+void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) noexcept {
+  const HitColumns& hits = range.hits;
+  int any = 0;
+  for (std::size_t i = 0; i < range.n; ++i) any |= isNearEye(range.rays, hits.t, i);
+  if (any == 0) return;
+  for (std::size_t i = 0; i < range.n; ++i) {
+    if (isNearEye(range.rays, hits.t, i) == 0) continue;
+    const Vec3f origin = originAt(range.rays, i), direction = directionAt(range.rays, i);
+    for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
+      const std::uint32_t instance = range.instances ? hits.instance[i] : kNoInstance;
+      if (!liesInPlane(Vec3d(origin), worldCorners(scene, hits.triangle[i], instance))) break;
+      const auto tNear = static_cast<float>(wayPastEye(Vec3d(origin), attempt));
+      store(accel.closest(origin, direction, tNear), range, i);
+    }
+  }
+}
+
 // Three directions next to `d`, each off by about a unit in the last place of its largest
 // component, towards another side each.
 Vec3f nudged(const Vec3f& d, int attempt) {
@@ -136,21 +164,21 @@ void Accel::findHits(Chunk& c) const noexcept {
                    : parts_->packet == 4 ? traceHits<4>(*parts_, range, embreeMs)
                                          : traceHitsSingly(parts_->embree, range, embreeMs);
     if (parts_->packet != 1) settleEdges(parts_->embree, range);
-    if (!enclosed_) continue;
-    for (std::size_t i = 0; i < range.n; ++i) {
+    for (std::size_t i = 0; enclosed_ && i < range.n; ++i) {
       if (range.hits.triangle[i] != kMiss) continue;
       const Hit hit = closest(originAt(range.rays, i), directionAt(range.rays, i));
       if (hit.found()) store(hit, range, i);
     }
+    if (c.depth == 0) lookPastEye(*this, scene_, range);
   }
   // Kernels run over whole vectors.
   std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
 }
 
-Hit Accel::closest(const Vec3f& origin, const Vec3f& direction) const noexcept {
-  Hit hit = findHit(parts_->embree, origin, direction);
+Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
+  Hit hit = findHit(parts_->embree, origin, direction, false, tNear);
   for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
-    hit = findHit(parts_->embree, origin, nudged(direction, attempt));
+    hit = findHit(parts_->embree, origin, nudged(direction, attempt), false, tNear);
   }
   return hit;
 }

@@ -45,10 +45,11 @@ RTCRayHit withoutHit(const RTCRay& ray) {
   return rayHit;
 }
 
-Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
-            bool coherent) noexcept {
+Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, bool coherent,
+            float tNear) noexcept {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   RTCRayHit r = withoutHit(traceableRay(scene, origin, direction, kUnbounded, kSeenMask));
+  r.ray.tnear = tNear;
   QueryContext context(coherent);
   intersect(nullptr, scene.top(), context, r);
   const Hit miss{kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};

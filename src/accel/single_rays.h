@@ -15,7 +15,7 @@ RTCRay singleRay(const Vec3f& origin, const Vec3f& direction, float tFar, unsign
 RTCRayHit withoutHit(const RTCRay& ray);
 
 Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
-            bool coherent = false) noexcept;
+            bool coherent = false, float tNear = 0) noexcept;
 bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, float tFar,
                 bool coherent = false) noexcept;
 

@@ -149,7 +149,7 @@ void add(Digester& d, const Sky& sky) {
 std::string digestOf(const Scene& scene) {
   const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
                mediumOfMaterial, media, textures, geometries, instances, triangles, normals, colors,
-               secondUvs, lower, upper, instancedTriangles, effects, reasons] = scene;
+               secondUvs, lower, upper, instancedTriangles, flush, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

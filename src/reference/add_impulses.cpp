@@ -188,8 +188,8 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
     row.path = chunk.children.path[child];
   } else {
     const std::uint32_t stack = mediaOf(chunk, slot);
-    const Crossing crossing =
-        crossMedia(world.scene, world.effects, surfel.material, surfel.entering, stack);
+    const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material,
+                                         surfel.entering, stack, alsoCrossedAt(chunk, slot));
     const Impulses both =
         findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading);
     twin.impulse = refracted ? both.refracted : both.reflected;

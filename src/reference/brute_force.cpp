@@ -32,7 +32,7 @@ bool BruteForce::closest(const Ray& ray, Candidate& candidate) const {
   double nearest = std::numeric_limits<double>::infinity();
   forEachTriangle(scene_, effects_, [&](std::uint32_t triangle, std::uint32_t instance) {
     const auto hit = intersectTriangle(ray, worldCorners(scene_, triangle, instance));
-    if (!hit || !(hit->t < nearest)) return;
+    if (!hit || !(hit->t < nearest && hit->t > ray.tNear)) return;
     if (effects_.has(Effect::alphaMasks) && cutAway(scene_, triangle, *hit)) return;
     nearest = hit->t;
     candidate = {triangle, instance, hit->u, hit->v};

@@ -285,7 +285,8 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
                              surfelOf(chunk, slot).cone};
   const Surfel s = makeSurfel(world.scene, world.effects, candidate, hit, ray.direction, lookup);
   const std::uint32_t media = mediaOf(chunk, slot);
-  const Crossing crossing = crossMedia(world.scene, world.effects, s.material, s.entering, media);
+  const Crossing crossing = crossMedia(world.scene, world.effects, s.material, s.entering, media,
+                                       alsoCrossedAt(chunk, slot));
   const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);

@@ -3,35 +3,53 @@
 #include <array>
 
 #include "reference/find_intersections.h"
-#include "reference/triangle.h"
+#include "reference/settle_flush.h"
 
 namespace whit::reference {
 
-MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
+namespace {
+
+// A straight line meets a triangle once. Twice as many end what rounding might keep going.
+std::uint64_t mostSurfaces(const Scene& scene) { return 2 * scene.instancedTriangles + 16; }
+
+}  // namespace
+
+MediaStack initialMediumStack(const Scene& scene, const Intersector& intersector,
                               const Vec3d& point) {
-  constexpr int kMostSurfaces = 256;
-  if (!effects.has(Effect::transmission)) return 0;
   // In no plane, and through no edge, that a model is likely to have.
   Ray ray{point, normalized(Vec3d{0.3217, 0.8431, 0.4309})};
-  std::array<int, 256> entered{};
+  const std::uint64_t most = mostSurfaces(scene);
+  std::array<std::uint64_t, 256> entered{};
   MediaStack around = 0;
-  for (int i = 0, found = 0; i < kMostSurfaces && found < 4; ++i) {
+  int found = 0;
+  for (std::uint64_t i = 0; i < most && found < 4; ++i) {
     Candidate candidate;
     if (!intersector.closest(ray, candidate)) break;
     const TriangleHit hit = refineHit(scene, ray, candidate);
-    const Surfel surfel = makeSurfel(scene, effects, candidate, hit, ray.direction);
+    const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray.direction);
+    std::vector<Place> places = placesAt(scene, EffectSet::all(), ray, candidate);
     ray.origin = surfel.position - surfel.geometricNormal * surfel.offset;
-    const std::uint8_t medium = scene.mediumOfMaterial[surfel.material];
-    if (medium == 0) continue;
-    if (surfel.entering) {
-      ++entered[medium];
-    } else if (entered[medium] > 0) {
-      --entered[medium];
-    } else {
-      around |= static_cast<MediaStack>(medium) << (8 * found++);
+    if (places.empty()) {
+      places = {{candidate, hit, scene.mediumOfMaterial[surfel.material], surfel.entering}};
+    }
+    for (const Place& place : places) {
+      if (place.medium == 0) continue;
+      if (place.entering) {
+        ++entered[place.medium];
+      } else if (entered[place.medium] > 0) {
+        --entered[place.medium];
+      } else if (found < 4) {
+        around |= static_cast<MediaStack>(place.medium) << (8 * found++);
+      }
     }
   }
   return around;
+}
+
+MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                       const CameraFrame& camera, const Vec3d& start) {
+  if (!effects.has(Effect::transmission)) return 0;
+  return camera.orthographic ? initialMediumStack(scene, intersector, start) : camera.media;
 }
 
 }  // namespace whit::reference

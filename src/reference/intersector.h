@@ -11,7 +11,8 @@ namespace whit::reference {
 
 struct Ray {
   Vec3d origin, direction;
-  RayCone cone{};  // for texture lookups
+  RayCone cone{};    // for texture lookups
+  double tNear = 0;  // what is not farther than this is passed over
 };
 
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
@@ -26,8 +27,10 @@ struct Candidate {
 class Intersector {
  public:
   virtual ~Intersector() = default;
-  // The nearest triangle along the ray; alpha masks are respected. False: none.
+  // The nearest triangle along the ray, beyond its tNear; alpha masks are respected. False: none.
   virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
+  // Told of each triangle that a path goes on from: of those in one place, the one that counts.
+  virtual void met(const Candidate&) const {}
   // Whether something that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };

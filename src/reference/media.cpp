@@ -10,6 +10,12 @@ constexpr int kStackBits = 32, kEntryBits = 8;
 
 std::uint32_t entryAt(MediaStack stack, int shift) { return stack >> shift & 0xff; }
 
+MediaStack crossed(MediaStack stack, std::uint32_t medium, bool entering) {
+  return entering ? pushMedium(stack, medium) : removeMedium(stack, medium);
+}
+
+constexpr int kOtherBits = 10, kMostOthers = 3;
+
 }  // namespace
 
 MediaStack pushMedium(MediaStack stack, std::uint32_t medium) {
@@ -37,8 +43,13 @@ std::uint32_t currentMedium(const Scene& scene, MediaStack stack) {
   return best;
 }
 
+std::uint32_t withCrossing(std::uint32_t others, std::uint32_t medium, bool entering) {
+  if (others >> (kOtherBits * (kMostOthers - 1)) != 0) return others;
+  return others << kOtherBits | medium << 1 | (entering ? 1 : 0);
+}
+
 Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t material, bool entering,
-                    MediaStack stack) {
+                    MediaStack stack, std::uint32_t others) {
   Crossing crossing;
   crossing.stackBehind = stack;
   if (!effects.has(Effect::transmission) || !scene.materials[material].hasTransmission()) {
@@ -46,7 +57,11 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
   }
   const std::uint32_t medium = scene.mediumOfMaterial[material];
   crossing.dielectric = true;
-  crossing.stackBehind = entering ? pushMedium(stack, medium) : removeMedium(stack, medium);
+  crossing.stackBehind = crossed(stack, medium, entering);
+  for (; others != 0; others >>= kOtherBits) {
+    const std::uint32_t other = others & ((1u << kOtherBits) - 1);
+    crossing.stackBehind = crossed(crossing.stackBehind, other >> 1, (other & 1) != 0);
+  }
   const std::uint32_t before = currentMedium(scene, stack);
   const std::uint32_t behind = currentMedium(scene, crossing.stackBehind);
   crossing.hidden = before == behind;

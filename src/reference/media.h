@@ -20,7 +20,11 @@ MediaStack removeMedium(MediaStack stack, std::uint32_t medium);
 // traced images").
 std::uint32_t currentMedium(const Scene& scene, MediaStack stack);
 
-// A ray crossing the surface of a dielectric.
+// Dielectrics whose faces share the place of the one that is crossed, as hits carry them
+// (stages/columns.h): `others` and one more; three fit.
+std::uint32_t withCrossing(std::uint32_t others, std::uint32_t medium, bool entering);
+
+// A ray crossing the surface of a dielectric, and those of `others` with it.
 struct Crossing {
   bool dielectric = false;
   bool hidden = false;         // the same medium on both sides: the surface is not there
@@ -28,7 +32,7 @@ struct Crossing {
   MediaStack stackBehind = 0;  // of a refracted ray
 };
 Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t material, bool entering,
-                    MediaStack stack);
+                    MediaStack stack, std::uint32_t others = 0);
 
 // Beer's law: what is left of each channel after `distance` in the current medium; an infinite
 // distance leaves nothing of the channels that are absorbed at all.

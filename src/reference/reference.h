@@ -35,6 +35,7 @@ struct RayCounts {
 struct Impulse;
 struct Surfel;
 struct Crossing;
+struct Settled;
 
 // Which path a ray ends: its number, and the place of the pixel's sample in the pattern.
 struct Path {
@@ -57,6 +58,7 @@ class Tracer {
   PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;
 
  private:
+  std::optional<Settled> nearest(Ray ray, int depth) const;
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,

@@ -11,6 +11,7 @@
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
+#include "reference/settle_flush.h"
 #include "reference/update_image.h"
 #include "sampling/probe_samples.h"
 #include "sampling/random_streams.h"
@@ -145,22 +146,25 @@ RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, s
                      RayCounts& counts) const {
   ++counts.primary;
   const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
-  return traceImpulse(ray, 0, 1.0, camera.media, counts, pathOf(x, y, sample));
+  const MediaStack media = mediaAround(scene_, effects_, intersector_, camera, ray.origin);
+  return traceImpulse(ray, 0, 1.0, media, counts, pathOf(x, y, sample));
 }
 
 PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
   const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
-  Candidate candidate;
-  if (!intersector_.closest(ray, candidate)) return {};
-  const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const Surfel s = makeSurfel(scene_, effects_, candidate, hit, ray.direction);
-  return surfaceOf(s, candidate);
+  const std::optional<Settled> met = nearest(ray, 0);
+  if (!met) return {};
+  const TriangleHit hit = refineHit(scene_, ray, met->candidate);
+  const Surfel s = makeSurfel(scene_, effects_, met->candidate, hit, ray.direction);
+  return surfaceOf(s, met->candidate);
 }
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-  frame.media = initialMediumStack(scene, settings.effects, intersector, frame.eye);
+  if (settings.effects.has(Effect::transmission)) {
+    frame.media = initialMediumStack(scene, intersector, frame.eye);
+  }
   const Tracer tracer(scene, intersector, settings);
   if (settings.options.adaptive && settings.options.spp > 1) {
     return renderAdaptively(tracer, frame, settings, image, progress);

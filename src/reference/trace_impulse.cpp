@@ -7,9 +7,11 @@
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/media.h"
 #include "reference/reference.h"
+#include "reference/settle_flush.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/sample_pattern.h"
+#include "scene/world_corners.h"
 
 namespace whit::reference {
 
@@ -35,20 +37,22 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                           RayCounts& counts, Path path) const {
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
-  Candidate candidate;
-  if (!intersector_.closest(ray, candidate)) {
+  const std::optional<Settled> met = nearest(ray, depth);
+  if (!met) {
     const RgbD sky = skyAlong(scene_, effects_, ray.direction);
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     return absorbs ? sky * transmittance(scene_, media, kForEver) : sky;
   }
 
+  const Candidate& candidate = met->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
   const TextureLookup lookup{options_.shading.textureFilter,
                              maps_ ? &*maps_ : nullptr,
                              {ray.cone.widthAt(hit.t), ray.cone.spread}};
   const Surfel surfel = makeSurfel(scene_, effects_, candidate, hit, ray.direction, lookup);
-  const Crossing crossing = crossMedia(scene_, effects_, surfel.material, surfel.entering, media);
+  const Crossing crossing =
+      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
 
   const double left = throughput * maxComponent(arrives);
   RgbD radiance;
@@ -72,6 +76,20 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     radiance += refracted;
   }
   return radiance * arrives;
+}
+
+// The nearest triangle; of the camera's rays, that their start does not lie in.
+std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
+  Candidate candidate;
+  for (int attempt = 0; attempt < kAttemptsPastEye; ++attempt) {
+    if (!intersector_.closest(ray, candidate)) return std::nullopt;
+    const Corners corners = worldCorners(scene_, candidate.triangle, candidate.instance);
+    if (depth > 0 || !liesInPlane(ray.origin, corners)) break;
+    ray.tNear = wayPastEye(ray.origin, attempt);
+  }
+  const Settled settled = settleFlush(scene_, effects_, ray, candidate);
+  intersector_.met(settled.candidate);
+  return settled;
 }
 
 // The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their

@@ -57,15 +57,6 @@ std::optional<Pierced> pierce(const Ray& ray, const Corners& corners) {
 
 }  // namespace
 
-Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance) {
-  const float* p = scene.triangles[triangle].position;
-  Corners corners{Vec3d(p[0], p[1], p[2]), Vec3d(p[3], p[4], p[5]), Vec3d(p[6], p[7], p[8])};
-  if (instance != kNoHit) {
-    for (Vec3d& corner : corners) corner = scene.instances[instance].toWorld.point(corner);
-  }
-  return corners;
-}
-
 std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners) {
   const std::optional<Pierced> pierced = pierce(ray, corners);
   return pierced ? std::optional(pierced->hit) : std::nullopt;

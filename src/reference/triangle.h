@@ -1,19 +1,12 @@
 // Where a ray meets one triangle, in double precision.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "reference/intersector.h"
-#include "scene/scene.h"
+#include "scene/world_corners.h"
 
 namespace whit::reference {
-
-using Corners = std::array<Vec3d, 3>;
-
-// World-space corners of a triangle of the scene (an index into Scene::triangles), carried by the
-// instance unless that is kNoHit.
-Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance);
 
 // t counts in lengths of the ray's direction; u and v weigh corners 1 and 2.
 struct TriangleHit {

@@ -35,6 +35,10 @@ std::uint32_t mediaOf(const Chunk& chunk, std::size_t slot) {
   return chunk.has(Feature::transmission) ? chunk.rays.media[slot] : 0;
 }
 
+std::uint32_t alsoCrossedAt(const Chunk& chunk, std::size_t slot) {
+  return chunk.has(Feature::flush) ? chunk.hits.alsoCrossed[slot] : 0;
+}
+
 bool isHidden(const Chunk& chunk, std::size_t slot) {
   return chunk.has(Feature::transmission) && (chunk.surfels.flags[slot] & kHidden) != 0;
 }

@@ -16,7 +16,7 @@ struct World {
   EffectSet effects;              // of the plan
   const MipMaps* maps = nullptr;  // of the scene, where lookups are trilinear
   CameraFrame camera;
-  const Intersector& intersector;  // for shadow rays
+  const Intersector& intersector;  // for shadow rays and what surrounds the eye
 };
 
 // Slots of the chunk's columns in the reference's own terms.
@@ -24,6 +24,7 @@ Ray rayOf(const Chunk& chunk, std::size_t slot);
 Candidate candidateOf(const Chunk& chunk, std::size_t slot);
 Surfel surfelOf(const Chunk& chunk, std::size_t slot);
 std::uint32_t mediaOf(const Chunk& chunk, std::size_t slot);  // around the ray
+std::uint32_t alsoCrossedAt(const Chunk& chunk, std::size_t slot);
 bool isHidden(const Chunk& chunk, std::size_t slot);
 
 // Into three columns of a row.

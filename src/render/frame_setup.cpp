@@ -72,6 +72,7 @@ CameraRays cameraRays(const CameraFrame& camera) {
           .halfWidth = static_cast<float>(camera.width) / 2,
           .halfHeight = static_cast<float>(camera.height) / 2,
           .media = camera.media,
+          .mediaVary = camera.mediaVary,
           .orthographic = camera.orthographic,
           .coneWidth = static_cast<float>(cone.width),
           .coneSpread = static_cast<float>(cone.spread)};

@@ -66,9 +66,10 @@ class RecordingIntersector : public reference::Intersector {
  public:
   explicit RecordingIntersector(const Accel& accel) : embree_(accel) {}
   bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
-    const bool hit = embree_.closest(ray, c);
-    if (hit) signature += hitEvent(c.triangle, c.instance);
-    return hit;
+    return embree_.closest(ray, c);
+  }
+  void met(const reference::Candidate& c) const override {
+    signature += hitEvent(c.triangle, c.instance);
   }
   bool occluded(const reference::Ray& ray, double tFar) const override {
     const bool blocked = embree_.occluded(ray, tFar);

@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
+#include "render/initial_media.h"
+#include "render/settle_flush.h"
 #include "render/update_image.h"
 #include "simd/kernels.h"
 
@@ -41,6 +43,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
+      .with(Feature::flush, !scene.flush.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
       // Where no vertex normal differs from its triangle's there is nothing to lift.
       .with(Feature::lift,
@@ -91,12 +94,14 @@ class Planner {
 
   Plan make() {
     plan_.perSample = {stepOf(simd::kGenerateRays, plan_.effects)};
+    if (has(Effect::transmission)) plan_.perSample.push_back(initialMediaStep());
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
     addImpulses();
+    if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye, plan_.effects)};
     plan_.perTile = {updateImageStep()};
     markEndsOfStages();
     return std::move(plan_);
@@ -108,8 +113,9 @@ class Planner {
 
   void findIntersections() {
     plan_.perQueue = {embreeStep("findHits", "intersect", findHits, simd::kPackRays,
-                                 simd::kUnpackHits, inPackets()),
-                      stepOf(simd::kInterpolateSurfels, plan_.effects)};
+                                 simd::kUnpackHits, inPackets())};
+    if (plan_.features.has(Feature::flush)) plan_.perQueue.push_back(settleFlushStep());
+    plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels, plan_.effects));
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
     }
@@ -181,6 +187,26 @@ class Planner {
     plan_.impulses.push_back(std::move(step));
   }
 
+  static Step initialMediaStep() {
+    return {.name = "findInitialMedia",
+            .number = simd::indexOf(simd::kGenerateRays),
+            .stage = Stage::generateRays,
+            .run = findInitialMedia,
+            .reads = {Part::rays},
+            .writes = {Part::rays},
+            .kernels = {}};
+  }
+
+  static Step settleFlushStep() {
+    return {.name = "settleFlush",
+            .number = simd::indexOf(simd::kUnpackHits),
+            .stage = Stage::findIntersections,
+            .run = settleFlush,
+            .reads = {Part::rays, Part::hits},
+            .writes = {Part::hits},
+            .kernels = {}};
+  }
+
   static Step updateImageStep() {
     return {.name = "updateImage",
             .number = simd::indexOf(simd::kEncodeDisplay),
@@ -197,8 +223,8 @@ class Planner {
         steps[i].endsStage = i + 1 == steps.size() || steps[i + 1].stage != steps[i].stage;
       }
     };
-    for (auto* list :
-         {&plan_.perSample, &plan_.perQueue, &plan_.impulses, &plan_.onReturn, &plan_.perTile}) {
+    for (auto* list : {&plan_.perSample, &plan_.perQueue, &plan_.impulses, &plan_.onReturn,
+                       &plan_.atEye, &plan_.perTile}) {
       mark(*list);
     }
     for (LightSteps& light : plan_.perLight) mark(light.steps);

@@ -2,11 +2,12 @@
 // the options ask for; nothing in a frame asks again. What walks a frame (render/tile_tracer.h),
 // times it, looks on, lists it (whit info --kernels), benchmarks or probes it, walks these lists.
 //
-//   perSample   generateRays
+//   perSample   generateRays, findInitialMedia
 //   perQueue    findIntersections, writeEmittedAndReflectiveAmbient
 //   perLight    findRadianceAndShadowRays, checkShadows, addShading
 //   impulses    addReflections, addGlossyReflections, addRefractions: the next depth's queue
 //   onReturn    returnImpulses: what that queue has brought
+//   atEye       returnToEye: what is left of it on the way to the eye
 //   perTile     updateImage
 #pragma once
 
@@ -67,7 +68,7 @@ struct Plan {
   int depth = 0;          // deepest impulse that can occur
   int coherentDepth = 0;  // deepest queue whose rays travel close together
 
-  std::vector<Step> perSample, perQueue, impulses, onReturn, perTile;
+  std::vector<Step> perSample, perQueue, impulses, onReturn, atEye, perTile;
   std::vector<LightSteps> perLight;
 
   // visit(step) for every step, in the order in which they first run.
@@ -78,7 +79,7 @@ struct Plan {
     for (const LightSteps& light : perLight) {
       for (const Step& step : light.steps) visit(step);
     }
-    for (const std::vector<Step>* list : {&impulses, &onReturn, &perTile}) {
+    for (const std::vector<Step>* list : {&impulses, &onReturn, &atEye, &perTile}) {
       for (const Step& step : *list) visit(step);
     }
   }

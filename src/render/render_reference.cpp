@@ -8,7 +8,8 @@
 namespace whit {
 
 bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
-  const Hit hit = accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction));
+  const Hit hit =
+      accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(ray.tNear));
   c.triangle = hit.triangle;
   c.instance = hit.instance;
   c.u = static_cast<double>(hit.u);

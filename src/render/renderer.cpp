@@ -7,6 +7,7 @@
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
+#include "render/initial_media.h"
 #include "sampling/sample_pattern.h"
 #include "simd/kernels.h"
 
@@ -58,6 +59,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   const int threads = scheduler_.threads();
   accel_.emplace(scene, accelOptions(options, plan_.effects, threads), progress);
   enclosed_ = options.robust && options.retry && isEnclosed(scene, *accel_);
+  dielectrics_ = dielectricBounds(scene);
   tables_ = buildTables(scene, plan_.effects, options.shading, threads);
   machine_ = {simd::chosenTarget(), accel_->description(), accel_->packet(), threads};
   buildMs_ = stopwatch.ms();
@@ -75,13 +77,15 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
   CameraFrame frame = makeCameraFrame(camera, film.image.width, film.image.height);
-  frame.media =
-      reference::initialMediumStack(scene_, plan_.effects, EmbreeIntersector(*accel_), frame.eye);
+  if (plan_.effects.has(Effect::transmission)) {
+    frame.media = reference::initialMediumStack(scene_, EmbreeIntersector(*accel_), frame.eye);
+    frame.mediaVary = mediaVary(frame, dielectrics_);
+  }
   return frame;
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
-  return {&tables_, &*accel_, plan_.features, options_, cameraRays(camera)};
+  return {&scene_, &tables_, &*accel_, plan_.effects, plan_.features, options_, cameraRays(camera)};
 }
 
 Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {

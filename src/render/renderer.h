@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accel/accel.h"
+#include "core/box.h"
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/reference.h"
@@ -95,6 +96,7 @@ class Renderer {
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;
+  Box dielectrics_;        // around the surfaces of all of them
   bool enclosed_ = false;  // the scene is closed around its cameras, and rays are to be retried
   std::optional<Vec3f> lookedFrom_;  // where the last frame's eye was
   double buildMs_ = 0;

@@ -101,8 +101,7 @@ inline double byMagnitude(const Place<SurfelRow>& p) { return p.twin.offset * 0x
 // How much the cross product of the edges amplifies their rounding.
 inline double bySliver(const Place<SurfelRow>& p) {
   const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
-  const reference::Corners c =
-      reference::worldCorners(p.world.scene, candidate.triangle, candidate.instance);
+  const Corners c = worldCorners(p.world.scene, candidate.triangle, candidate.instance);
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
   return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
 }

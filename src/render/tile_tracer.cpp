@@ -116,10 +116,9 @@ void TileTracer::addImpulses(const Watch& watch) {
 }
 
 void TileTracer::finishChunk(int depth, const Watch& watch) {
-  if (depth > 0) {
-    for (const Step& step : plan_.onReturn) run(step, watch.stats);
-    watch.clock.lap(Stage::addImpulses, depth);
-  }
+  const std::vector<Step>& steps = depth > 0 ? plan_.onReturn : plan_.atEye;
+  for (const Step& step : steps) run(step, watch.stats);
+  if (!steps.empty()) watch.clock.lap(Stage::addImpulses, depth);
   work_.finishChunk(depth);
 }
 

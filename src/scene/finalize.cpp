@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/usable_threads.h"
 #include "scene/finalize_steps.h"
 
 namespace whit {
@@ -76,13 +77,14 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
                                                      : scene.cameraPath.front().camera);
   }
   gatherEffects(scene);
+  scene.flush = findFlushTriangles(scene, usableThreads());
   return scene;
 }
 
 std::uint64_t Scene::memoryBytes() const {
   std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colors) +
                         bytesOf(secondUvs) + bytesOf(instances) + bytesOf(sky.image.r) +
-                        bytesOf(sky.image.g) + bytesOf(sky.image.b);
+                        bytesOf(sky.image.g) + bytesOf(sky.image.b) + flush.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += bytesOf(t.texels);
   return bytes;

@@ -13,6 +13,7 @@
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "scene/camera.h"
+#include "scene/flush_triangles.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
@@ -131,6 +132,8 @@ class Scene {
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;
   std::uint64_t instancedTriangles = 0;  // triangles as seen, instances multiplied out
+
+  FlushTriangles flush;  // that share their place with others
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

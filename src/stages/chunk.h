@@ -18,6 +18,7 @@
 namespace whit {
 
 class Accel;
+class Scene;
 struct Film;
 
 // A CameraFrame (scene/camera.h) in float.
@@ -25,14 +26,17 @@ struct CameraRays {
   Vec3f eye, forward, right, up;
   float halfWidth = 0, halfHeight = 0;  // of the image, in pixels
   std::uint32_t media = 0;              // around the eye
+  bool mediaVary = false;               // each ray may start in others
   bool orthographic = false;
   float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
 };
 
 // The same for all chunks of a frame, and read-only while it is rendered.
 struct FrameConstants {
+  const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
+  EffectSet effects;  // of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;

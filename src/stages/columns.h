@@ -56,13 +56,16 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   X(float, cone, cones)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
-// `instance` indexes Scene::instances, kMiss in the world.
-#define WHIT_HIT_COLUMNS(X)          \
-  X(std::uint32_t, triangle, always) \
-  X(float, t, always)                \
-  X(float, u, always)                \
-  X(float, v, always)                \
-  X(std::uint32_t, instance, instances)
+// `instance` indexes Scene::instances, kMiss in the world; `alsoCrossed` are the dielectrics whose
+// faces lie in the very place of the one that was hit: 10 bits each, medium * 2 + (1 if its outside
+// is hit), 0 for none.
+#define WHIT_HIT_COLUMNS(X)             \
+  X(std::uint32_t, triangle, always)    \
+  X(float, t, always)                   \
+  X(float, u, always)                   \
+  X(float, v, always)                   \
+  X(std::uint32_t, instance, instances) \
+  X(std::uint32_t, alsoCrossed, flush)
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray

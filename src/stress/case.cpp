@@ -34,7 +34,8 @@ std::vector<Family> families() {
           {"vectors and ranges", rangeCases()},
           {"exact laws", invarianceCases()},
           {"recursion", recursionCases()},
-          {"lights, textures, film, camera", lightAndFilmCases()}};
+          {"lights, textures, film, camera", lightAndFilmCases()},
+          {"faces in one plane", flushFaceCases()}};
 }
 
 std::vector<Setup> setupsOf(Runs runs) {

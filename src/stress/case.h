@@ -1,6 +1,6 @@
 // The catalogue of hard cases: situations in which ray tracers go wrong, each with its
 // construction, a measure of how wrong, and the bound that it must keep. `whit stress` runs them on
-// the user's machine, tests/hard as tests. The numbers H1 to H79 are those of the table in
+// the user's machine, tests/hard as tests. The numbers H1 to H83 are those of the table in
 // tests/README.md.
 #pragma once
 
@@ -93,6 +93,7 @@ std::span<const Case> rangeCases();
 std::span<const Case> invarianceCases();
 std::span<const Case> recursionCases();
 std::span<const Case> lightAndFilmCases();
+std::span<const Case> flushFaceCases();
 
 struct Family {
   std::string_view name;

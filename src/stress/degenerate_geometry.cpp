@@ -101,7 +101,7 @@ Finding tinyAndHugeTriangles(const Setup& setup) {
   for (std::uint32_t i = 0; i < count; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
   probe.interpolate();
   for (std::uint32_t i = 0; i < count; ++i) {
-    const reference::Corners c = reference::worldCorners(scene, i, reference::kNoHit);
+    const Corners c = worldCorners(scene, i, reference::kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     if (n.z < 0) n = -n;
     finding.note(maxComponent(abs(Vec3d(probe.ng(i)) - n)),

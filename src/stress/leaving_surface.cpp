@@ -87,8 +87,7 @@ Finding pointsFromFarAway(const Setup& setup) {
   probe.cast(rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (!probe.isHit(i)) continue;
-    const reference::Corners c =
-        reference::worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
+    const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
     const Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     const Vec3d at(probe.position(i));
     const double sum = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z);
@@ -99,7 +98,7 @@ Finding pointsFromFarAway(const Setup& setup) {
 
 // In long double and from the corner next to the origin: the sizes of the corners differ by up to
 // 1e16.
-double distanceToPlane(const reference::Corners& c, const Vec3d& point) {
+double distanceToPlane(const Corners& c, const Vec3d& point) {
   using Vec = Vec3<long double>;
   const Vec n = normalized(cross(Vec(c[1]) - Vec(c[0]), Vec(c[2]) - Vec(c[0])));
   const Vec3d* base = &c[0];
@@ -129,7 +128,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
   }
   probe.interpolate();
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
-    const reference::Corners c = reference::worldCorners(scene, i, reference::kNoHit);
+    const Corners c = worldCorners(scene, i, reference::kNoHit);
     const double u = static_cast<double>(probe.hits().u[i]),
                  v = static_cast<double>(probe.hits().v[i]);
     // What counts is the distance to the plane: along it 1 - u - v, rounded, moves the point more.
@@ -161,6 +160,44 @@ Finding startOnAPlane(const Setup& setup) {
   again.cast(spawned);
   for (std::size_t i = 0; i < again.size(); ++i) {
     finding.count(again.isHit(i), described(spawned[i]));
+  }
+  return finding;
+}
+
+// From within the plane of a glowing floor, also by parallel rays that all start in it: all there
+// is to see is the sky.
+Finding eyeInAPlane(const Setup& setup) {
+  Finding finding(0);
+  constexpr float kSky = 0.25f;
+  for (const float height : {0.0f, 0.1f, 1000.1f, -3e6f}) {
+    SceneBuilder builder;
+    Material glowing = blackMaterial();
+    glowing.emission = {1, 1, 1};
+    builder.add(floorAt(height, 10, builder.add(glowing)));
+    builder.sky(kSky);
+    const Scene scene = builder.build();
+    for (const Vec3f& towards : {Vec3f(1, 0, 0.2f), Vec3f(0.1f, 1, 0), Vec3f(0, -1, 0.1f),
+                                 Vec3f(0.3f, 0.7f, -1), Vec3f(-1, -0.4f, 0.2f)}) {
+      for (const float parallel : {0.0f, 2.0f}) {
+        // Parallel rays all start in the plane if it is the one across them.
+        if (parallel > 0 && std::fabs(towards.y) < 1) continue;
+        Camera camera;
+        camera.eye = {0.3f, height, 0.2f};
+        const Vec3f along = parallel > 0 ? Vec3f(0, towards.y, 0) : towards;
+        camera.at = {camera.eye.x + along.x, camera.eye.y + along.y, camera.eye.z + along.z};
+        camera.up = {0, 0.3f, 1};
+        camera.fov = 100;
+        camera.orthographicHeight = parallel;
+        RenderOptions options = optionsOf(setup);
+        options.size = ImageSize{32, 24};
+        for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+          finding.count(pixel.x != kSky, [&] {
+            return "height " + hexText(double{height}) + " towards " + hexText(along) +
+                   (parallel > 0 ? ", parallel" : "");
+          });
+        }
+      }
+    }
   }
   return finding;
 }
@@ -230,6 +267,9 @@ constexpr Case kLeavingSurfaceCases[] = {
      Runs::targets, offsetBoundsTheError},
     {"H9", "rays that start on a plane leave it", "views from vertical to 0.06 degrees",
      Runs::packets, startOnAPlane},
+    {"H9b", "an eye in a surface's plane does not see it",
+     "in a glowing floor, looking along it, away and through; pixels that are not the sky",
+     Runs::packets, eyeInAPlane},
     {"H10", "children start on the side that they go to", "slab of glass: two faces, then out",
      Runs::packets, sideOfTheOffset},
     {"H11", "no self-hits on instances", "scaled by 1e-3 and 1e3, stretched, mirrored",

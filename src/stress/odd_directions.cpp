@@ -92,8 +92,7 @@ Finding nearlyCoplanar(const Setup& setup) {
       finding.note(0, described(rays[i]));
       continue;
     }
-    const reference::Corners c =
-        reference::worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
+    const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
     const Vec3d point =
         Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * static_cast<double>(probe.hits().t[i]);
     const Vec3d low = min(c[0], min(c[1], c[2])), high = max(c[0], max(c[1], c[2]));

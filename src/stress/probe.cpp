@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "render/settle_flush.h"
 #include "simd/kernels.h"
 
 namespace whit::stress {
@@ -32,8 +33,10 @@ RenderOptions probeOptions(const Setup& setup) {
 
 Probe::Probe(const Scene& scene, const Setup& setup)
     : renderer_(scene, probeOptions(setup)),
-      constants_{&renderer_.tables(),
+      constants_{&scene,
+                 &renderer_.tables(),
                  &renderer_.accel(),
+                 renderer_.plan().effects,
                  renderer_.plan().features,
                  renderer_.options(),
                  {}} {
@@ -96,7 +99,10 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
   chunk_.coherent = false;
   chunk_.segments[0] = {RayKind::primary, 0, count_};
   chunk_.segmentCount = 1;
+  chunk_.depth = 1;  // not from an eye, which sees nothing of the surfaces that it lies in
   findHits(chunk_);
+  if (chunk_.has(Feature::flush)) settleFlush(chunk_);
+  chunk_.depth = 0;
   interpolate();
 }
 

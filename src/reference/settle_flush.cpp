@@ -1,0 +1,102 @@
+#include "reference/settle_flush.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reference/find_intersections.h"
+#include "reference/media.h"
+
+namespace whit::reference {
+
+namespace {
+
+PlacedTriangleId idOf(const Candidate& c) { return {c.triangle, c.instance}; }
+
+bool isEntered(const Scene& scene, const Candidate& c, const Vec3d& direction) {
+  const Corners corners = worldCorners(scene, c.triangle, kNoInstance);
+  Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (c.instance != kNoInstance) normal = scene.instances[c.instance].toWorld.normal(normal);
+  return dot(direction, normal) < 0;
+}
+
+// Whether two triangles are neighbors in one surface: through the edge or corner that they share a
+// ray passes once. Those with all corners in common lie one on the other.
+bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
+  if (a.medium != b.medium || a.entering != b.entering) return false;
+  if (a.candidate.instance != b.candidate.instance) return false;
+  const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance),
+                others = worldCorners(scene, b.candidate.triangle, kNoInstance);
+  const auto shared = std::count_if(corners.begin(), corners.end(), [&](const Vec3d& corner) {
+    return std::find(others.begin(), others.end(), corner) != others.end();
+  });
+  return shared == 1 || shared == 2;
+}
+
+// Of neighbors the first.
+void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return orderOf(idOf(a.candidate)) < orderOf(idOf(b.candidate));
+  });
+  std::vector<Place> surfaces;
+  for (const Place& place : places) {
+    const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const Place& other) {
+      return areNeighbors(scene, other, place);
+    });
+    if (!known) surfaces.push_back(place);
+  }
+  places = std::move(surfaces);
+}
+
+// Whether light meets `a` rather than `b`.
+bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
+  const bool opaqueA = a.medium == 0, opaqueB = b.medium == 0;
+  if (opaqueA != opaqueB) return opaqueA;
+  const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
+  if (priorityA != priorityB) return priorityA > priorityB;
+  return orderOf(idOf(a.candidate)) > orderOf(idOf(b.candidate));
+}
+
+}  // namespace
+
+std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ray,
+                            const Candidate& met) {
+  std::vector<Place> places;
+  if (!scene.flush.any(met.triangle)) return places;
+  const auto partners = scene.flush.partnersOf(idOf(met));
+  const auto add = [&](const PlacedTriangleId& id) {
+    if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
+    const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
+    if (!hit) return;
+    if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
+    Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false};
+    if (effects.has(Effect::transmission)) {
+      place.medium = scene.mediumOfMaterial[scene.triangles[id.triangle].material];
+    }
+    place.entering = isEntered(scene, place.candidate, ray.direction);
+    places.push_back(place);
+  };
+  if (partners.empty()) return places;
+  add(idOf(met));
+  for (const PlacedTriangleId& id : partners) add(id);
+  mergeNeighbors(scene, places);
+  return places;
+}
+
+Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met) {
+  if (scene.flush.empty()) return {met, {}};
+  const std::vector<Place> places = placesAt(scene, effects, ray, met);
+  if (places.empty()) return {met, {}};
+  const Place* first = &places[0];
+  for (const Place& place : places) {
+    if (comesFirst(scene, place, *first)) first = &place;
+  }
+  Settled settled{first->candidate, first->hit, true};
+  if (first->medium == 0) return settled;
+  for (const Place& place : places) {
+    if (&place == first) continue;
+    settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);
+  }
+  return settled;
+}
+
+}  // namespace whit::reference

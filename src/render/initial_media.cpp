@@ -1,0 +1,68 @@
+#include "render/initial_media.h"
+
+#include <algorithm>
+
+#include "reference/initial_medium_stack.h"
+#include "render/embree_intersector.h"
+
+namespace whit {
+
+namespace {
+
+Box boundsWithin(const Scene& scene, const Geometry& geometry) {
+  Box box;
+  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+    const TriangleRecord& triangle = scene.triangles[geometry.firstTriangle + i];
+    if (scene.mediumOfMaterial[triangle.material] == 0) continue;
+    for (int k = 0; k < 9; k += 3) {
+      box.add({triangle.position[k], triangle.position[k + 1], triangle.position[k + 2]});
+    }
+  }
+  return box;
+}
+
+}  // namespace
+
+Box dielectricBounds(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Geometry& geometry : scene.geometries) boxes.push_back(boundsWithin(scene, geometry));
+  Box all = boxes.empty() ? Box() : boxes[0];
+  for (const InstanceRecord& instance : scene.instances) {
+    const Box& own = boxes[instance.geometry];
+    for (int i = 0; i < 8 && !own.empty(); ++i) {
+      all.add(Vec3f(instance.toWorld.point(Vec3d(own.corner(i)))));
+    }
+  }
+  return all;
+}
+
+bool mediaVary(const CameraFrame& camera, const Box& dielectrics) {
+  if (!camera.orthographic || dielectrics.empty()) return false;
+  const Vec3d right = abs(camera.right * (camera.width / 2.0)),
+              up = abs(camera.up * (camera.height / 2.0));
+  const Vec3d reach = right + up;
+  const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
+  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (int i = 0; i < 8; ++i) {
+    const double ahead = dot(Vec3d(dielectrics.corner(i)) - camera.eye, camera.forward);
+    nearest = std::min(nearest, ahead);
+    farthest = std::max(farthest, ahead);
+  }
+  if (nearest > 0 || farthest < 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (camera.eye[axis] + reach[axis] < lower[axis]) return false;
+    if (camera.eye[axis] - reach[axis] > upper[axis]) return false;
+  }
+  return true;
+}
+
+void findInitialMedia(Chunk& c) {
+  if (!c.frame->camera.mediaVary) return;
+  const EmbreeIntersector intersector(*c.frame->accel);
+  for (std::size_t i = 0; i < c.n; ++i) {
+    const Vec3d origin{c.rays.orgX[i], c.rays.orgY[i], c.rays.orgZ[i]};
+    c.rays.media[i] = reference::initialMediumStack(*c.frame->scene, intersector, origin);
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,25 @@
+#include "render/settle_flush.h"
+
+#include "reference/settle_flush.h"
+#include "reference/twin.h"
+
+namespace whit {
+
+void settleFlush(Chunk& c) {
+  const Scene& scene = *c.frame->scene;
+  for (std::size_t i = 0; i < c.n; ++i) {
+    c.hits.alsoCrossed[i] = 0;
+    if (c.hits.triangle[i] == kMiss || !scene.flush.any(c.hits.triangle[i])) continue;
+    const reference::Settled settled = reference::settleFlush(
+        scene, c.frame->effects, reference::rayOf(c, i), reference::candidateOf(c, i));
+    if (!settled.flush) continue;
+    c.hits.triangle[i] = settled.candidate.triangle;
+    if (c.has(Feature::instances)) c.hits.instance[i] = settled.candidate.instance;
+    c.hits.t[i] = static_cast<float>(settled.hit.t);
+    c.hits.u[i] = static_cast<float>(settled.hit.u);
+    c.hits.v[i] = static_cast<float>(settled.hit.v);
+    c.hits.alsoCrossed[i] = settled.alsoCrossed;
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,207 @@
+// H80 to H83: faces that share a plane, as models are made everywhere: boxes side by side, decals,
+// glass that stands on a table, objects placed twice.
+#include <array>
+#include <bit>
+
+#include "stress/bodies.h"
+
+namespace whit::stress {
+
+namespace {
+
+Material glowing(float radiance) {
+  Material m = blackMaterial();
+  m.emission = Rgb(radiance);
+  return m;
+}
+
+// Two corners on a grid of whole numbers, one unit or more apart on each axis.
+std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
+  std::array<Vec3f, 2> corners;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::floor(numbers.in(-2, 2));
+    corners[0][axis] = static_cast<float>(low);
+    corners[1][axis] = static_cast<float>(low + std::floor(numbers.in(1, 3)));
+  }
+  return corners;
+}
+
+// Blocks on a grid, so that their faces, edges and corners coincide; decals one on the other in the
+// floor, one with itself in the same place; sheets that cross. Seeds that are odd are turned and
+// moved, so that planes agree to rounding only.
+Scene blocksOnGrid(std::uint64_t seed) {
+  Numbers numbers(seed);
+  SceneBuilder builder;
+  const Material materials[] = {diffuseMaterial(0.6f),  mirrorMaterial(0.7f),
+                                glassMaterial(1.5f, 1), glassMaterial(1.33f),
+                                diffuseMaterial(0.2f),  glowing(0.4f)};
+  std::vector<std::uint32_t> all;
+  for (const Material& m : materials) all.push_back(builder.add(m));
+  const auto any = [&] { return all[static_cast<std::size_t>(numbers.in(0, 6))]; };
+  Object object;
+  for (int i = 0; i < 8; ++i) {
+    const auto [low, high] = cornersOnGrid(numbers);
+    object.meshes.push_back(box(low, high, any()));
+  }
+  object.meshes.push_back(floorAt(-2, 6, all[0]));
+  for (int i = 0; i < 3; ++i) {
+    object.meshes.push_back(floorAt(-2, static_cast<float>(numbers.in(1, 5)), any()));
+  }
+  object.meshes.push_back(quad({-3, -3, -3}, {3, -3, 3}, {3, 3, 3}, {-3, 3, -3}, any()));
+  object.meshes.push_back(quad({-3, -3, 3}, {3, -3, -3}, {3, 3, -3}, {-3, 3, 3}, any()));
+  Affine place;
+  if (seed % 2 != 0) {
+    place = Affine::translation({300, 20, -100}) * Affine::rotation(numbers.direction(), 77);
+  }
+  builder.place(std::move(object), {place});
+  Object twice;
+  twice.meshes = {box({-1, 0, -1}, {1, 1, 1}, any())};
+  builder.place(std::move(twice), {place, place, place * Affine::translation({1, 0, 0})});
+  builder.description.lights = {lightAt(Vec3f(place.point({3.3, 7, 5.1})), 60)};
+  builder.sky(0.3f);
+  Camera camera;
+  camera.eye = Vec3f(place.point(numbers.direction() * 9.0));
+  camera.at = Vec3f(place.point({0.1, -0.2, 0.05}));
+  builder.description.cameras = {camera};
+  Warnings warnings;  // boxes of one material in one place
+  return Scene::finalize(builder.describe(), warnings);
+}
+
+RenderOptions fewPixels(const Setup& setup) {
+  RenderOptions options = optionsOf(setup);
+  options.size = ImageSize{64, 48};
+  options.depth = 6;
+  return options;
+}
+
+void countOtherBits(const Image& a, const Image& b, const std::string& what, Finding& finding) {
+  using Bits = std::array<std::uint32_t, 3>;
+  for (int y = a.window.y0; y < a.window.y1; ++y) {
+    for (int x = a.window.x0; x < a.window.x1; ++x) {
+      finding.count(std::bit_cast<Bits>(a.at(x, y)) != std::bit_cast<Bits>(b.at(x, y)), [&] {
+        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y);
+      });
+    }
+  }
+}
+
+// Against packets of one ray, and again with other tiles, queues, batches, threads and a crop.
+Finding sameBits(const Setup& setup) {
+  Finding finding(0);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Scene scene = blocksOnGrid(seed);
+    const auto picture = [&](const RenderOptions& options) {
+      return pictureOf(scene, scene.cameras[0], options);
+    };
+    const auto differs = [&](const RenderOptions& options, const Image& from, const char* how) {
+      countOtherBits(picture(options), from, "seed " + std::to_string(seed) + ", " + how, finding);
+    };
+    RenderOptions options = fewPixels(setup);
+    const Image own = picture(options);
+    options.packet = 1;
+    differs(options, own, "single rays");
+    options = fewPixels(setup);
+    options.tile = 7;
+    options.queue = 40;
+    differs(options, own, "other tiles and queues");
+    options = fewPixels(setup);
+    options.batch = Batch::frame;
+    options.threads = 1 + static_cast<int>(seed % 3);
+    differs(options, own, "whole frames as batches");
+    options = fewPixels(setup);
+    options.crop = Crop{13, 11, 40, 31};
+    differs(options, own, "a crop");
+  }
+  return finding;
+}
+
+// A block of glass, face in face with an opaque floor that hides something bright.
+Finding glassOnTheFloor(const Setup& setup) {
+  Finding finding(0);
+  for (const float height : {0.0f, 0.1f, 33.3f}) {
+    SceneBuilder builder;
+    builder.add(floorAt(height - 0.5f, 8, builder.add(glowing(100))));
+    builder.add(floorAt(height, 8, builder.add(glowing(0.5f))));
+    builder.add(box({-1, height, -1}, {1, height + 1, 1}, builder.add(glassMaterial(1.5f))));
+    const Scene scene = builder.build();
+    Camera camera;
+    camera.eye = {1.5f, height + 2.5f, 3};
+    camera.at = {0, height, 0};
+    for (const Rgb& pixel : pictureOf(scene, camera, fewPixels(setup)).pixels) {
+      finding.count(!(maxComponent(pixel) <= 0.5f),
+                    [&] { return "height " + hexText(double{height}); });
+    }
+  }
+  return finding;
+}
+
+// What lies under two slabs, one on the other, seen straight through: all that is not reflected at
+// the three interfaces, first order only.
+Finding slabOnSlab(const Setup& setup) {
+  // Two dozen roundings.
+  Finding finding(24 * 0x1p-24);
+  for (const float below : {1.5f, 1.33f, 2.0f}) {
+    SceneBuilder builder;
+    addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f, 1)), 50);
+    addSlab(builder, 0, -1, builder.add(glassMaterial(below)), 50);
+    builder.add(floorAt(-2, 50, builder.add(glowing(1))));
+    Camera camera;
+    camera.eye = {0, 3, 0};
+    camera.at = {0, 0, 0};
+    camera.up = {0, 0, -1};
+    camera.orthographicHeight = 1;
+    RenderOptions options = fewPixels(setup);
+    options.depth = 3;
+    options.cutoff = 0;
+    const auto passes = [](double a, double b) { return 1 - std::pow((a - b) / (a + b), 2); };
+    const double n = static_cast<double>(below);
+    const double wanted = passes(1, 1.5) * passes(1.5, n) * passes(n, 1);
+    for (const Rgb& pixel : pictureOf(builder.build(), camera, options).pixels) {
+      finding.note(std::fabs(static_cast<double>(pixel.x) / wanted - 1),
+                   [&] { return "index " + hexText(n); });
+    }
+  }
+  return finding;
+}
+
+// Which of several squares in one place is seen: the opaque one rather than glass, and of two the
+// one that comes later in the scene.
+Finding whichIsSeen(const Setup& setup) {
+  Finding finding(0);
+  for (const bool glassFirst : {false, true}) {
+    SceneBuilder builder;
+    const auto lower = builder.add(glowing(0.25f)), upper = builder.add(glowing(0.75f));
+    const auto glass = builder.add(glassMaterial(1.5f, 9));
+    if (glassFirst) builder.add(floorAt(0, 2, glass));
+    builder.add(floorAt(0, 3, lower));
+    builder.add(floorAt(0, 2.5f, upper));
+    if (!glassFirst) builder.add(floorAt(0, 2, glass));
+    const Image image = pictureOf(builder.build(), lookingDown(), fewPixels(setup));
+    for (const Rgb& pixel : image.pixels) {
+      finding.count(pixel.x != 0.75f && pixel.x != 0.25f && pixel.x != 0,
+                    [&] { return "something else: " + hexText(static_cast<double>(pixel.x)); });
+    }
+    finding.count(image.at(32, 24).x != 0.75f, [] { return "not the later one"; });
+  }
+  return finding;
+}
+
+constexpr Case kFlushFaceCases[] = {
+    {"H80", "the same bits where faces share a plane",
+     "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
+     "rays, other tiles, queues, batches, threads, a crop",
+     Runs::packets, sameBits},
+    {"H81", "glass on an opaque floor does not leak",
+     "pixels that show what is under the floor, at three heights", Runs::packets, glassOnTheFloor},
+    {"H82", "slab on slab, face in face",
+     "light through three interfaces, against Fresnel; equal and other indices", Runs::packets,
+     slabOnSlab},
+    {"H83", "which of several faces in one place is seen",
+     "the opaque one, the later one, in any order with glass", Runs::packets, whichIsSeen},
+};
+
+}  // namespace
+
+std::span<const Case> flushFaceCases() { return kFlushFaceCases; }
+
+}  // namespace whit::stress
