@@ -178,6 +178,20 @@ bool Tracer::lit(const Surface& surface, const Arrival& arrival, const Light& li
   return !geometry_.blocked({start, normalized(way)}, directional ? INFINITY : length(way));
 }
 
+namespace {
+
+// The coat comes first; what it leaves is the most that passes.
+double leftBy(double coat, double largest) {
+  return std::min(1.0, std::max(0.0, 1 - coat) / largest);
+}
+
+Color underCoat(const Color& transmission, const Color& coat) {
+  const double most = largest(transmission);
+  return transmission * Color{leftBy(coat.x, most), leftBy(coat.y, most), leftBy(coat.z, most)};
+}
+
+}  // namespace
+
 Color Tracer::impulses(const Surface& surface, int depth, double weight, const Media& media,
                        const Media& behind, double& undecided) const {
   const Material& material = surface.material;
@@ -190,15 +204,16 @@ Color Tracer::impulses(const Surface& surface, int depth, double weight, const M
     return {};
   }
   Color radiance;
-  Color reflectance = schlick(material.mirror, material.mirrorGrazing, cosine);
+  const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
+  Color reflectance = coat;
   if (material.isDielectric()) {
     const double n1 = media.current().ior, n2 = behind.current().ior;
     const double interface =
         options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
-    reflectance += gray(interface);
+    reflectance += (gray(1) - coat) * interface;
     if (interface < 1) {
       const Ray on{surface.position, refracted(direction, surface.normal, n1, n2)};
-      const Color passed = material.transmission * (1 - interface);
+      const Color passed = underCoat(material.transmission, coat) * (1 - interface);
       const double part = weight * largest(passed);
       if (surface.smooth && -dot(on.direction, surface.plane) < kSkimming) undecided += part;
       radiance += passed * trace(on, depth + 1, part, behind, undecided);

@@ -88,7 +88,7 @@ struct Cost {
   FrameStats stats;
   BufferBytes buffers;
   std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
-  bool skyImage = false;
+  bool skyImage = false, flush = false;
 };
 
 Cost costWithout(EffectSet effects) {
@@ -106,6 +106,7 @@ Cost costWithout(EffectSet effects) {
   cost.instances = renderer.tables().instances.size();
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
+  cost.flush = !scene.flush.empty();
   return cost;
 }
 
@@ -116,6 +117,7 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
   const FeatureSet features = FeatureSet()
                                   .with(Feature::emissionFactors)
                                   .with(Feature::streams)
+                                  .with(Feature::flush, cost.flush)
                                   .with(Feature::glossy, glossy)
                                   .with(Feature::transmission, transmission)
                                   .with(Feature::instances, instances);
