@@ -62,7 +62,6 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
                             const Candidate& met) {
   std::vector<Place> places;
   if (!scene.flush.any(met.triangle)) return places;
-  const auto partners = scene.flush.partnersOf(idOf(met));
   const auto add = [&](const PlacedTriangleId& id) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
@@ -75,9 +74,9 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     place.entering = isEntered(scene, place.candidate, ray.direction);
     places.push_back(place);
   };
-  if (partners.empty()) return places;
+  scene.flush.forEachPartnerAt(idOf(met), met.u, met.v, add);
+  if (places.empty()) return places;
   add(idOf(met));
-  for (const PlacedTriangleId& id : partners) add(id);
   mergeNeighbors(scene, places);
   return places;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -36,6 +37,8 @@ std::size_t hashOf(PlacedTriangleId id) {
   return static_cast<std::size_t>(x ^ (x >> 31));
 }
 
+}  // namespace
+
 class FlushFinder {
  public:
   FlushFinder(const Scene& scene, int threads);
@@ -50,6 +53,7 @@ class FlushFinder {
   }
   void addWithinInstances(std::uint32_t geometry, Orders& all) const;
   Orders overlapping() const;
+  void findExtents(FlushTriangles& found) const;
 
   const Scene& scene_;
   int threads_;
@@ -153,10 +157,52 @@ FlushTriangles FlushFinder::find() {
   blocks.insert(blocks.end(), all.begin(), all.end());
   addBoth(pairs(std::move(blocks), PairsOf::asked, facetsTouch), flush);
   sortUnique(flush);
-  return {scene_.triangles.size(), pairs(boxesOf(flush), PairsOf::all, facetsTouch)};
+  FlushTriangles found(scene_.triangles.size(), pairs(boxesOf(flush), PairsOf::all, facetsTouch));
+  findExtents(found);
+  return found;
 }
 
-}  // namespace
+void FlushFinder::findExtents(FlushTriangles& found) const {
+  found.extents_.resize(found.partners_.size());
+  std::vector<std::uint8_t> overlaps(found.partners_.size());
+  parallelFor(threads_, found.slots_.size(), [&](std::size_t k, int) {
+    FlushTriangles::Slot& slot = found.slots_[k];
+    if (slot.count == 0) return;
+    const Facet own = world_.facet(slot.id);
+    for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
+      const Facet partner = world_.facet(found.partners_[i]);
+      const WeightRange range = weightsOf(own, partner);
+      found.extents_[i] = {range.u0, range.u1, range.v0, range.v1};
+      overlaps[i] = facetsOverlap(own, partner) ? 1 : 0;
+    }
+  });
+  for (FlushTriangles::Slot& slot : found.slots_) {
+    if (slot.count > 0) found.fillCells(slot, overlaps);
+  }
+}
+
+// About as many cells as there are partners.
+void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
+  constexpr double kMostSide = 64;
+  slot.side = static_cast<std::size_t>(
+      std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
+  slot.firstCell = cellBegin_.size() - 1;
+  std::vector<std::vector<std::size_t>> cells(slot.side * slot.side);
+  std::vector<std::uint8_t> contested(cells.size());
+  for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
+    const Extent& e = extents_[i];
+    for (std::size_t v = cellOf(e.v0, slot.side); v <= cellOf(e.v1, slot.side); ++v) {
+      for (std::size_t u = cellOf(e.u0, slot.side); u <= cellOf(e.u1, slot.side); ++u) {
+        cells[v * slot.side + u].push_back(i);
+        contested[v * slot.side + u] |= overlaps[i];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (contested[k] != 0) inCells_.insert(inCells_.end(), cells[k].begin(), cells[k].end());
+    cellBegin_.push_back(inCells_.size());
+  }
+}
 
 FlushTriangles::FlushTriangles(std::uint64_t triangles,
                                std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs) {
@@ -198,7 +244,8 @@ std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id
 
 std::uint64_t FlushTriangles::bytes() const {
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
-         partners_.size() * sizeof(PlacedTriangleId);
+         partners_.size() * (sizeof(PlacedTriangleId) + sizeof(Extent)) +
+         (cellBegin_.size() + inCells_.size()) * sizeof(std::size_t);
 }
 
 FlushTriangles findFlushTriangles(const Scene& scene, int threads) {

@@ -227,12 +227,12 @@ TEST(FlushTriangles, WhatTheyTake) {
   builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1)});
   const FlushTriangles found = findFlushTriangles(builder.scene(), kThreads);
   EXPECT_GT(found.bytes(), 8 * sizeof(PlacedTriangleId));
-  EXPECT_LT(found.bytes(), 1000u);
+  EXPECT_LT(found.bytes(), 2000u);
   EXPECT_TRUE(found.any(3));
   EXPECT_FALSE(found.any(4));
   EXPECT_FALSE(found.any(0xfffffffe));
   EXPECT_TRUE(found.partnersOf({0, 0}).empty());
-  EXPECT_EQ(FlushTriangles().bytes(), 0u);
+  EXPECT_LT(FlushTriangles().bytes(), 16u);
   EXPECT_TRUE(FlushTriangles().partnersOf({0, kNoInstance}).empty());
 }
 
