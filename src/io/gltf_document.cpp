@@ -203,7 +203,7 @@ void GltfDocument::readBuffers(Source& source) {
     const std::string place = where("buffers", i, "/uri");
     if (uri == list[i].end()) {
       if (!source.hasData(i)) continue;
-      bytes = std::move(source.file.binary);
+      bytes = std::exchange(source.file.binary, {});
     } else if (isDataUri(uri->get_ref<const std::string&>())) {
       bytes = decodeUri(*uri, place, budget_);
     } else {

@@ -122,6 +122,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
 // By which scene files call them.
 std::vector<std::string> namesOf(const std::vector<Material>& materials) {
   std::vector<std::string> names;
+  names.reserve(materials.size());
   for (const Material& material : materials) names.push_back(material.name);
   return distinctNames(names);
 }

@@ -32,11 +32,10 @@ std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
 Scene blocksOnGrid(std::uint64_t seed) {
   Numbers numbers(seed);
   SceneBuilder builder;
-  const Material materials[] = {diffuseMaterial(0.6f),  mirrorMaterial(0.7f),
-                                glassMaterial(1.5f, 1), glassMaterial(1.33f),
-                                diffuseMaterial(0.2f),  glowing(0.4f)};
-  std::vector<std::uint32_t> all;
-  for (const Material& m : materials) all.push_back(builder.add(m));
+  const std::array<std::uint32_t, 6> all{
+      builder.add(diffuseMaterial(0.6f)),  builder.add(mirrorMaterial(0.7f)),
+      builder.add(glassMaterial(1.5f, 1)), builder.add(glassMaterial(1.33f)),
+      builder.add(diffuseMaterial(0.2f)),  builder.add(glowing(0.4f))};
   const auto any = [&] { return all[static_cast<std::size_t>(numbers.in(0, 6))]; };
   Object object;
   for (int i = 0; i < 8; ++i) {

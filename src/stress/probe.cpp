@@ -179,6 +179,7 @@ ProbeRay Probe::ray(std::size_t i) const {
 
 std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children) {
   std::vector<ProbeRay> rays;
+  rays.reserve(children.size());
   for (const ProbeChild& child : children) rays.push_back(child.ray);
   return rays;
 }
