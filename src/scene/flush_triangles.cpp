@@ -181,11 +181,23 @@ void FlushFinder::findExtents(FlushTriangles& found) const {
   }
 }
 
-// About as many cells as there are partners.
+// About as many cells as there are partners, fewer where these are so large that together they
+// would reach into several times as many: those that lie one on the other share one cell.
 void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
+  constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
+  const std::span<const Extent> own = std::span(extents_).subspan(slot.first, slot.count);
+  const auto reached = [&](std::size_t side) {
+    std::size_t sum = 0;
+    for (const Extent& e : own) {
+      sum += (cellOf(e.u1, side) - cellOf(e.u0, side) + 1) *
+             (cellOf(e.v1, side) - cellOf(e.v0, side) + 1);
+    }
+    return sum;
+  };
   slot.side = static_cast<std::size_t>(
       std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
+  while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
   slot.firstCell = cellBegin_.size() - 1;
   std::vector<std::vector<std::size_t>> cells(slot.side * slot.side);
   std::vector<std::uint8_t> contested(cells.size());
