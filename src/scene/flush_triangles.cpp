@@ -255,6 +255,7 @@ std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id
 }
 
 std::uint64_t FlushTriangles::bytes() const {
+  if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(Extent)) +
          (cellBegin_.size() + inCells_.size()) * sizeof(std::size_t);
