@@ -15,6 +15,8 @@ namespace whit {
 
 namespace {
 
+constexpr std::size_t kSignatureBytes = 8;
+
 // libpng reports errors by longjmp, so the functions that it may leave that way hold nothing that
 // has a destructor; this object lives outside of them.
 class PngReader {
@@ -30,6 +32,7 @@ class PngReader {
 
   // These throw badScene with the byte where reading stopped. First the size ...
   void readHeader() {
+    checkChunkLengths();
     guarded([this] {
       png_set_read_fn(png_, this, onRead);
       png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -79,6 +82,21 @@ class PngReader {
   }
 
  private:
+  // libpng reserves memory for a chunk of text by the length that it claims, before any is read.
+  void checkChunkLengths() {
+    constexpr std::size_t kBesideData = 12;  // length, name and checksum
+    for (std::size_t at = kSignatureBytes; at + kBesideData <= file_.size();) {
+      std::size_t length = 0;
+      for (std::size_t i = 0; i < 4; ++i) length = length << 8 | file_[at + i];
+      const bool last = std::memcmp(&file_[at + 4], "IEND", 4) == 0;
+      at_ = at;
+      if (length > file_.size() - at - kBesideData) refuse("the file is cut short");
+      if (last) break;
+      at += kBesideData + length;
+    }
+    at_ = 0;
+  }
+
   template <typename Use>
   void guarded(Use use) {
     if (info_ == nullptr) throwLimit(path_ + ": no memory is left to read it");
@@ -111,7 +129,6 @@ class PngReader {
 }  // namespace
 
 bool isPng(std::span<const std::uint8_t> file) {
-  constexpr std::size_t kSignatureBytes = 8;
   return file.size() >= kSignatureBytes && png_sig_cmp(file.data(), 0, kSignatureBytes) == 0;
 }
 
