@@ -6,7 +6,7 @@
 #include "accel/accel_parts.h"
 #include "accel/packets.h"
 #include "accel/single_rays.h"
-#include "scene/world_corners.h"
+#include "scene/eye_in_plane.h"
 
 namespace whit {
 
@@ -111,8 +111,8 @@ void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
   }
 }
 
-// Whether a hit is so near that the ray may start in its plane, seen at no less than a thousandth
-// of a right angle.
+// Whether a hit is so near that the ray may start in its plane (scene/eye_in_plane.h), if the
+// cosine between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;
   const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);

@@ -11,7 +11,7 @@
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/sample_pattern.h"
-#include "scene/world_corners.h"
+#include "scene/eye_in_plane.h"
 
 namespace whit::reference {
 

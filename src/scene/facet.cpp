@@ -49,12 +49,11 @@ double magnitudeOf(const Vec3d& point, const Affine* toWorld) {
 
 void setCorners(const TriangleRecord& triangle, const Affine* toWorld, Facet& facet) {
   double magnitude = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const float* p = triangle.position + 3 * i;
-    const Vec3d corner(p[0], p[1], p[2]);
-    magnitude = std::max(magnitude, magnitudeOf(corner, toWorld));
-    facet.corners[i] = toWorld ? toWorld->point(corner) : corner;
+    magnitude = std::max(magnitude, magnitudeOf({p[0], p[1], p[2]}, toWorld));
   }
+  facet.corners = cornersOf(triangle, toWorld);
   const auto& [a, b, c] = facet.corners;
   const Vec3d normal = cross(b - a, c - a);
   const double size = length(normal);

@@ -1,10 +1,8 @@
 // A triangle where it stands, and when two of them lie in one plane.
 #pragma once
 
-#include <array>
-
 #include "core/affine.h"
-#include "scene/scene.h"
+#include "scene/world_corners.h"
 
 namespace whit {
 
@@ -17,7 +15,7 @@ inline constexpr double kErrorOfMagnitude = 32 * 0x1p-24;
 double magnitudeOf(const Vec3d& point, const Affine* toWorld);
 
 struct Facet {
-  std::array<Vec3d, 3> corners;
+  Corners corners;
   Vec3d normal;  // unit; zero for a triangle without area
   // Its share of how far two triangles in one plane may be apart, and of how much two that overlap
   // must have in common. Both are kErrorOfMagnitude times the largest magnitude of a corner, other

@@ -1,0 +1,17 @@
+// Surfaces that the eye lies in. It sees nothing of them, on whichever side a rounded distance of
+// next to 0 would put it.
+#pragma once
+
+#include "scene/world_corners.h"
+
+namespace whit {
+
+// Whether the eye lies in the triangle's plane as far as the eye's coordinates can tell.
+bool liesInPlane(const Vec3d& eye, const Corners& corners);
+
+// Along a ray from the eye: how far, in lengths of its direction, what lies in the eye is passed
+// over at the first attempt, numbered 0; twice as far at each further one.
+double wayPastEye(const Vec3d& eye, int attempt);
+inline constexpr int kAttemptsPastEye = 40;
+
+}  // namespace whit
