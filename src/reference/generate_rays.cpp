@@ -27,7 +27,7 @@ RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot) {
   put(Vec3d(1.0), row.weightR, row.weightG, row.weightB);
   row.throughput = 1;
   row.parent = static_cast<std::uint32_t>(slot);
-  row.media = mediaAround(world.scene, world.effects, world.intersector, world.camera, ray.origin);
+  row.media = mediaAtStart(world.scene, world.effects, world.intersector, world.camera, ray);
   row.path = streamOfPixel(pixel, chunk.sampleNumber);
   row.cone = ray.cone.width;
   return row;

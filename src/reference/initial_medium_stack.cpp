@@ -4,20 +4,24 @@
 
 #include "reference/find_intersections.h"
 #include "reference/settle_flush.h"
+#include "scene/eye_in_plane.h"
 
 namespace whit::reference {
 
 namespace {
+
+// In no plane, and through no edge, that a model is likely to have.
+const Vec3d kProbe = normalized(Vec3d{0.3217, 0.8431, 0.4309});
 
 // A straight line meets a triangle once. Twice as many end what rounding might keep going.
 std::uint64_t mostSurfaces(const Scene& scene) { return 2 * scene.instancedTriangles + 16; }
 
 }  // namespace
 
-MediaStack initialMediumStack(const Scene& scene, const Intersector& intersector,
+MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
                               const Vec3d& point) {
-  // In no plane, and through no edge, that a model is likely to have.
-  Ray ray{point, normalized(Vec3d{0.3217, 0.8431, 0.4309})};
+  if (!effects.has(Effect::transmission)) return 0;
+  Ray ray{point, kProbe};
   const std::uint64_t most = mostSurfaces(scene);
   std::array<std::uint64_t, 256> entered{};
   MediaStack around = 0;
@@ -27,7 +31,7 @@ MediaStack initialMediumStack(const Scene& scene, const Intersector& intersector
     if (!intersector.closest(ray, candidate)) break;
     const TriangleHit hit = refineHit(scene, ray, candidate);
     const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray.direction);
-    std::vector<Place> places = placesAt(scene, EffectSet::all(), ray, candidate);
+    std::vector<Place> places = placesAt(scene, effects, ray, candidate);
     ray.origin = surfel.position - surfel.geometricNormal * surfel.offset;
     if (places.empty()) {
       places = {{candidate, hit, scene.mediumOfMaterial[surfel.material], surfel.entering}};
@@ -46,10 +50,25 @@ MediaStack initialMediumStack(const Scene& scene, const Intersector& intersector
   return around;
 }
 
-MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                       const CameraFrame& camera, const Vec3d& start) {
-  if (!effects.has(Effect::transmission)) return 0;
-  return camera.orthographic ? initialMediumStack(scene, intersector, start) : camera.media;
+bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                      const Vec3d& point) {
+  if (!effects.has(Effect::transmission)) return false;
+  const auto startsOnOne = [&](const Vec3d& direction) {
+    Candidate met;
+    return intersector.closest({point, direction}, met) &&
+           scene.mediumOfMaterial[scene.triangles[met.triangle].material] != 0 &&
+           liesInPlane(point, worldCorners(scene, met.triangle, met.instance));
+  };
+  return startsOnOne(kProbe) || startsOnOne(-kProbe);
+}
+
+MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                        const CameraFrame& camera, const Ray& ray) {
+  // Far enough for the rounding of the sum where a ray leaves at a hundredth of a right angle.
+  constexpr int kAttempt = 6;
+  if (!camera.mediaVary) return camera.media;
+  const Vec3d start = ray.origin + ray.direction * wayPastEye(ray.origin, kAttempt);
+  return initialMediumStack(scene, effects, intersector, start);
 }
 
 }  // namespace whit::reference

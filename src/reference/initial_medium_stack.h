@@ -1,4 +1,4 @@
-// Which dielectrics a point is inside of: for eyes under water.
+// Which dielectrics rays start inside of: for eyes under water.
 #pragma once
 
 #include "reference/intersector.h"
@@ -8,12 +8,17 @@ namespace whit::reference {
 
 // The media whose surfaces a ray from the point leaves without having entered them first, the one
 // left first in the low byte; at most four (hard case H47). However many opaque surfaces lie in
-// between: they bound no medium.
-MediaStack initialMediumStack(const Scene& scene, const Intersector& intersector,
+// between: they bound no medium. 0 without Effect::transmission.
+MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
                               const Vec3d& point);
 
-// Of the camera's rays: where each starts, or for all of them together.
-MediaStack mediaAround(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                       const CameraFrame& camera, const Vec3d& start);
+// Whether the point lies in the surface of a dielectric: rays that start there are in one medium or
+// the other, each by its direction.
+bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                      const Vec3d& point);
+
+// Around the start of a ray of the camera, just past what the eye lies in.
+MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                        const CameraFrame& camera, const Ray& ray);
 
 }  // namespace whit::reference

@@ -146,7 +146,7 @@ RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, s
                      RayCounts& counts) const {
   ++counts.primary;
   const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
-  const MediaStack media = mediaAround(scene_, effects_, intersector_, camera, ray.origin);
+  const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
   return traceImpulse(ray, 0, 1.0, media, counts, pathOf(x, y, sample));
 }
 
@@ -162,9 +162,9 @@ PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) co
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
   CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-  if (settings.effects.has(Effect::transmission)) {
-    frame.media = initialMediumStack(scene, intersector, frame.eye);
-  }
+  frame.media = initialMediumStack(scene, settings.effects, intersector, frame.eye);
+  frame.mediaVary =
+      frame.orthographic || liesOnDielectric(scene, settings.effects, intersector, frame.eye);
   const Tracer tracer(scene, intersector, settings);
   if (settings.options.adaptive && settings.options.spp > 1) {
     return renderAdaptively(tracer, frame, settings, image, progress);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reference/initial_medium_stack.h"
+#include "reference/twin.h"
 #include "render/embree_intersector.h"
 
 namespace whit {
@@ -36,8 +37,8 @@ Box dielectricBounds(const Scene& scene) {
   return all;
 }
 
-bool mediaVary(const CameraFrame& camera, const Box& dielectrics) {
-  if (!camera.orthographic || dielectrics.empty()) return false;
+bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics) {
+  if (dielectrics.empty()) return false;
   const Vec3d right = abs(camera.right * (camera.width / 2.0)),
               up = abs(camera.up * (camera.height / 2.0));
   const Vec3d reach = right + up;
@@ -57,11 +58,14 @@ bool mediaVary(const CameraFrame& camera, const Box& dielectrics) {
 }
 
 void findInitialMedia(Chunk& c) {
-  if (!c.frame->camera.mediaVary) return;
+  const CameraRays& camera = c.frame->camera;
+  if (!camera.mediaVary) return;
   const EmbreeIntersector intersector(*c.frame->accel);
+  CameraFrame frame;
+  frame.mediaVary = true;
   for (std::size_t i = 0; i < c.n; ++i) {
-    const Vec3d origin{c.rays.orgX[i], c.rays.orgY[i], c.rays.orgZ[i]};
-    c.rays.media[i] = reference::initialMediumStack(*c.frame->scene, intersector, origin);
+    c.rays.media[i] = reference::mediaAtStart(*c.frame->scene, c.frame->effects, intersector, frame,
+                                              reference::rayOf(c, i));
   }
 }
 

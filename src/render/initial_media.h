@@ -1,6 +1,6 @@
 // The dielectrics that primary rays start inside of. All rays of a perspective camera start in one
-// point; those of a parallel camera start all over a rectangle, each in media of its own where the
-// surface of a dielectric cuts through it.
+// point, which may lie on the surface of a dielectric; those of a parallel camera start all over a
+// rectangle, through which such a surface may cut. Then each ray starts in media of its own.
 #pragma once
 
 #include "core/box.h"
@@ -13,8 +13,8 @@ namespace whit {
 // A box around all surfaces of dielectrics, instances included; empty without any.
 Box dielectricBounds(const Scene& scene);
 
-// Whether rays of the camera may start in different media. Conservative: it compares boxes.
-bool mediaVary(const CameraFrame& camera, const Box& dielectrics);
+// Whether a parallel camera's rays may start in different media. Conservative: it compares boxes.
+bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.
 void findInitialMedia(Chunk& c);

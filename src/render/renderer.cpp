@@ -77,10 +77,12 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
   CameraFrame frame = makeCameraFrame(camera, film.image.width, film.image.height);
-  if (plan_.effects.has(Effect::transmission)) {
-    frame.media = reference::initialMediumStack(scene_, EmbreeIntersector(*accel_), frame.eye);
-    frame.mediaVary = mediaVary(frame, dielectrics_);
-  }
+  if (!plan_.effects.has(Effect::transmission)) return frame;
+  const EmbreeIntersector intersector(*accel_);
+  frame.media = reference::initialMediumStack(scene_, plan_.effects, intersector, frame.eye);
+  frame.mediaVary = frame.orthographic ? rectangleMeets(frame, dielectrics_)
+                                       : reference::liesOnDielectric(scene_, plan_.effects,
+                                                                     intersector, frame.eye);
   return frame;
 }
 

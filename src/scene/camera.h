@@ -41,7 +41,7 @@ struct CameraFrame {
   // renders looks for them (reference/initial_medium_stack.h).
   std::uint32_t media = 0;
   bool orthographic = false;
-  bool mediaVary = false;  // its parallel rays may start in others
+  bool mediaVary = false;  // each ray may start in others
 };
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 

@@ -236,6 +236,34 @@ Finding parallelRaysInWater(const Setup& setup) {
   return finding;
 }
 
+// An eye in the surface of the water: rays that go down start in it, those that go up do not.
+Finding eyeOnTheWater(const Setup& setup) {
+  Finding finding(kBeerBound);
+  for (const float level : {0.0f, 0.1f, 40.3f}) {
+    SceneBuilder builder;
+    builder.add(box({-2, level - 2, -2}, {2, level + 2, 2}, builder.add(glowingMaterial())));
+    builder.add(box({-4, level - 8, -4}, {4, level, 4}, builder.add(tintedMaterial())));
+    const Scene scene = builder.build();
+    Camera camera;
+    camera.eye = {0.1f, level, 0.2f};
+    camera.at = {0.1f, level, -1};
+    const double up = static_cast<double>(level + 2) - static_cast<double>(level),
+                 down = static_cast<double>(level) - static_cast<double>(level - 2);
+    comparePicture(
+        scene, camera, setup,
+        [&](const Vec3d& start, const Vec3d& d) {
+          if (d.y > 0) return 0.0;
+          const auto until = [](double from, double along, double half) {
+            return along == 0 ? 1e30 : (std::copysign(half, along) - from) / along;
+          };
+          return std::min({until(start.x, d.x, 2), until(start.z, d.z, 2),
+                           (d.y < 0 ? down : up) / std::fabs(d.y)});
+        },
+        finding);
+  }
+  return finding;
+}
+
 // Between the eye and the surface of the water: more sheets that bound no medium than a byte
 // counts.
 Finding sheetsInWater(const Setup& setup) {
@@ -349,6 +377,9 @@ constexpr Case kNestedDielectricCases[] = {
     {"H47c", "a parallel camera half in water",
      "each ray starts in its own medium; relative error against exp(-sigma t)", Runs::packets,
      parallelRaysInWater},
+    {"H47e", "an eye in the water's surface",
+     "at three levels; relative error against exp(-sigma t) below, and 1 above", Runs::packets,
+     eyeOnTheWater},
     {"H47d", "an eye in water under 600 opaque sheets",
      "only surfaces of dielectrics count; relative error against exp(-sigma t)", Runs::packets,
      sheetsInWater},
