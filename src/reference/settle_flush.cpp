@@ -19,17 +19,28 @@ bool isEntered(const Scene& scene, const Candidate& c, const Vec3d& direction) {
   return dot(direction, normal) < 0;
 }
 
-// Whether two triangles are neighbors in one surface: through the edge or corner that they share a
-// ray passes once. Those with all corners in common lie one on the other.
+// How many corners of `a` are corners of `b` as well; 0 where the hit does not lie between these.
+int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
+  constexpr double kRounding = 1e-9;
+  const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
+  int shared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool isShared = std::find(b.begin(), b.end(), a[i]) != b.end();
+    if (!isShared && weights[i] > kRounding) return 0;
+    shared += isShared;
+  }
+  return shared;
+}
+
+// Whether two triangles are neighbors in one surface, which a ray passes once through the edge or
+// corner that they share. With all corners in common they lie one on the other.
 bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
   if (a.medium != b.medium || a.entering != b.entering) return false;
   if (a.candidate.instance != b.candidate.instance) return false;
   const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance),
                 others = worldCorners(scene, b.candidate.triangle, kNoInstance);
-  const auto shared = std::count_if(corners.begin(), corners.end(), [&](const Vec3d& corner) {
-    return std::find(others.begin(), others.end(), corner) != others.end();
-  });
-  return shared == 1 || shared == 2;
+  const int shared = cornersBetween(corners, others, a.hit);
+  return shared > 0 && shared < 3 && cornersBetween(others, corners, b.hit) == shared;
 }
 
 // Of neighbors the first.

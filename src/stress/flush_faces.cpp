@@ -185,6 +185,34 @@ Finding whichIsSeen(const Setup& setup) {
   return finding;
 }
 
+// A decal in the corner of a floor, with one corner or an edge in common: it covers what it covers.
+Finding decalInACorner(const Setup& setup) {
+  Finding finding(0);
+  for (const float side : {1.0f, 4.0f}) {
+    SceneBuilder builder;
+    const auto floor = builder.add(glowing(0.25f)), decal = builder.add(glowing(0.75f));
+    builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
+    builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
+    Camera camera = lookingDown();
+    camera.orthographicHeight = 3.9f;
+    const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
+    const double pixel = 3.9 / image.height;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const double wx = (x + 0.5 - image.width / 2.0) * pixel,
+                     wz = (y + 0.5 - image.height / 2.0) * pixel;
+        if (std::fabs(wx) > 2) continue;
+        const bool covered = wx < static_cast<double>(side) - 2 && wz > 1;
+        finding.count(image.at(x, y).x != (covered ? 0.75f : 0.25f), [&] {
+          return "side " + hexText(double{side}) + ", pixel " + std::to_string(x) + "," +
+                 std::to_string(y);
+        });
+      }
+    }
+  }
+  return finding;
+}
+
 constexpr Case kFlushFaceCases[] = {
     {"H80", "the same bits where faces share a plane",
      "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
@@ -197,6 +225,9 @@ constexpr Case kFlushFaceCases[] = {
      slabOnSlab},
     {"H83", "which of several faces in one place is seen",
      "the opaque one, the later one, in any order with glass", Runs::packets, whichIsSeen},
+    {"H83a", "a decal in the corner of a floor covers what it covers",
+     "two triangles of one plane with one corner or an edge in common", Runs::packets,
+     decalInACorner},
 };
 
 }  // namespace
