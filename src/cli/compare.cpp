@@ -119,27 +119,24 @@ void printStages(FILE* out, const std::vector<StageDifference>& rows) {
 // pixels of a hundred by two codes. What one of the two computes wrongly moves more.
 constexpr double kMostPixelsOffPct = 5, kMostEnergyOff = 0.02;
 
-void complain(const char* format, double got, double limit) {
-  std::fprintf(stderr, format, got, limit);
-}
-
 // The conditions of what is asked are written so that a NaN fails.
 bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   if (job.tolerance) {
     if (d.rmse <= *job.tolerance) return true;
-    complain("whit: the RMSE is %.6g, and --tolerance %g\n", d.rmse, *job.tolerance);
+    std::fprintf(stderr, "whit: the RMSE is %.6g, and --tolerance %g\n", d.rmse, *job.tolerance);
     return false;
   }
   if (job.subjects.size() == 2) return true;
   const bool codes = d.pixelsGe2CodesPct <= kMostPixelsOffPct;
   const bool energy = std::fabs(d.energyRatio - 1) <= kMostEnergyOff;
   if (!codes) {
-    complain("whit: %.4f %% of the pixels are off by 2 or more; at most %g %% may be\n",
-             d.pixelsGe2CodesPct, kMostPixelsOffPct);
+    std::fprintf(stderr, "whit: %.4f %% of the pixels are off by 2 or more; at most %g %% may be\n",
+                 d.pixelsGe2CodesPct, kMostPixelsOffPct);
   }
   if (!energy) {
-    complain("whit: the energy of A over B is %.6f; at most %g may be missing or added\n",
-             d.energyRatio, kMostEnergyOff);
+    std::fprintf(stderr,
+                 "whit: the energy of A over B is %.6f; at most %g may be missing or added\n",
+                 d.energyRatio, kMostEnergyOff);
   }
   return codes && energy;
 }

@@ -94,7 +94,10 @@ class Planner {
 
   Plan make() {
     plan_.perSample = {stepOf(simd::kGenerateRays, plan_.effects)};
-    if (has(Effect::transmission)) plan_.perSample.push_back(initialMediaStep());
+    if (has(Effect::transmission)) {
+      plan_.perSample.push_back(amendingStep("findInitialMedia", simd::kGenerateRays,
+                                             findInitialMedia, {Part::rays}, {Part::rays}));
+    }
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
     if (has(Effect::lights)) {
@@ -114,7 +117,10 @@ class Planner {
   void findIntersections() {
     plan_.perQueue = {embreeStep("findHits", "intersect", findHits, simd::kPackRays,
                                  simd::kUnpackHits, inPackets())};
-    if (plan_.features.has(Feature::flush)) plan_.perQueue.push_back(settleFlushStep());
+    if (plan_.features.has(Feature::flush)) {
+      plan_.perQueue.push_back(amendingStep("settleFlush", simd::kUnpackHits, settleFlush,
+                                            {Part::rays, Part::hits}, {Part::hits}));
+    }
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels, plan_.effects));
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
@@ -187,23 +193,15 @@ class Planner {
     plan_.impulses.push_back(std::move(step));
   }
 
-  static Step initialMediaStep() {
-    return {.name = "findInitialMedia",
-            .number = simd::indexOf(simd::kGenerateRays),
-            .stage = Stage::generateRays,
-            .run = findInitialMedia,
-            .reads = {Part::rays},
-            .writes = {Part::rays},
-            .kernels = {}};
-  }
-
-  static Step settleFlushStep() {
-    return {.name = "settleFlush",
-            .number = simd::indexOf(simd::kUnpackHits),
-            .stage = Stage::findIntersections,
-            .run = settleFlush,
-            .reads = {Part::rays, Part::hits},
-            .writes = {Part::hits},
+  // What is no kernel of its own is counted with the one whose columns it amends.
+  static Step amendingStep(const char* name, const simd::Kernel& after, StepFunction run,
+                           Parts reads, Parts writes) {
+    return {.name = name,
+            .number = simd::indexOf(after),
+            .stage = after.stage,
+            .run = run,
+            .reads = reads,
+            .writes = writes,
             .kernels = {}};
   }
 

@@ -1,5 +1,7 @@
 #include "render/settle_flush.h"
 
+#include <algorithm>
+
 #include "reference/settle_flush.h"
 #include "reference/twin.h"
 
@@ -7,8 +9,8 @@ namespace whit {
 
 void settleFlush(Chunk& c) {
   const Scene& scene = *c.frame->scene;
+  std::fill_n(c.hits.alsoCrossed, c.n, 0u);
   for (std::size_t i = 0; i < c.n; ++i) {
-    c.hits.alsoCrossed[i] = 0;
     if (c.hits.triangle[i] == kMiss || !scene.flush.any(c.hits.triangle[i])) continue;
     const reference::Settled settled = reference::settleFlush(
         scene, c.frame->effects, reference::rayOf(c, i), reference::candidateOf(c, i));
