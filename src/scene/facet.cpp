@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace whit {
 
@@ -74,29 +73,6 @@ bool facetsOverlap(const Facet& a, const Facet& b) {
 bool facetsTouch(const Facet& a, const Facet& b) {
   const double gap = -(a.error + b.error);
   return haveInCommon(a, b, gap) && haveInCommon(b, a, gap);
-}
-
-WeightRange weightsOf(const Facet& on, const Facet& of) {
-  // Of rays' hits, whose weights are floats.
-  constexpr double kRounding = 0x1p-12;
-  const Vec3d e1 = on.corners[1] - on.corners[0], e2 = on.corners[2] - on.corners[0];
-  const double area = dot(cross(e1, e2), on.normal);
-  // A weight grows along the normal of the edge that faces its corner.
-  const Vec3d growthU = cross(e2, on.normal) / area, growthV = cross(on.normal, e1) / area;
-  const double slack = on.error + of.error;
-  const double slackU = kRounding + slack * length(growthU),
-               slackV = kRounding + slack * length(growthV);
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  double u0 = kFar, u1 = -kFar, v0 = kFar, v1 = -kFar;
-  for (const Vec3d& corner : of.corners) {
-    const double u = dot(corner - on.corners[0], growthU), v = dot(corner - on.corners[0], growthV);
-    u0 = std::min(u0, u), u1 = std::max(u1, u);
-    v0 = std::min(v0, v), v1 = std::max(v1, v);
-  }
-  const auto bounded = [](double weight) {
-    return static_cast<float>(std::clamp(weight, -1.0, 2.0));
-  };
-  return {bounded(u0 - slackU), bounded(u1 + slackU), bounded(v0 - slackV), bounded(v1 + slackV)};
 }
 
 }  // namespace whit

@@ -30,10 +30,4 @@ bool lieInOnePlane(const Facet& a, const Facet& b);
 bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);
 
-// In the weights of corners 1 and 2 of `on`: a box around what `of`, in its plane, may cover of it.
-struct WeightRange {
-  float u0, u1, v0, v1;
-};
-WeightRange weightsOf(const Facet& on, const Facet& of);
-
 }  // namespace whit

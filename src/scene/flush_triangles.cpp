@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/worker_pool.h"
+#include "scene/facet.h"
 #include "scene/facet_pairs.h"
 #include "scene/facet_space.h"
 
@@ -53,7 +54,7 @@ class FlushFinder {
   }
   void addWithinInstances(std::uint32_t geometry, Orders& all) const;
   Orders overlapping() const;
-  void findExtents(FlushTriangles& found) const;
+  void findCovered(FlushTriangles& found) const;
 
   const Scene& scene_;
   int threads_;
@@ -158,12 +159,12 @@ FlushTriangles FlushFinder::find() {
   addBoth(pairs(std::move(blocks), PairsOf::asked, facetsTouch), flush);
   sortUnique(flush);
   FlushTriangles found(scene_.triangles.size(), pairs(boxesOf(flush), PairsOf::all, facetsTouch));
-  findExtents(found);
+  findCovered(found);
   return found;
 }
 
-void FlushFinder::findExtents(FlushTriangles& found) const {
-  found.extents_.resize(found.partners_.size());
+void FlushFinder::findCovered(FlushTriangles& found) const {
+  found.covered_.resize(found.partners_.size());
   std::vector<std::uint8_t> overlaps(found.partners_.size());
   parallelFor(threads_, found.slots_.size(), [&](std::size_t k, int) {
     FlushTriangles::Slot& slot = found.slots_[k];
@@ -171,8 +172,7 @@ void FlushFinder::findExtents(FlushTriangles& found) const {
     const Facet own = world_.facet(slot.id);
     for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
       const Facet partner = world_.facet(found.partners_[i]);
-      const WeightRange range = weightsOf(own, partner);
-      found.extents_[i] = {range.u0, range.u1, range.v0, range.v1};
+      found.covered_[i] = coveredPart(own, partner);
       overlaps[i] = facetsOverlap(own, partner) ? 1 : 0;
     }
   });
@@ -181,15 +181,28 @@ void FlushFinder::findExtents(FlushTriangles& found) const {
   }
 }
 
+// visit(cell) for those of side * side cells that the part may reach into.
+template <typename Visitor>
+void FlushTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit) {
+  const float size = 1 / static_cast<float>(side);
+  for (std::size_t v = cellOf(part.v0, side); v <= cellOf(part.v1, side); ++v) {
+    for (std::size_t u = cellOf(part.u0, side); u <= cellOf(part.u1, side); ++u) {
+      if (part.meets(static_cast<float>(u) * size, static_cast<float>(v) * size, size)) {
+        visit(v * side + u);
+      }
+    }
+  }
+}
+
 // About as many cells as there are partners, fewer where these are so large that together they
 // would reach into several times as many: those that lie one on the other share one cell.
 void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
-  const std::span<const Extent> own = std::span(extents_).subspan(slot.first, slot.count);
+  const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
-    for (const Extent& e : own) {
+    for (const CoveredPart& e : own) {
       sum += (cellOf(e.u1, side) - cellOf(e.u0, side) + 1) *
              (cellOf(e.v1, side) - cellOf(e.v0, side) + 1);
     }
@@ -202,13 +215,12 @@ void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlap
   std::vector<std::vector<std::size_t>> cells(slot.side * slot.side);
   std::vector<std::uint8_t> contested(cells.size());
   for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
-    const Extent& e = extents_[i];
-    for (std::size_t v = cellOf(e.v0, slot.side); v <= cellOf(e.v1, slot.side); ++v) {
-      for (std::size_t u = cellOf(e.u0, slot.side); u <= cellOf(e.u1, slot.side); ++u) {
-        cells[v * slot.side + u].push_back(i);
-        contested[v * slot.side + u] |= overlaps[i];
-      }
-    }
+    forEachCellOf(covered_[i], slot.side, [&](std::size_t cell) {
+      cells[cell].push_back(i);
+      contested[cell] |= overlaps[i];
+    });
+    if (overlaps[i] == 0) continue;
+    forEachCellOf(covered_[i], kMaskSide, [&](std::size_t cell) { slot.contested.set(cell); });
   }
   for (std::size_t k = 0; k < cells.size(); ++k) {
     if (contested[k] != 0) inCells_.insert(inCells_.end(), cells[k].begin(), cells[k].end());
@@ -257,7 +269,7 @@ std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id
 std::uint64_t FlushTriangles::bytes() const {
   if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
-         partners_.size() * (sizeof(PlacedTriangleId) + sizeof(Extent)) +
+         partners_.size() * (sizeof(PlacedTriangleId) + sizeof(CoveredPart)) +
          (cellBegin_.size() + inCells_.size()) * sizeof(std::size_t);
 }
 

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "scene/covered_part.h"
 
 namespace whit {
 
@@ -55,12 +58,11 @@ class FlushTriangles {
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
     const Slot& slot = slots_[slotOf(id)];
-    if (slot.count == 0) return;
-    const std::size_t cell =
-        slot.firstCell + cellOf(v, slot.side) * slot.side + cellOf(u, slot.side);
+    if (slot.count == 0 || !slot.contested[cellAt(u, v, kMaskSide)]) return;
+    const std::size_t cell = slot.firstCell + cellAt(u, v, slot.side);
     for (std::size_t k = cellBegin_[cell]; k < cellBegin_[cell + 1]; ++k) {
       const std::size_t i = inCells_[k];
-      if (extents_[i].holds(u, v)) visit(partners_[i]);
+      if (covered_[i].holds(static_cast<float>(u), static_cast<float>(v))) visit(partners_[i]);
     }
   }
 
@@ -69,22 +71,25 @@ class FlushTriangles {
  private:
   friend class FlushFinder;
 
-  // In the weights of corners 1 and 2 of a triangle: what a partner covers of it at the most.
-  struct Extent {
-    float u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-    bool holds(double u, double v) const { return u >= u0 && u <= u1 && v >= v0 && v <= v1; }
-  };
+  static constexpr std::size_t kMaskSide = 16;
   struct Slot {
     PlacedTriangleId id;
     std::uint32_t count = 0;    // 0: the slot is free
     std::uint64_t first = 0;    // in partners_
     std::size_t firstCell = 0;  // in cellBegin_
     std::size_t side = 1;       // of a square of so many cells a side
+    // Of a finer square: the cells that some overlapping partner reaches into.
+    std::bitset<kMaskSide * kMaskSide> contested = {};
   };
   static std::size_t cellOf(double weight, std::size_t side) {
     const auto most = static_cast<double>(side);
     return static_cast<std::size_t>(std::clamp(weight * most, 0.0, most - 1));
   }
+  static std::size_t cellAt(double u, double v, std::size_t side) {
+    return cellOf(v, side) * side + cellOf(u, side);
+  }
+  template <typename Visitor>
+  static void forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit);
   void fillCells(Slot& slot, std::span<const std::uint8_t> overlaps);
 
   std::size_t slotOf(PlacedTriangleId id) const;
@@ -92,7 +97,7 @@ class FlushTriangles {
   std::vector<std::uint64_t> any_;  // a bit a triangle
   std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
-  std::vector<Extent> extents_;  // of each of them, on the one whose partner it is
+  std::vector<CoveredPart> covered_;  // by each of them of the one whose partner it is
   // Partners by place: of each cell that some partner overlaps, all that reach into it.
   std::vector<std::size_t> cellBegin_{0};  // in inCells_
   std::vector<std::size_t> inCells_;       // places in partners_

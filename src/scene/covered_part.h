@@ -1,0 +1,31 @@
+// What one triangle covers of another one in its plane.
+#pragma once
+
+#include <array>
+
+namespace whit {
+
+struct Facet;
+
+// In the weights of corners 1 and 2 of another triangle: what of it this one, in its plane, covers
+// at the most.
+struct CoveredPart {
+  float u0 = 0, u1 = 0, v0 = 0, v1 = 0;  // a box around it
+  // Along each of its edges: what lies outside of the edge has a * u + b * v + c < 0.
+  struct Edge {
+    float a = 0, b = 0, c = 0;
+  };
+  std::array<Edge, 3> edges;
+
+  bool holds(float u, float v) const { return meets(u, v, 0); }
+  // Of a square, from its corner of the least weights: false only if it holds no point of it.
+  bool meets(float u, float v, float side) const {
+    const auto isInside = [&](const Edge& e) {
+      return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;
+    };
+    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+  }
+};
+CoveredPart coveredPart(const Facet& on, const Facet& of);
+
+}  // namespace whit
