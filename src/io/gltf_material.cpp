@@ -112,6 +112,9 @@ class GltfMaterialReader {
     const auto apart = [&](const GltfTexture& map) {
       return map.exists() && !(map.uv == m_.surfaceMap().uv);
     };
+    if (m_.variesRoughness() && m_.surfaceMap().exists() && apart(m_.metallicRoughnessMap)) {
+      warn("roughness by a texture with other coordinates than the base color's: these taken");
+    }
     if (m_.mixesMetal() && apart(m_.metallicRoughnessMap)) {
       warn("metalness by a texture with other coordinates than the base color's: these taken");
     }
@@ -204,6 +207,7 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
     any = true;
   };
   add(surfaceMap(), surfaceMap().exists());
+  add(metallicRoughnessMap, !surfaceMap().exists() && variesRoughness());
   add(normalMap, normalMap.exists());
   add(emissiveMap, emitsByMap());
   return found;

@@ -54,6 +54,7 @@ struct GltfMaterial {
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
   // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
   const GltfTexture& surfaceMap() const;
+  bool variesRoughness() const { return metallicRoughnessMap.exists() && roughness > 0; }
   bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
 };
 

@@ -179,7 +179,11 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   if (effects.has(Effect::vertexColors) && !scene.colors.empty()) {
     tint(vertexColor(scene.colors[number], hit), material.vertexTint, s);
   }
-  const double roughness = std::max(material.roughness, kMinRoughness);
+  double roughness = material.roughness;
+  if (effects.has(Effect::textures) && material.roughnessMap != kNoTexture) {
+    roughness *= lookups.data(material.roughnessMap, false).g;
+  }
+  roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
 }
 
