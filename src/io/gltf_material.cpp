@@ -28,6 +28,7 @@ class GltfMaterialReader {
                      std::string where)
       : document_(document), source_(source) {
     m_.name = source.name;
+    m_.doubleSided = source.doubleSided;
     m_.where = std::move(where);
   }
 

@@ -24,7 +24,7 @@ struct GltfMaterial {
   float transmission = 0, ior = 1.5f;
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
-  bool unlit = false;
+  bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap;
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;

@@ -33,6 +33,7 @@ Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   Material m;
   m.name = g.name;
+  m.doubleSided = g.doubleSided;
   const float roughness = g.roughness * means.roughness;
   m.roughness = means.roughnessByMap ? g.roughness : roughness;
   m.emission = g.emission;

@@ -227,6 +227,16 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit)
   return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
 }
 
+bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
+              const Vec3d& direction) {
+  const TriangleRecord& record = scene.triangles[triangle];
+  if (scene.materials[record.material].doubleSided) return false;
+  const Edges e = edgesOf(record);
+  Vec3d normal = cross(e.e1, e.e2);
+  if (instance != kNoHit) normal = scene.instances[instance].toWorld.normal(normal);
+  return dot(direction, normal) > 0;
+}
+
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
                      const TriangleHit& hit, const Surfel& s) {
   if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};

@@ -33,6 +33,7 @@ void keepBaked(const Material& from, Material& to) {
   to.normalBySecondUvs = from.normalBySecondUvs;
   to.alphaMap = from.alphaMap;
   to.alphaCutoff = from.alphaCutoff;
+  to.doubleSided = from.doubleSided;
   to.castsShadow = from.castsShadow;
 }
 

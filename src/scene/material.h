@@ -66,6 +66,8 @@ struct Material {
   int priority = 0;         // of nested dielectrics: the highest wins where they overlap
 
   VertexTint vertexTint = VertexTint::diffuse;
+  // False: rays of the eye and impulses pass its back faces; shadows are cast by both sides.
+  bool doubleSided = true;
   bool castsShadow = true;  // false: light passes, as if the surface were not there
 
   // Where a scene's description has or can have these members (JSON pointer, RFC 6901); empty:

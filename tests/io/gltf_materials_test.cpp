@@ -119,6 +119,19 @@ TEST_F(GltfMaterials, RoughnessTexelByTexel) {
   expectColor(p[1], Rgb(lobe(0.9 * 0.8)));
 }
 
+TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
+  const auto isDoubleSided = [&](const std::string& rest) {
+    const SceneDescription scene = loadText(sceneText({{0, "{\"name\":\"m\"" + rest + "}", 1}}));
+    return Scene::finalize(SceneDescription(scene), warnings_).materials[0].doubleSided;
+  };
+  EXPECT_FALSE(isDoubleSided(""));
+  EXPECT_TRUE(isDoubleSided(",\"doubleSided\":true"));
+  // The ray has to leave what it has entered.
+  EXPECT_TRUE(
+      isDoubleSided(",\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{\"KHR_"
+                    "materials_transmission\":{\"transmissionFactor\":1}}"));
+}
+
 TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
   save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
