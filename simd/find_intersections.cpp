@@ -232,6 +232,51 @@ StepFunction FindInterpolateSurfels(size_t index) {
   return kVariants[index];
 }
 
+HWY_INLINE void QueueRoughness(const SurfelJob& job, size_t i, size_t slot, MapQueue& queue) {
+  const FloatTag d;
+  queue.level.any[slot] = false;
+  const auto [valid, triangle] = LoadHits(job.hits, i);
+  if (hn::AllFalse(d, valid)) return;
+  const TriangleLanes t = LoadTriangles(job.tables, triangle);
+  const VI map = MaterialLanes(job.tables, t.material, valid).Roughness().roughnessMap;
+  const MF mapped = MappedLanes(map, valid);
+  if (hn::AllFalse(d, mapped)) return;
+  const Weights w = LoadWeights(job.hits, i);
+  Surface s = InterpolateSurface<false>(job.tables, t, triangle, w, job.shading.reciprocal);
+  if (job.instances) CarryToWorld(job.tables, job.hits, valid, i, s);
+  const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
+  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+  const MapHits at{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
+  QueueMap(job, map, mapped, PointsAt(job, at, t.uv), slot, queue);
+}
+
+HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
+  if (!queue.level.any[slot]) return;
+  const FloatTag d;
+  const MF queued = QueuedLanes(queue.level, slot);
+  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+  const VF factor = MaterialLanes(job.tables, number, queued).Roughness().roughness;
+  const V3 map =
+      FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+  const VF roughness = hn::Max(hn::Mul(factor, map.y), hn::Set(d, kMinRoughness));
+  const VF alpha = hn::Load(d, job.surfels.alpha + i);
+  hn::Store(hn::IfThenElse(queued, hn::Mul(roughness, roughness), alpha), d, job.surfels.alpha + i);
+}
+
+// The scalar twin is findColors in src/reference/find_intersections.cpp.
+void LookUpRoughness(Chunk& c) noexcept {
+  const size_t lanes = hn::Lanes(FloatTag()), n = c.n;
+  const SurfelJob job = SurfelJobOf(c);
+  MapQueue queue;
+  for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
+    const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
+    for (size_t i = begin; i < end; i += lanes) QueueRoughness(job, i, i - begin, queue);
+    for (size_t i = begin; i < end; i += lanes) ApplyRoughness(job, queue, i - begin, i);
+  }
+}
+
+StepFunction FindLookUpRoughness(size_t /*index*/) { return LookUpRoughness; }
+
 // Corners and their normals, in the world.
 struct WorldCorners {
   Corners position, normal;
@@ -305,6 +350,10 @@ PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernel
 HWY_EXPORT(FindInterpolateSurfels);
 StepFunction findInterpolateSurfels(std::size_t index) {
   return HWY_DYNAMIC_DISPATCH(FindInterpolateSurfels)(index);
+}
+HWY_EXPORT(FindLookUpRoughness);
+StepFunction findLookUpRoughness(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindLookUpRoughness)(index);
 }
 HWY_EXPORT(FindLiftShadowOrigins);
 StepFunction findLiftShadowOrigins(std::size_t index) {

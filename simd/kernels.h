@@ -69,6 +69,7 @@ struct Kernel {
 // Of the chosen target; `index` as in Kernel::variant.
 StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);
+StepFunction findLookUpRoughness(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
@@ -99,6 +100,12 @@ inline constexpr Kernel kInterpolateSurfels{
     {Part::rays, Part::hits},
     {Part::surfels, Part::rays},
     EffectSet().with(Effect::smoothNormals).with(Effect::textures).with(Effect::normalMaps)};
+
+// The width of lobes whose roughness is in a map.
+inline constexpr Kernel kLookUpRoughness{
+    "lookUpRoughness",   Stage::findIntersections,
+    findLookUpRoughness, {Part::rays, Part::hits, Part::surfels},
+    {Part::surfels},     {}};
 
 // Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
 // the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
@@ -169,6 +176,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kPackRays,
                                      kUnpackHits,
                                      kInterpolateSurfels,
+                                     kLookUpRoughness,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,

@@ -30,6 +30,10 @@ struct LobeLanes {
   VU medium, flags;
   VI emissionMap;
 };
+struct RoughnessLanes {
+  VF roughness;
+  VI roughnessMap;
+};
 struct MirrorLanes {
   V3 mirror;
   VF impulseShare;
@@ -62,6 +66,12 @@ class MaterialLanes {
     const V4 r = records_.template Load4<kAlpha, offsetof(MaterialRecord, emissionMap)>();
     const UintTag du;
     return {r.x, hn::BitCast(du, r.y), hn::BitCast(du, r.z), hn::BitCast(IntTag(), r.w)};
+  }
+  HWY_INLINE RoughnessLanes Roughness() const {
+    static_assert(offsetof(MaterialRecord, roughnessMap) ==
+                  offsetof(MaterialRecord, roughness) + 4);
+    const V4 r = records_.template Load4<offsetof(MaterialRecord, roughness)>();
+    return {r.x, hn::BitCast(IntTag(), r.y)};
   }
   HWY_INLINE MirrorLanes Mirror() const {
     const V4 r = records_.template Load4<offsetof(MaterialRecord, mirror),

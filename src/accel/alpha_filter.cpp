@@ -17,18 +17,22 @@ AlphaMaps makeAlphaMaps(const Scene& scene) {
 
 MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first,
                                std::uint32_t end) {
+  masks.resize(scene.materials.size());
+  for (std::size_t m = 0; m < masks.size(); ++m) {
+    const Material& material = scene.materials[m];
+    masks[m].doubleSided = material.doubleSided;
+    if (material.alphaMap == kNoTexture || maps.empty()) continue;
+    masks[m].map = maps[static_cast<std::size_t>(material.alphaMap)].get();
+    masks[m].cutoff = material.alphaCutoff;
+  }
   triangles.reserve(end - first);
   for (std::uint32_t i = first; i < end; ++i) {
     const TriangleRecord& t = scene.triangles[i];
     MaskedTriangle& masked = triangles.emplace_back();
     std::copy(std::begin(t.uv), std::end(t.uv), masked.uv);
     masked.mask = t.material;
-  }
-  masks.resize(scene.materials.size());
-  for (std::size_t m = 0; m < masks.size(); ++m) {
-    const Material& material = scene.materials[m];
-    if (material.alphaMap == kNoTexture) continue;
-    masks[m] = {maps[static_cast<std::size_t>(material.alphaMap)].get(), material.alphaCutoff};
+    anyMask = anyMask || masks[t.material].map != nullptr;
+    anySingleSided = anySingleSided || !masks[t.material].doubleSided;
   }
 }
 

@@ -1,4 +1,4 @@
-// Decides for Embree whether a hit on a masked triangle is really there.
+// Decides for Embree whether a hit on a filtered triangle is really there.
 #pragma once
 
 #include <cstdint>
@@ -25,16 +25,24 @@ struct alignas(32) MaskedTriangle {
 struct Mask {
   const AlphaMap* map = nullptr;
   float cutoff = 0;
+  bool doubleSided = true;
 };
 
 // The masked triangles of one Embree geometry, in its order.
 struct MaskedGeometry {
-  // Those of scene.triangles from `first` to before `end`. `maps` must outlive it.
+  // Those of scene.triangles from `first` to before `end`. `maps` must outlive it; where they are
+  // empty there are no masks.
   MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first, std::uint32_t end);
 
   std::vector<MaskedTriangle> triangles;
   std::vector<Mask> masks;  // one a material of the scene
+  bool anyMask = false, anySingleSided = false;
 };
+
+// Whether its back is passed.
+inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitive) noexcept {
+  return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
+}
 
 // False where the alpha mask cuts the triangle's point (u, v).
 inline bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,

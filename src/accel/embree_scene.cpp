@@ -19,6 +19,30 @@ bool reportBuild(void* user, double fraction) {
   return true;
 }
 
+// Whether the ray of this lane meets the triangle from behind: where an instance is met, both are
+// as in its object.
+bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  RTCHitN* const hit = args.hit;
+  RTCRayN* const ray = args.ray;
+  const unsigned n = args.N;
+  return RTCHitN_Ng_x(hit, n, lane) * RTCRayN_dir_x(ray, n, lane) +
+             RTCHitN_Ng_y(hit, n, lane) * RTCRayN_dir_y(ray, n, lane) +
+             RTCHitN_Ng_z(hit, n, lane) * RTCRayN_dir_z(ray, n, lane) >
+         0;
+}
+
+// The same as below for rays that pass the backs of single-sided surfaces.
+void filterBySide(const RTCFilterFunctionNArguments* args) {
+  const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
+    const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
+    const bool passed = isSingleSided(geometry, primitive) && isBehind(*args, lane);
+    if (passed || !isOpaqueAt(geometry, primitive, u, v)) args->valid[lane] = 0;
+  }
+}
+
 // Called for each hit on a masked triangle, with as many lanes as Embree has at hand.
 void filterByAlpha(const RTCFilterFunctionNArguments* args) {
   const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
@@ -75,14 +99,14 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
     RTCScene made = scenes_[i].get();
     rtcSetSceneFlags(made, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(made, buildQuality(options.quality));
-    addGeometry(i, scene, options);
+    addGeometry(i, scene);
     if (i != 0) commit(made, progress);
   }
   if (options.instances) addInstances(scene);
   commit(top(), progress);
 }
 
-void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options) {
+void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
   const Geometry& source = scene.geometries[index];
   for (unsigned c = 0; c < kTriangleClasses; ++c) {
     const std::uint32_t first = source.classBegin[c], end = source.classBegin[c + 1];
@@ -100,16 +124,25 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene, const Accel
                                source.index.data(), first * sizeof(source.index[0]),
                                sizeof(source.index[0]), end - first);
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
-    if ((c & kMaskedBit) != 0 && options.alphaMasks) {
+    if ((c & kMaskedBit) != 0) {
       masked_.push_back(std::make_unique<MaskedGeometry>(
           scene, alphaMaps_, source.firstTriangle + first, source.firstTriangle + end));
-      rtcSetGeometryUserData(geometry, masked_.back().get());
-      rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
-      rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
+      setFilters(*masked_.back(), geometry);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
   }
+}
+
+// Shadows are cast by both sides.
+void EmbreeScene::setFilters(MaskedGeometry& filtered, RTCGeometry geometry) {
+  rtcSetGeometryUserData(geometry, &filtered);
+  if (filtered.anySingleSided) {
+    rtcSetGeometryIntersectFilterFunction(geometry, filterBySide);
+  } else if (filtered.anyMask) {
+    rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
+  }
+  if (filtered.anyMask) rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
 }
 
 void EmbreeScene::addInstances(const Scene& scene) {

@@ -68,7 +68,8 @@ class EmbreeScene {
   bool coherentOcclusionMayHang(int packet) const { return packet == 16 && mayHang_; }
 
  private:
-  void addGeometry(std::size_t index, const Scene& scene, const AccelOptions& options);
+  void addGeometry(std::size_t index, const Scene& scene);
+  static void setFilters(MaskedGeometry& filtered, RTCGeometry geometry);
   void addInstances(const Scene& scene);
   void commit(RTCScene scene, Progress* progress);
   void requireNoError(const char* doing) const;

@@ -100,16 +100,17 @@ void add(Digester& d, const InstanceRecord& instance) {
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
-  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, glossyReflection,
-               emission, emissionMap, normalMap, emissionBySecondUvs, normalBySecondUvs, alphaMap,
-               alphaCutoff, mirror, mirrorGrazing, transmission, ior, absorption, priority,
-               vertexTint, castsShadow, pointer] = material;
+  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, roughnessMap,
+               glossyReflection, emission, emissionMap, normalMap, emissionBySecondUvs,
+               normalBySecondUvs, alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior,
+               absorption, priority, vertexTint, doubleSided, castsShadow, pointer] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
+  add(d, roughnessMap);
   add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
   add(d, emissionBySecondUvs), add(d, normalBySecondUvs);
   add(d, alphaMap), add(d, alphaCutoff), add(d, mirror), add(d, mirrorGrazing);
   add(d, transmission), add(d, ior), add(d, absorption), add(d, priority), add(d, vertexTint);
-  add(d, castsShadow);
+  add(d, doubleSided), add(d, castsShadow);
 }
 
 void add(Digester& d, const Texture& texture);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/gltf_faults.h"
 #include "io/gltf_schema.h"
 #include "io/json_text.h"
 #include "io/read_file.h"
@@ -20,12 +21,14 @@ struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not 
   std::string name;  // for errors
   Json json;         // an object
   bool hasBinary = false;
-  std::string binary;  // the chunk of a .glb
+  std::string binary;               // the chunk of a .glb
+  std::vector<std::string> faults;  // of the container
 };
 
 namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+constexpr char kUnalignedChunk[] = "a chunk whose length is no multiple of 4";
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 // What a value takes at most once parsed: a member of an object with its name.
 constexpr std::uint64_t kBytesPerJsonValue = 128;
@@ -66,9 +69,15 @@ std::string_view splitBinary(std::string_view bytes, GltfFile& to) {
   std::uint32_t type = 0;
   const std::string_view text = takeChunk(rest, type, to.name);
   if (type != kJsonChunk) throwBadScene(to.name, "expected JSON in the first chunk");
-  while (!rest.empty()) {
+  if (text.size() % 4 != 0) to.faults.emplace_back(kUnalignedChunk);
+  for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::string_view chunk = takeChunk(rest, type, to.name);
+    if (chunk.size() % 4 != 0) to.faults.emplace_back(kUnalignedChunk);
+    if (type == kJsonChunk || (type == kBinaryChunk && number > 1)) {
+      to.faults.emplace_back("a chunk that is there twice or at another place than it has to be");
+    }
     if (type != kBinaryChunk || to.hasBinary) continue;  // others are an extension's
+    if (chunk.empty() && number > 1) to.faults.emplace_back("an empty chunk");
     to.hasBinary = true;
     to.binary = chunk;
   }
@@ -159,6 +168,10 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
   readBuffers(source);
   checkViews(source);
   readImages(source);
+  for (const std::string& fault : source.file.faults) {
+    warnings_.add("not valid glTF: " + fault, name_);
+  }
+  countGltfFaults({source.file.json, name_, buffers_, warnings_});
   readStructure(source);
 }
 

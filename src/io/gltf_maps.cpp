@@ -87,7 +87,7 @@ std::string keyOf(const GltfMaterial& m) {
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
       << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' ' << m.metallic
-      << ' ';
+      << ' ' << m.variesRoughness() << ' ';
   if (m.bakesSpecular()) {
     key << m.f90 << ' ';
     for (int i = 0; i < 3; ++i) key << m.specularColor[i] << ' ' << m.base[i] << ' ';
@@ -146,9 +146,29 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     return emissionTexture(from, raw, warnings);
   };
   if (m.normalMap.exists()) maps.normal = single(m.normalMap, normalTexture);
+  if (m.variesRoughness()) maps.roughness = roughnessOf(m, means, textures);
   if (m.emitsByMap()) maps.emission = single(m.emissiveMap, emissive);
   addMeans(m, means, textures);
   return maps;
+}
+
+// A slot that stays empty where the texels do not differ.
+std::int32_t GltfMapMaker::roughnessOf(const GltfMaterial& m,
+                                       const std::shared_ptr<GltfMeans>& means,
+                                       TextureLoader& textures) const {
+  return textures.add(1, [=, image = image(m.metallicRoughnessMap), &textures] {
+    const ImageLimits limits = textures.limits();
+    const auto raw = decoded(image, limits);
+    Images made(1);
+    if (!raw || !meanOf(*raw, 1).varies) return made;
+    const MemoryHold held =
+        holdImage(m.where, raw->width, raw->height, sizeof(std::uint32_t), limits);
+    made[0] = makeTexture(m.name, *raw, TexelFormat::data);
+    made[0]->wrapU = m.metallicRoughnessMap.wrapU;
+    made[0]->wrapV = m.metallicRoughnessMap.wrapV;
+    means->roughnessByMap = true;
+    return made;
+  })[0];
 }
 
 // Of factors that a Material has no map for.

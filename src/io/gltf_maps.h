@@ -19,6 +19,7 @@ class GltfImage;
 
 struct GltfMaps {
   std::int32_t diffuse = kNoTexture, specular = kNoTexture, emission = kNoTexture;
+  std::int32_t roughness = kNoTexture;
   std::int32_t normal = kNoTexture, alpha = kNoTexture;
   std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
 };
@@ -35,6 +36,8 @@ class GltfMapMaker {
  private:
   std::shared_ptr<GltfImage> image(const GltfTexture& map) const;
 
+  std::int32_t roughnessOf(const GltfMaterial& material, const std::shared_ptr<GltfMeans>& means,
+                           TextureLoader& textures) const;
   void addMeans(const GltfMaterial& material, const std::shared_ptr<GltfMeans>& means,
                 TextureLoader& textures) const;
 

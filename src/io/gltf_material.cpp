@@ -28,6 +28,7 @@ class GltfMaterialReader {
                      std::string where)
       : document_(document), source_(source) {
     m_.name = source.name;
+    m_.doubleSided = source.doubleSided;
     m_.where = std::move(where);
   }
 
@@ -112,6 +113,9 @@ class GltfMaterialReader {
     const auto apart = [&](const GltfTexture& map) {
       return map.exists() && !(map.uv == m_.surfaceMap().uv);
     };
+    if (m_.variesRoughness() && m_.surfaceMap().exists() && apart(m_.metallicRoughnessMap)) {
+      warn("roughness by a texture with other coordinates than the base color's: these taken");
+    }
     if (m_.mixesMetal() && apart(m_.metallicRoughnessMap)) {
       warn("metalness by a texture with other coordinates than the base color's: these taken");
     }
@@ -204,6 +208,7 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
     any = true;
   };
   add(surfaceMap(), surfaceMap().exists());
+  add(metallicRoughnessMap, !surfaceMap().exists() && variesRoughness());
   add(normalMap, normalMap.exists());
   add(emissiveMap, emitsByMap());
   return found;

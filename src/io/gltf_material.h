@@ -24,7 +24,7 @@ struct GltfMaterial {
   float transmission = 0, ior = 1.5f;
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
-  bool unlit = false;
+  bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap;
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
@@ -54,6 +54,7 @@ struct GltfMaterial {
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
   // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
   const GltfTexture& surfaceMap() const;
+  bool variesRoughness() const { return metallicRoughnessMap.exists() && roughness > 0; }
   bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
 };
 

@@ -73,6 +73,10 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
   const GltfMaps maps = maps_.ask(sources_[i], textures);
   if (!given.contains("diffuseMap")) material.diffuseMap = maps.diffuse;
   if (!given.contains("specularMap")) material.specularMap = maps.specular;
+  // A roughness that is given is meant as it stands.
+  if (!given.contains("roughness") && !given.contains("roughnessMap")) {
+    material.roughnessMap = maps.roughness;
+  }
   if (!given.contains("emissionMap")) material.emissionMap = maps.emission;
   if (!given.contains("normalMap")) material.normalMap = maps.normal;
   if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "io/gltf_paths.h"
 
 namespace whit {
 
@@ -18,7 +19,7 @@ namespace {
 enum class GltfKind { object, list, number, text, flag, whole, index, indices, vector };
 
 struct GltfRule {
-  const char* path;  // from the root; * is every element of a list or every member of an object
+  const char* path;  // from the root, see gltf_paths.h
   GltfKind kind;
   std::uint64_t limit = 0;     // whole: the largest; vector: how many numbers
   const char* list = nullptr;  // index, indices: the path of the list they refer to
@@ -217,7 +218,11 @@ class Checker {
   void check(const GltfRule& rule, const std::string& path) {
     rule_ = &rule;
     target_ = rule.list ? sizeOf(rule.list) : 0;
-    walk(root_, path, "");
+    walkGltf(
+        root_, path, "", [&](Json& value, const std::string& pointer) { look(value, pointer); },
+        [&](const std::string& pointer, const std::string& name) {
+          fail(pointer, "a member \"" + name + "\"");
+        });
   }
 
  private:
@@ -234,33 +239,6 @@ class Checker {
       path.remove_prefix(std::min(end + 1, path.size()));
     }
     return value && value->is_array() ? value->size() : 0;
-  }
-
-  void walk(Json& value, std::string_view path, const std::string& pointer) {
-    if (path.empty()) return look(value, pointer);
-    const std::size_t end = std::min(path.find('/'), path.size());
-    std::string_view name = path.substr(0, end);
-    path.remove_prefix(std::min(end + 1, path.size()));
-    if (name == "*") return walkAll(value, path, pointer);
-    const bool required = name.starts_with('+');
-    if (required) name.remove_prefix(1);
-    if (Json* member = find(value, name)) {
-      walk(*member, path, pointer + "/" + std::string(name));
-    } else if (required && value.is_object()) {
-      fail(pointer, "a member \"" + std::string(name) + "\"");
-    }
-  }
-
-  void walkAll(Json& value, std::string_view path, const std::string& pointer) {
-    if (value.is_array()) {
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        walk(value[i], path, pointer + "/" + std::to_string(i));
-      }
-    } else if (value.is_object()) {
-      for (auto member = value.begin(); member != value.end(); ++member) {
-        walk(*member, path, pointer + "/" + escapePointer(member.key()));
-      }
-    }
   }
 
   void look(Json& value, const std::string& pointer) const {

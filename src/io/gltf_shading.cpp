@@ -33,7 +33,9 @@ Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   Material m;
   m.name = g.name;
-  m.roughness = g.roughness * means.roughness;
+  m.doubleSided = g.doubleSided;
+  const float roughness = g.roughness * means.roughness;
+  m.roughness = means.roughnessByMap ? g.roughness : roughness;
   m.emission = g.emission;
   const GltfMaterial::Coordinates coordinates = g.coordinates();
   m.normalBySecondUvs = coordinates.bySecond(g.normalMap);
@@ -63,8 +65,8 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   } else if (coverage < 1) {
     m.ior = 1;
   }
-  m.glossyReflection = m.roughness > kGltfSmoothRoughness && !m.hasTransmission();
-  if (m.roughness <= kGltfSmoothRoughness) {
+  m.glossyReflection = roughness > kGltfSmoothRoughness && !m.hasTransmission();
+  if (roughness <= kGltfSmoothRoughness) {
     // The dielectric adds its own reflectance.
     const float share = through > 0 ? metal : 1.0f;
     m.mirror = mix(f0, base, metal) * (share * coverage);

@@ -12,7 +12,8 @@ namespace whit {
 struct GltfMeans {
   Rgb base{1, 1, 1};
   float metallic = 1, roughness = 1, transmission = 1;
-  float specular = 1;  // its strength
+  bool roughnessByMap = false;  // its texels differ and are multiplied with the factor
+  float specular = 1;           // its strength
   Rgb specularColor{1, 1, 1};
   float clearcoat = 1, clearcoatRoughness = 1;
   float alpha = 1;  // of a texture that blends evenly; 1 where it cuts
@@ -25,9 +26,10 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - diffuse is the base color of what is neither metal nor transmission. It is not reduced by what
 //   the surface reflects specularly.
 // - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
-//   color of metal, texel by texel, as are strength and color of KHR_materials_specular. The
-//   roughness is the mean of its map.
-// - Smooth surfaces also mirror the scene, from the mean of that to f90 at grazing incidence. Rough
+//   color of metal, texel by texel, as are strength and color of KHR_materials_specular, and the
+//   roughness.
+// - Surfaces that are smooth on average also mirror the scene, from the mean of that to f90 at
+// grazing incidence. Rough
 //   ones reflect it in samples of the lobe, unless they transmit.
 // - transmission bounds a dielectric of this ior (exact Fresnel reflectance), tinted by the base
 //   color at each crossing, with the absorption of its volume; surfaces must be closed. It is
@@ -36,6 +38,8 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 //   values; other maps cut at 1/2.
 // - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
 // - unlit colors are emitted, and nothing else is.
+// - single-sided surfaces are passed from behind by all rays but those of shadows, unless they let
+//   light through.
 // - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
 //   no mirror; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);

@@ -179,6 +179,7 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   m.specular = object.color("specular", m.specular, 1);
   readMap(object, "specularMap", TextureUse::color, m.specularMap);
   m.roughness = object.number("roughness", m.roughness, 0, 1);
+  readMap(object, "roughnessMap", TextureUse::data, m.roughnessMap);
   m.emission = object.color("emission", m.emission);
   readMap(object, "emissionMap", TextureUse::emission, m.emissionMap);
   readMap(object, "normalMap", TextureUse::data, m.normalMap);

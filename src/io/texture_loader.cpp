@@ -166,6 +166,7 @@ void TextureLoader::finish(SceneDescription& scene) {
   for (Material& material : scene.materials) {
     renumber(material.diffuseMap);
     renumber(material.specularMap);
+    renumber(material.roughnessMap);
     renumber(material.emissionMap);
     renumber(material.normalMap);
     renumber(material.alphaMap);

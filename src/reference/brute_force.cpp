@@ -34,6 +34,7 @@ bool BruteForce::closest(const Ray& ray, Candidate& candidate) const {
     const auto hit = intersectTriangle(ray, worldCorners(scene_, triangle, instance));
     if (!hit || !(hit->t < nearest && hit->t > ray.tNear)) return;
     if (effects_.has(Effect::alphaMasks) && cutAway(scene_, triangle, *hit)) return;
+    if (isPassed(scene_, triangle, instance, ray.direction)) return;
     nearest = hit->t;
     candidate = {triangle, instance, hit->u, hit->v};
   });

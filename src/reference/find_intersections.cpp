@@ -179,7 +179,11 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   if (effects.has(Effect::vertexColors) && !scene.colors.empty()) {
     tint(vertexColor(scene.colors[number], hit), material.vertexTint, s);
   }
-  const double roughness = std::max(material.roughness, kMinRoughness);
+  double roughness = material.roughness;
+  if (effects.has(Effect::textures) && material.roughnessMap != kNoTexture) {
+    roughness *= lookups.data(material.roughnessMap, false).g;
+  }
+  roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
 }
 
@@ -221,6 +225,16 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit)
   const TexturePoint at = texturePoint(record.uv, hit);
   const Texture& mask = scene.textures[static_cast<std::size_t>(material.alphaMap)];
   return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
+}
+
+bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
+              const Vec3d& direction) {
+  const TriangleRecord& record = scene.triangles[triangle];
+  if (scene.materials[record.material].doubleSided) return false;
+  const Edges e = edgesOf(record);
+  Vec3d normal = cross(e.e1, e.e2);
+  if (instance != kNoHit) normal = scene.instances[instance].toWorld.normal(normal);
+  return dot(direction, normal) > 0;
 }
 
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,

@@ -60,6 +60,10 @@ TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 // Whether an alpha mask has cut a hole where the ray meets the triangle.
 bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit);
 
+// Whether the ray passes the triangle, which it meets from behind, because it is single-sided.
+bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
+              const Vec3d& direction);
+
 // The twin, of the hit that Embree has found; none where it has found none.
 std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chunk,
                                            std::size_t slot);

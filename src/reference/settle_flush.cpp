@@ -78,6 +78,9 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
     if (!hit) return;
     if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
+    // What was met is there, though edge on the rounding of either may say otherwise.
+    const bool isMet = id == idOf(met);
+    if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
     Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false};
     if (effects.has(Effect::transmission)) {
       place.medium = scene.mediumOfMaterial[scene.triangles[id.triangle].material];

@@ -22,6 +22,7 @@ std::uint32_t flagsOf(const Material& m, EffectSet effects) {
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
+  if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
@@ -37,6 +38,8 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   r.diffuseMap = textured ? m.diffuseMap : kNoTexture;
   copy3(m.specular, r.specular);
   r.specularMap = textured && m.hasGlossy() ? m.specularMap : kNoTexture;
+  r.roughnessMap = textured && m.hasGlossy() ? m.roughnessMap : kNoTexture;
+  r.roughness = m.roughness;
   copy3(m.emission, r.emission);
   r.emissionMap = effects.has(Effect::emissionMaps) ? m.emissionMap : kNoTexture;
   r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
@@ -159,7 +162,8 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
       std::equal(before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
                  [](const MaterialRecord& a, const MaterialRecord& b) {
                    return a.diffuseMap == b.diffuseMap && a.specularMap == b.specularMap &&
-                          a.emissionMap == b.emissionMap && a.normalMap == b.normalMap;
+                          a.roughnessMap == b.roughnessMap && a.emissionMap == b.emissionMap &&
+                          a.normalMap == b.normalMap;
                  });
   if (!sameTextures) {
     tables = buildTables(scene, effects, shading, threads);

@@ -39,6 +39,10 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::vertexColors, e.has(Effect::vertexColors))
       .with(Feature::sky, e.has(Effect::sky))
       .with(Feature::glossy, e.has(Effect::glossy))
+      .with(Feature::roughnessMaps,
+            e.has(Effect::glossy) && e.has(Effect::textures) &&
+                std::any_of(scene.materials.begin(), scene.materials.end(),
+                            [](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows))
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
@@ -122,6 +126,10 @@ class Planner {
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels, plan_.effects));
+    if (plan_.features.has(Feature::roughnessMaps)) {
+      plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness, plan_.effects));
+      plan_.perQueue.back().wants = kMaterialVariesRoughness;
+    }
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
     }

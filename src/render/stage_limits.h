@@ -184,6 +184,7 @@ inline std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
       {stage, "shadingNormal", xyz("ns"), kTexturedLimit, notEdgeOn<bySliverIfMapped>},
       {stage, "diffuse", rgb("diffuse"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "specular", rgb("specular"), kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "alpha", {"alpha"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "emission", rgb("emission"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "lift", xyz("lift"), kLiftLimit, notEdgeOn<byMagnitude>},
       {stage, "cone", {"cone"}, kConeLimit},

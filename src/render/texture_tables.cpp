@@ -16,7 +16,8 @@ std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const Shad
   std::vector<bool> used(scene.textures.size(), false);
   if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps)) return used;
   for (const MaterialRecord& m : tables.materials) {
-    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap}) {
+    for (const std::int32_t map :
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap}) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }

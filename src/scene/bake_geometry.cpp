@@ -132,7 +132,9 @@ void Baker::dropCoincident(std::size_t g) {
     const Source& source = sources_[g][s];
     const auto& [a, b, c] = source.mesh->triangles[i];
     const Vec3f* own = position.data() + source.firstVertex;
-    return PlacedTriangle{{own[a], own[b], own[c]}, source.mesh->material(i)};
+    const std::uint32_t material = source.mesh->material(i);
+    return PlacedTriangle{
+        {own[a], own[b], own[c]}, material, scene_.materials[material].doubleSided};
   };
   for (const std::uint64_t k : findCoincident(places.size(), triangle)) {
     const auto& [s, i] = places[k];

@@ -98,6 +98,7 @@ TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position
 struct PlacedTriangle {
   std::array<Vec3f, 3> corners;
   std::uint32_t material = 0;
+  bool bothSides = true;  // whichever way round its corners go
 };
 
 // Numbers, ascending, of triangles that have the three corners, in whatever order, and the material

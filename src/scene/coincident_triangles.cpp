@@ -34,8 +34,16 @@ bool isBefore(const Vec3f& a, const Vec3f& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
 
+// Whether its corners go round the other way than in their order.
+bool isTurned(const PlacedTriangle& t) {
+  const auto& [a, b, c] = t.corners;
+  const bool odd = isBefore(b, a) != isBefore(c, a);
+  return odd != isBefore(c, b);
+}
+
 bool coincide(PlacedTriangle a, PlacedTriangle b) {
   if (a.material != b.material) return false;
+  if (!a.bothSides && isTurned(a) != isTurned(b)) return false;
   std::sort(a.corners.begin(), a.corners.end(), isBefore);
   std::sort(b.corners.begin(), b.corners.end(), isBefore);
   return a.corners == b.corners;

@@ -26,12 +26,14 @@ bool sameKindOfLight(const Light& a, const Light& b) {
 void keepBaked(const Material& from, Material& to) {
   to.diffuseMap = from.diffuseMap;
   to.specularMap = from.specularMap;
+  to.roughnessMap = from.roughnessMap;
   to.emissionMap = from.emissionMap;
   to.normalMap = from.normalMap;
   to.emissionBySecondUvs = from.emissionBySecondUvs;
   to.normalBySecondUvs = from.normalBySecondUvs;
   to.alphaMap = from.alphaMap;
   to.alphaCutoff = from.alphaCutoff;
+  to.doubleSided = from.doubleSided;
   to.castsShadow = from.castsShadow;
 }
 
@@ -43,7 +45,8 @@ void checkAndMend(const Scene& scene, std::vector<Material>& materials,
   d.lights = lights;
   d.materials = materials;
   for (Material& m : d.materials) {  // maps were judged with the textures that they name
-    m.diffuseMap = m.specularMap = m.emissionMap = m.normalMap = m.alphaMap = kNoTexture;
+    m.diffuseMap = m.specularMap = m.roughnessMap = kNoTexture;
+    m.emissionMap = m.normalMap = m.alphaMap = kNoTexture;
   }
   Warnings warnings(false);
   validate(d, warnings);

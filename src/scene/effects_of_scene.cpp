@@ -82,7 +82,7 @@ class Gatherer {
 void Gatherer::materials() {
   byMaterial(Effect::textures, "with a color texture", [](const Material& m) {
     return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
-           (m.specularMap != kNoTexture && m.hasGlossy()) ||
+           (m.specularMap != kNoTexture && m.hasGlossy()) || m.variesRoughness() ||
            (m.emissionMap != kNoTexture && !isBlack(m.emission));
   });
   byMaterial(Effect::emissionMaps, "with a texture of emission",

@@ -57,6 +57,7 @@ void numberMedia(Scene& scene) {
 Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progress* progress) {
   SceneDescription d = std::move(description);
   validate(d, warnings);
+  settleSides(d);
   Scene scene;
   scene.name = std::move(d.name);
   scene.width = d.width;

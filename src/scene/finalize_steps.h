@@ -17,6 +17,10 @@ void validate(SceneDescription& description, Warnings& warnings);
 void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
                   Progress* progress);
 
+// Makes materials double-sided whose back faces nobody can pass or see: of what transmits light,
+// and of closed surfaces without holes alone, as seen from outside.
+void settleSides(SceneDescription& description);
+
 // Gives each dielectric its number. Materials that describe the same one share it, so that leaving
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);

@@ -7,7 +7,9 @@ namespace {
 constexpr Rgb kBlack{0, 0, 0};
 
 void leaveOutOfMaterial(Material& m, EffectSet effects) {
-  if (effects.has(Effect::textures)) m.diffuseMap = m.specularMap = m.emissionMap = kNoTexture;
+  if (effects.has(Effect::textures)) {
+    m.diffuseMap = m.specularMap = m.roughnessMap = m.emissionMap = kNoTexture;
+  }
   if (effects.has(Effect::emissionMaps)) m.emissionMap = kNoTexture;
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;
   if (effects.has(Effect::alphaMasks)) m.alphaMap = kNoTexture;
@@ -28,7 +30,7 @@ void dropUnusedTexels(SceneDescription& d) {
   std::vector<bool> used(d.textures.size(), false);
   for (const Material& m : d.materials) {
     for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap, m.alphaMap}) {
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.alphaMap}) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }

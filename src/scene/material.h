@@ -36,11 +36,12 @@ enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 struct Material {
   std::string name;
 
-  Rgb diffuse{0.8f, 0.8f, 0.8f};          // albedo, times diffuseMap
-  std::int32_t diffuseMap = kNoTexture;   // color
-  Rgb specular{0, 0, 0};                  // glossy lobe's reflectance at normal incidence (F0)
-  std::int32_t specularMap = kNoTexture;  // color, multiplies `specular`
-  float roughness = 0.5f;                 // GGX; alpha = roughness^2, at least kMinRoughness
+  Rgb diffuse{0.8f, 0.8f, 0.8f};           // albedo, times diffuseMap
+  std::int32_t diffuseMap = kNoTexture;    // color
+  Rgb specular{0, 0, 0};                   // glossy lobe's reflectance at normal incidence (F0)
+  std::int32_t specularMap = kNoTexture;   // color, multiplies `specular`
+  float roughness = 0.5f;                  // GGX; alpha = roughness^2, at least kMinRoughness
+  std::int32_t roughnessMap = kNoTexture;  // data, channel g; multiplies `roughness`
   // Whether the lobe reflects the scene, not only lights: for surfaces whose reflection is not
   // already a mirrored impulse. Frames take --glossy samples of it.
   bool glossyReflection = true;
@@ -65,6 +66,8 @@ struct Material {
   int priority = 0;         // of nested dielectrics: the highest wins where they overlap
 
   VertexTint vertexTint = VertexTint::diffuse;
+  // False: rays of the eye and impulses pass its back faces; shadows are cast by both sides.
+  bool doubleSided = true;
   bool castsShadow = true;  // false: light passes, as if the surface were not there
 
   // Where a scene's description has or can have these members (JSON pointer, RFC 6901); empty:
@@ -72,6 +75,7 @@ struct Material {
   std::string pointer;
 
   bool hasGlossy() const { return maxComponent(specular) > 0; }
+  bool variesRoughness() const { return hasGlossy() && roughnessMap != kNoTexture; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }

@@ -77,7 +77,8 @@ std::uint32_t meanTexel(const Texture& texture, const Cover& columns, const Cove
 std::vector<bool> seenTextures(const Scene& scene) {
   std::vector<bool> seen(scene.textures.size(), false);
   for (const Material& m : scene.materials) {
-    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.emissionMap, m.normalMap}) {
+    for (const std::int32_t map :
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap}) {
       if (map != kNoTexture) seen[static_cast<std::size_t>(map)] = true;
     }
   }

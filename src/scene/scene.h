@@ -40,7 +40,8 @@ struct SceneDescription {
 };
 
 // Triangles of one class lie together and become one Embree geometry, whose id is the class: bit 0
-// set when they cast no shadow, bit 1 set when an alpha mask cuts them.
+// set when they cast no shadow, bit 1 set when hits on them are filtered: an alpha mask cuts them,
+// or they are seen from one side only.
 inline constexpr int kTriangleClasses = 4;
 inline constexpr std::uint32_t kNoShadowBit = 1, kMaskedBit = 2;
 

@@ -63,12 +63,13 @@ void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& 
 
 MaterialUse useOf(const Material& material, const std::vector<Texture>& textures) {
   MaterialUse use;
-  const bool masked = material.alphaMap != kNoTexture && material.alphaCutoff > 0;
+  const bool masked =
+      !material.doubleSided || (material.alphaMap != kNoTexture && material.alphaCutoff > 0);
   use.triangleClass = static_cast<std::uint8_t>((material.castsShadow ? 0 : kNoShadowBit) |
                                                 (masked ? kMaskedBit : 0));
   bool textured = false, u = true, v = true;
-  for (const std::int32_t map : {material.diffuseMap, material.specularMap, material.emissionMap,
-                                 material.normalMap, material.alphaMap}) {
+  for (const std::int32_t map : {material.diffuseMap, material.specularMap, material.roughnessMap,
+                                 material.emissionMap, material.normalMap, material.alphaMap}) {
     if (map == kNoTexture) continue;
     const Texture& texture = textures[static_cast<std::size_t>(map)];
     textured = true;

@@ -167,6 +167,7 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
     const std::string where = place(d.name, "material", i, m.name);
     checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::color);
     checkMap(d, where, "specularMap", m.specularMap, TexelFormat::color);
+    checkMap(d, where, "roughnessMap", m.roughnessMap, TexelFormat::data);
     checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color, true);
     checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
     checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);

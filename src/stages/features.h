@@ -18,6 +18,7 @@ namespace whit {
   X(vertexColors, "vertex colors")                                        \
   X(sky, "a sky that is not black")                                       \
   X(glossy, "glossy lobes")                                               \
+  X(roughnessMaps, "roughness by a map")                                  \
   X(streams, "random numbers along paths")                                \
   X(transmission, "media along rays")                                     \
   X(absorption, "media that absorb")                                      \

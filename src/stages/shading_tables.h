@@ -28,7 +28,10 @@ struct alignas(64) MaterialRecord {
   float grazingMinusMirror[3];
   float spare1;
   float transmission[3];
-  float spare2[5];
+  float spare2;
+  float roughness;  // before it is bounded below; times the map's
+  std::int32_t roughnessMap;
+  float spare3[2];
 };
 static_assert(sizeof(MaterialRecord) == 128);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
@@ -38,6 +41,7 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 // The emission map's texels are of radiance, not of color.
 inline constexpr std::uint32_t kMaterialEmissionIsRadiance = 512;
+inline constexpr std::uint32_t kMaterialVariesRoughness = 1024;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
 // kTexelCells bilinear footprints that begin in it whole, so that neighbors repeat a row and a

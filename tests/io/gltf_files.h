@@ -1,8 +1,11 @@
 // glTF files built by tests.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -56,7 +59,7 @@ class GltfBuilder {
     return accessorCount_++;
   }
   int positions(const std::vector<float>& xyz) {
-    return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3);
+    return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3, boundsOf(xyz));
   }
   int uvs(const std::vector<float>& uv) {
     return accessor(view(bytesOf(uv)), 5126, "VEC2", uv.size() / 2);
@@ -75,6 +78,8 @@ class GltfBuilder {
       text += "}],\"bufferViews\":[" + views_ + "]";
     }
     if (!accessors_.empty()) text += ",\"accessors\":[" + accessors_ + "]";
+    const std::string names = extensionsIn(members);
+    if (!names.empty()) text += ",\"extensionsUsed\":[" + names + "]";
     return text + (members.empty() ? "" : "," + members) + "}";
   }
   std::string glb(const std::string& members) const {
@@ -90,6 +95,39 @@ class GltfBuilder {
   }
 
  private:
+  // In quotes, each once; none where the members declare them themselves.
+  static std::string extensionsIn(const std::string& members) {
+    std::set<std::string> names;
+    if (members.find("extensionsUsed") != std::string::npos) return "";
+    for (const std::string beginning : {"\"KHR_", "\"EXT_"}) {
+      for (std::size_t at = members.find(beginning); at != std::string::npos;) {
+        const std::size_t end = members.find('"', at + 1);
+        names.insert(members.substr(at, end + 1 - at));
+        at = members.find(beginning, end);
+      }
+    }
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+    return list;
+  }
+
+  // The format asks for those of positions.
+  static std::string boundsOf(const std::vector<float>& xyz) {
+    std::ostringstream low, high;
+    low.precision(9);
+    high.precision(9);
+    for (std::size_t k = 0; k < 3 && xyz.size() >= 3; ++k) {
+      float least = xyz[k], largest = xyz[k];
+      for (std::size_t i = k; i < xyz.size(); i += 3) {
+        least = std::min(least, xyz[i]);
+        largest = std::max(largest, xyz[i]);
+      }
+      low << (k ? "," : "") << least;
+      high << (k ? "," : "") << largest;
+    }
+    return ",\"min\":[" + low.str() + "],\"max\":[" + high.str() + "]";
+  }
+
   std::string data_, views_, accessors_;
   int viewCount_ = 0, accessorCount_ = 0;
 };

@@ -101,12 +101,53 @@ TEST_F(GltfMaterials, MetalnessTexelByTexel) {
   expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * rest + Rgb(0.04f * metal));
 }
 
-TEST_F(GltfMaterials, RoughnessIsTheMeanOfItsMap) {
-  save("mr.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));  // 0.2 and 0.6: 0.4
+// Lit from the eye, the half vector is where both are: D V cos with Smith's correlated V.
+TEST_F(GltfMaterials, RoughnessTexelByTexel) {
+  save("mr.tga", tga(2, 1, {{0, 255, 255}, {0, 204, 255}}));  // 1 and 0.8
   useImages({"mr.tga"});
-  const SceneDescription scene = loadText(sceneText(
-      {{0, "{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}", 1}}));
-  EXPECT_NEAR(scene.materials[0].roughness, 0.4f, 1e-6f);
+  const auto p = picture({{0,
+                           "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.9,"
+                           "\"metallicRoughnessTexture\":{\"index\":0}}}",
+                           1}},
+                         2);
+  const auto lobe = [](double roughness) {
+    const double a2 = std::pow(roughness, 4), cosine2 = 9 / 9.5;
+    const double bell = cosine2 * (a2 - 1) + 1, root = std::sqrt(cosine2 * (1 - a2) + a2);
+    return static_cast<float>(a2 / (bell * bell) / (4 * root) * cosine2);
+  };
+  expectColor(p[0], Rgb(lobe(0.9)));
+  expectColor(p[1], Rgb(lobe(0.9 * 0.8)));
+}
+
+TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
+  const auto isDoubleSided = [&](const std::string& rest) {
+    const SceneDescription scene = loadText(sceneText({{0, "{\"name\":\"m\"" + rest + "}", 1}}));
+    return Scene::finalize(SceneDescription(scene), warnings_).materials[0].doubleSided;
+  };
+  EXPECT_FALSE(isDoubleSided(""));
+  EXPECT_TRUE(isDoubleSided(",\"doubleSided\":true"));
+  // The ray has to leave what it has entered.
+  EXPECT_TRUE(
+      isDoubleSided(",\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{\"KHR_"
+                    "materials_transmission\":{\"transmissionFactor\":1}}"));
+}
+
+TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
+  save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
+  save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
+  useImages({"even.tga", "uneven.tga"});
+  const auto load = [&](const std::string& index) {
+    return loadText(sceneText({{0,
+                                "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5,"
+                                "\"metallicRoughnessTexture\":{\"index\":" +
+                                    index + "}}}",
+                                1}}))
+        .materials[0];
+  };
+  EXPECT_EQ(load("0").roughnessMap, kNoTexture);
+  EXPECT_NEAR(load("0").roughness, 0.1f, 1e-6f);
+  EXPECT_NE(load("1").roughnessMap, kNoTexture);
+  EXPECT_EQ(load("1").roughness, 0.5f);
 }
 
 TEST_F(GltfMaterials, WhatIsGivenStaysEvenIfItIsWhatTheFileSaysWithoutItsMaps) {
@@ -116,6 +157,7 @@ TEST_F(GltfMaterials, WhatIsGivenStaysEvenIfItIsWhatTheFileSaysWithoutItsMaps) {
   const SceneDescription scene = loadText(sceneText(
       {{0, "{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}", 1}}));
   EXPECT_EQ(scene.materials[0].roughness, 1);
+  EXPECT_EQ(scene.materials[0].roughnessMap, kNoTexture);
 }
 
 TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {

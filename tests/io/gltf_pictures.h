@@ -96,7 +96,8 @@ class GltfMaterials : public GltfTest {
            (rest.empty() ? "" : "," + rest) + "}";
   }
   static std::string glowing(const std::string& color) {
-    return matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":" + color);
+    return matte("\"baseColorFactor\":[0,0,0,1]",
+                 "\"doubleSided\":true,\"emissiveFactor\":" + color);
   }
 
   // Lit from the eye, a white Lambertian square is seen as this at (x, y) of its plane: as 1 in the

@@ -69,6 +69,13 @@ class SceneFileTest : public testing::Test {
     return entry == entries.end() ? 0 : entry->second.count;
   }
 
+  // Of all warnings, each on a line.
+  std::string kinds() const {
+    std::string all;
+    for (const auto& [kind, entry] : warnings_.entries()) all += kind + "\n";
+    return all;
+  }
+
   std::string folder_, root_;
   LoadOptions options_;
   Warnings warnings_;

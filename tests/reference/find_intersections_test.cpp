@@ -136,6 +136,23 @@ TEST(Surfel, ShadingNormalMayLookAway) {
   expectVectorNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
 }
 
+// Texel centers at u = 1/4 and 3/4, of green 1 and 1/5: halfway between them 3/5.
+TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
+  SceneBuilder builder;
+  Material m = test::diffuseMaterial(0.5f);
+  m.specular = Rgb(0.5f);
+  m.roughness = 0.75f;
+  m.roughnessMap = builder.add(makeTexture(
+      TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
+  Mesh floor = test::quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+  builder.add(floor);
+  const Scene scene = builder.build();
+  const auto alphaAt = [&](double u) { return surfelAlong(scene, {u, 1, -0.5}, {0, -1, 0}).alpha; };
+  EXPECT_NEAR(alphaAt(0.25), 0.75 * 0.75, 1e-7);
+  EXPECT_NEAR(alphaAt(0.5), 0.45 * 0.45, 1e-7);
+  EXPECT_NEAR(alphaAt(0.75), 0.15 * 0.15, 1e-7);
+}
+
 class NormalMapTest : public ::testing::Test {
  protected:
   // A floor whose normal map leans towards growing u by 3/5 and growing v by 0; or along v.

@@ -185,6 +185,15 @@ TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
 }
 
 // What a scene has but does not show calls for nothing.
+TEST(SceneEffects, MapsOfRoughnessAreTexturesWhereThereIsALobe) {
+  for (const float specular : {0.0f, 0.04f}) {
+    SceneDescription d = sceneOf(square());
+    first(d).specular = Rgb(specular);
+    first(d).roughnessMap = addTexture(d, TexelFormat::data);
+    EXPECT_EQ(finalized(std::move(d)).effects.has(Effect::textures), specular > 0);
+  }
+}
+
 TEST(SceneEffects, UnusedMaterialsDoNotCount) {
   SceneDescription d = sceneOf(square());
   for (int i = 1; i <= 2; ++i) d.materials.emplace_back().mirror = Rgb(1.0f);

@@ -1,0 +1,78 @@
+// Roughness by a map: the vector pipeline against the reference, and what it costs where there is
+// none.
+#include <gtest/gtest.h>
+
+#include "render/plan.h"
+#include "render/row_of_tiles.h"
+
+namespace whit::test {
+namespace {
+
+// Lobes by maps of several sizes, by none, and of a mirror beside them.
+Scene roughTiles() {
+  SceneBuilder builder;
+  const auto green = [](float g) { return encodeDataTexel(0.3f, g, 0.7f, 1); };
+  const std::int32_t checks = builder.add(
+      makeTexture(TexelFormat::data, 2, 2, {green(1), green(0.3f), green(0.5f), green(0.8f)}));
+  std::vector<std::uint32_t> ramp;
+  for (int i = 0; i < 33 * 7; ++i) ramp.push_back(green(static_cast<float>(i % 33) / 32));
+  Texture wide = makeTexture(TexelFormat::data, 33, 7, ramp);
+  wide.wrapU = Wrap::mirror;
+  const std::int32_t slope = builder.add(wide);
+  return rowOfTiles(builder, [&](int i) {
+    Material m = diffuseMaterial(0.3f);
+    m.specular = Rgb(0.6f);
+    m.roughness = i == 5 ? 1.0f : 0.7f;
+    m.glossyReflection = i % 2 == 0;
+    if (i == 3) m.mirror = Rgb(0.2f);
+    if (i != 2) m.roughnessMap = i < 2 ? checks : slope;
+    return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
+  });
+}
+
+RenderOptions withSamples() {
+  RenderOptions o = smallOptions();
+  o.glossy = 2;
+  return o;
+}
+
+TEST(RoughnessMaps, AgreeWithTheReferenceOnEveryTarget) {
+  const Scene scene = roughTiles();
+  for (const TextureFilter filter :
+       {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
+    RenderOptions o = withSamples();
+    o.shading.textureFilter = filter;
+    expectTheReferenceOnEveryTarget(scene, o);
+  }
+}
+
+TEST(RoughnessMaps, KeepTheirBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(roughTiles(), withSamples());
+}
+
+TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
+  Scene scene = roughTiles();
+  for (Texture& t : scene.textures) {
+    for (std::uint32_t& texel : t.texels) texel = encodeDataTexel(0, 1, 0, 0);
+  }
+  const Image ones = render(scene, withSamples()).image;
+  for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
+  const Image none = render(scene, withSamples()).image;
+  for (std::size_t i = 0; i < none.pixels.size(); ++i) {
+    const Rgb apart = abs(none.pixels[i] - ones.pixels[i]);
+    ASSERT_LE(maxComponent(apart), 1e-5f * (1 + maxComponent(none.pixels[i]))) << i;
+  }
+}
+
+TEST(RoughnessMaps, HaveAStepWhereTheSceneHasThem) {
+  Scene scene = roughTiles();
+  EXPECT_NE(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
+  RenderOptions o = withSamples();
+  o.disable = EffectSet().with(Effect::textures);
+  EXPECT_EQ(makePlan(scene, o).find("lookUpRoughness"), nullptr);
+  for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
+  EXPECT_EQ(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
+}
+
+}  // namespace
+}  // namespace whit::test

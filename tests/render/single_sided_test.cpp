@@ -1,0 +1,151 @@
+// Surfaces that are seen from one side only: in the reference against what lies behind them, in the
+// vector pipeline against the reference.
+#include <gtest/gtest.h>
+
+#include "render/row_of_tiles.h"
+#include "rounding.h"
+
+namespace whit::test {
+namespace {
+
+Material singleSided(Material m) {
+  m.doubleSided = false;
+  return m;
+}
+
+Material glowing(float radiance) {
+  Material m = diffuseMaterial(0);
+  m.emission = Rgb(radiance);
+  return m;
+}
+
+Mesh tile(std::uint32_t material) {
+  return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
+}
+
+// Triangles of all geometries whose hits are filtered.
+std::uint32_t filtered(const Scene& scene) {
+  std::uint32_t count = 0;
+  for (const Geometry& g : scene.geometries) {
+    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      if ((c & kMaskedBit) != 0) count += g.classBegin[c + 1] - g.classBegin[c];
+    }
+  }
+  return count;
+}
+
+TEST(SingleSided, AreSeenFromTheFrontAndPassedFromBehind) {
+  SceneBuilder builder;
+  builder.add(tile(builder.add(singleSided(glowing(2)))));
+  builder.sky(0.5f);
+  const Scene scene = builder.build();
+  EXPECT_NEAR(radianceAlong(scene, {0.5, 1, -0.25}, {0, -1, 0}).x, 2, kRounding);
+  EXPECT_NEAR(radianceAlong(scene, {0.5, -1, -0.25}, {0, 1, 0}).x, 0.5, kRounding);
+}
+
+// As modelled, whatever the transform: the mirrored one is seen from below.
+TEST(SingleSided, KeepTheirFrontInInstancesThatMirror) {
+  SceneBuilder builder;
+  Object object;
+  object.meshes = {tile(builder.add(singleSided(glowing(2))))};
+  Affine mirrored = Affine::translation({3, 0, 0});
+  mirrored.y = {0, -1, 0};
+  Affine sideways = Affine::translation({6, 0, 0});
+  sideways.x = {-1, 0, 0};
+  builder.place(std::move(object), {Affine(), mirrored, sideways});
+  const Scene scene = builder.build();
+  const auto seen = [&](double x, bool above) {
+    const double y = above ? 1 : -1;
+    return radianceAlong(scene, {x, y, -0.25}, {0, -y, 0}).x;
+  };
+  EXPECT_NEAR(seen(0.5, true), 2, kRounding);
+  EXPECT_EQ(seen(0.5, false), 0);
+  EXPECT_NEAR(seen(3.5, false), 2, kRounding);
+  EXPECT_EQ(seen(3.5, true), 0);
+  EXPECT_NEAR(seen(5.5, true), 2, kRounding);
+  EXPECT_EQ(seen(5.5, false), 0);
+}
+
+TEST(SingleSided, CastShadowsFromBothSides) {
+  for (const bool turned : {false, true}) {
+    SceneBuilder builder;
+    Mesh roof = quad({-2, 1, 2}, {2, 1, 2}, {2, 1, -2}, {-2, 1, -2},
+                     builder.add(singleSided(diffuseMaterial(0.5f))));
+    if (turned) {
+      for (auto& t : roof.triangles) std::swap(t[1], t[2]);
+    }
+    builder.add(roof);
+    builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
+    builder.description.lights = {lightAt({0, 5, 0}, 10)};
+    EXPECT_EQ(radianceAlong(builder.build(), {0.5, 0.5, 0}, {0, -1, 0}).x, 0) << turned;
+  }
+}
+
+TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
+  const auto scene = [](bool inwards, bool open, const Material& material) {
+    SceneBuilder builder;
+    Mesh mesh = box({0, 0, 0}, {1, 2, 3}, builder.add(material));
+    if (inwards) {
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+    if (open) mesh.triangles.pop_back();
+    builder.add(mesh);
+    return builder.build();
+  };
+  const Material matt = diffuseMaterial(0.5f);
+  EXPECT_EQ(filtered(scene(false, false, singleSided(matt))), 0u);
+  EXPECT_EQ(filtered(scene(false, true, singleSided(matt))), 11u);
+  EXPECT_EQ(filtered(scene(true, false, singleSided(matt))), 12u);
+  EXPECT_EQ(filtered(scene(true, true, matt)), 0u);
+  EXPECT_EQ(filtered(scene(true, true, singleSided(glassMaterial(1.5f)))), 0u);
+  SceneBuilder pierced;
+  Material net = singleSided(matt);
+  net.alphaMap = pierced.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(0, 0, 0, 0)}));
+  pierced.add(box({0, 0, 0}, {1, 2, 3}, pierced.add(net)));
+  EXPECT_FALSE(pierced.build().materials[0].doubleSided);
+}
+
+// Back to back in one place they are two surfaces.
+TEST(SingleSided, AreKeptBackToBack) {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add(singleSided(glowing(2)));
+  Mesh back = tile(material);
+  for (auto& t : back.triangles) std::swap(t[1], t[2]);
+  builder.add(tile(material));
+  builder.add(back);
+  const Scene scene = builder.build();
+  EXPECT_EQ(scene.triangles.size(), 4u);
+  EXPECT_NEAR(radianceAlong(scene, {0.5, 1, -0.25}, {0, -1, 0}).x, 2, kRounding);
+  EXPECT_NEAR(radianceAlong(scene, {0.5, -1, -0.25}, {0, 1, 0}).x, 2, kRounding);
+}
+
+// Some turned away, some masked, over a mirror that sees their backs.
+Scene turnedTiles() {
+  SceneBuilder builder;
+  Material ground = diffuseMaterial(0.3f);
+  ground.mirror = ground.mirrorGrazing = Rgb(0.5f);
+  builder.add(floorAt(-1, 8, builder.add(ground)));
+  const std::int32_t holes = builder.add(makeTexture(
+      TexelFormat::data, 2, 1, {encodeDataTexel(0, 0, 0, 0), encodeDataTexel(1, 1, 1, 1)}));
+  return rowOfTiles(builder, [&](int i) {
+    Material m = diffuseMaterial(0.2f + 0.1f * static_cast<float>(i));
+    m.doubleSided = i == 4;
+    if (i % 3 == 2) m.alphaMap = holes;
+    Mesh mesh = tile(builder.add(m));
+    if (i % 2 == 1) {
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+    return mesh;
+  });
+}
+
+TEST(SingleSided, AgreeWithTheReferenceOnEveryTarget) {
+  expectTheReferenceOnEveryTarget(turnedTiles(), smallOptions());
+}
+
+TEST(SingleSided, KeepTheirBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(turnedTiles(), smallOptions());
+}
+
+}  // namespace
+}  // namespace whit::test
