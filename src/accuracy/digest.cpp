@@ -137,7 +137,7 @@ void add(Digester& d, const Geometry& geometry) {
   add(d, classBegin), add(d, firstTriangle);
 }
 void add(Digester& d, const Sky& sky) {
-  const auto& [kind, zenith, horizon, ground, image, scale, rotation] = sky;
+  const auto& [name, kind, zenith, horizon, ground, image, scale, rotation] = sky;
   add(d, kind), add(d, zenith), add(d, horizon), add(d, ground), add(d, scale), add(d, rotation);
   const auto& [width, height, r, g, b] = image;
   add(d, width), add(d, height);
