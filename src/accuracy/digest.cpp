@@ -147,7 +147,7 @@ void add(Digester& d, const Sky& sky) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
+  const auto& [name, isModel, width, height, cameras, cameraPath, lights, sky, ambient, materials,
                mediumOfMaterial, media, textures, geometries, instances, triangles, normals, colors,
                secondUvs, lower, upper, instancedTriangles, flush, effects, reasons] = scene;
   Digester d;

@@ -59,6 +59,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   validate(d, warnings);
   Scene scene;
   scene.name = std::move(d.name);
+  scene.isModel = d.isModel;
   scene.width = d.width;
   scene.height = d.height;
   scene.cameras = std::move(d.cameras);
