@@ -81,6 +81,8 @@ void add(Digester& d, const std::optional<T>& value) {
   if (value) add(d, *value);
 }
 
+void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
+
 // The bindings below name every member: one that is added does not compile before it is here.
 void add(Digester& d, const Camera& camera) {
   const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
