@@ -17,10 +17,11 @@ namespace {
 
 constexpr int kLongSide = 64, kDepth = 8;
 constexpr double kMiddle = 0.3;  // what the mean of the surfaces becomes
-// What is no brighter than this share of the surfaces' pixels stays below white, and what is no
-// brighter than half the sky's may be this much darker for it.
+// What is no brighter than this share of the surfaces' pixels stays below white.
 constexpr double kBrightShare = 0.93, kBright = 0.95;
-constexpr double kMostForSky = 2;    // EV
+// For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
+// before a gray sky is meant to be dark.
+constexpr double kSky = 0.5, kMostForSky = 2;
 constexpr double kDarkest = 1.0e-2;  // of the bright ones: darker pixels count as this
 constexpr double kSteps = 8;         // of an EV
 constexpr double kMostEv = 32;
@@ -76,7 +77,7 @@ float exposureFor(const Renderer& renderer, const Camera& camera) {
   const double bright = quantile(seen.surfaces, kBrightShare), sky = quantile(seen.sky, 0.5);
   if (!(bright > 0)) return 0;
   double ev = evOf(seen.surfaces, bright);
-  if (sky > 0) ev = std::clamp(std::log2(kBright / sky), ev - kMostForSky, ev);
+  if (sky > 0) ev = std::clamp(std::log2(kSky / sky), ev - kMostForSky, ev);
   // Not -0, which would be said as such.
   return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);
 }

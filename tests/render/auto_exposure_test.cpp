@@ -49,8 +49,8 @@ TEST(AutoExposure, NothingToSeeStaysAsItIs) {
 
 // A sky beside a dark surface holds it down, but not without end.
 TEST(AutoExposure, TheSkyIsHeardToo) {
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.1f), 1)), 3);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.2375f), 1)), 2);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.0625f), 1)), 3);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.125f), 1)), 2);
   EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(50.0f), 1)), 1);
 }
 
