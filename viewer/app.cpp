@@ -125,6 +125,7 @@ bool App::fetchFrame() {
     if (elsewhere) return false;  // seen from where the camera was in the other scene
   }
   const FrameRequest& request = shown_.request;
+  if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
   if (request.edits != tracedEdits_ && request.edits == edits_) {
     tracedEdits_ = edits_;
     traced_ = edit_;

@@ -144,7 +144,7 @@ void App::printView() {
 }
 
 void App::expose(float step) {
-  float& exposure = settings_.options.exposure;
+  float& exposure = settings_.options.exposure.ev;
   exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
   restSeconds_ = 0;
   say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));

@@ -61,6 +61,9 @@ void App::takeScene() {
   }
   watch(opening_);
   opening_.clear();
+  if (!options_.common.given.contains("exposure")) {
+    settings_.options.exposure = {0, scene().isModel};
+  }
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   pathTime_.reset();
   restSeconds_ = 0;

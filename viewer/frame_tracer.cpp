@@ -4,6 +4,7 @@
 
 #include "app/image_output.h"
 #include "farm/blocks.h"
+#include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
 
@@ -54,6 +55,7 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
   } else {
     renderer_ = std::make_unique<Renderer>(scene_->scene, next);
   }
+  settleExposure(*renderer_, chooseCamera(scene_->scene, next), next);
   options_ = next;
 }
 
@@ -66,11 +68,12 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   if (!tracePicture(request, frame, superseded, leaving)) return false;
   frame.scene = scene_;
   frame.request = request;
+  frame.request.options.exposure = options_.exposure;
   frame.options = options_;
   frame.metadata = describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
   frame.settings = scene_->settings;
   frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());
-  cli::addSettings(frame.settings, frame.metadata);
+  cli::addSettings(frame.settings, scene_->sky, frame.metadata);
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
@@ -149,7 +152,7 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     if (superseded()) return false;
     publish(frame);
   }
-  finishComparison(frame.film, options_.exposure, options_.toneCurve, comparison);
+  finishComparison(frame.film, options_.exposure.ev, options_.toneCurve, comparison);
   return true;
 }
 

@@ -115,8 +115,8 @@ void drawDisplay(RenderOptions& options) {
   ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
   forEachOption(options, [&](const OptionSpec& spec, auto& field) {
     if (spec.tab != Tab::picture) return;
-    if constexpr (std::is_same_v<decltype(field), float&>) {
-      ImGui::SliderFloat(spec.name.data(), &field, -kStops, kStops, "%+.2f EV");
+    if constexpr (std::is_same_v<decltype(field), Exposure&>) {
+      ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
     } else {
       drawKnob(spec, field);
     }

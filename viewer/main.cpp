@@ -93,6 +93,7 @@ int run(const std::vector<std::string>& words) {
   const std::shared_ptr<cli::OpenScene> scene =
       cli::openScene(options.scene, common, progress.get());
   progress.reset();
+  options.common.render = cli::optionsFor(scene->scene, common);
   const ImageSize own{scene->scene.width, scene->scene.height};
   Window window("whit: " + scene->scene.name, common.render.size.value_or(own));
   if (options.benchmark) {

@@ -9,6 +9,7 @@
 #include "app/open_scene.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "viewer/app.h"
 
@@ -78,7 +79,9 @@ void measureLatency(const ViewOptions& options, const std::shared_ptr<cli::OpenS
 }
 
 void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
-  Renderer renderer(open.scene, options.common.render);
+  RenderOptions settled = options.common.render;
+  Renderer renderer(open.scene, settled);
+  settleExposure(renderer, chooseCamera(open.scene, settled), settled);
   Film film = cli::openFilm(open.scene, options.common);
   std::vector<double> traced, displayed;
   for (int frame = 0; frame < kBenchmarkFrames && !window.closing(); ++frame) {
@@ -118,7 +121,9 @@ void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& 
   std::filesystem::create_directories(options.record, error);
   const std::string pattern = (std::filesystem::path(options.record) / "frame-####.png").string();
   cli::requireWritable(pattern, {".png"});
-  Renderer renderer(open.scene, options.common.render);
+  RenderOptions settled = options.common.render;
+  Renderer renderer(open.scene, settled);
+  settleExposure(renderer, cameraAt(path, path.front().time), settled);
   Film film = cli::openFilm(open.scene, options.common);
   const double seconds = static_cast<double>(path.back().time) - path.front().time;
   const int frames = static_cast<int>(std::floor(seconds * kFramesPerSecond)) + 1;
@@ -127,8 +132,8 @@ void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& 
     const Camera camera = cameraAt(path, path.front().time + frame / kFramesPerSecond);
     renderer.render(camera, film);
     show(window, film.display);
-    cli::writeImage(cli::frameName(pattern, frame), film, options.common.render,
-                    describeImage(open.scene, camera, renderer, film, options.common.render));
+    cli::writeImage(cli::frameName(pattern, frame), film, settled,
+                    describeImage(open.scene, camera, renderer, film, settled));
   }
 }
 

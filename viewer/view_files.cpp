@@ -75,6 +75,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
     }
   }
   for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
+  if (!common.load.sky.empty()) text += " --sky " + quoted(common.load.sky);
   if (common.load.allowOutside) text += " --allow-outside";
   return text;
 }

@@ -81,6 +81,8 @@ void add(Digester& d, const std::optional<T>& value) {
   if (value) add(d, *value);
 }
 
+void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
+
 // The bindings below name every member: one that is added does not compile before it is here.
 void add(Digester& d, const Camera& camera) {
   const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
@@ -138,7 +140,7 @@ void add(Digester& d, const Geometry& geometry) {
   add(d, classBegin), add(d, firstTriangle);
 }
 void add(Digester& d, const Sky& sky) {
-  const auto& [kind, zenith, horizon, ground, image, scale, rotation] = sky;
+  const auto& [name, kind, zenith, horizon, ground, image, scale, rotation] = sky;
   add(d, kind), add(d, zenith), add(d, horizon), add(d, ground), add(d, scale), add(d, rotation);
   const auto& [width, height, r, g, b] = image;
   add(d, width), add(d, height);
@@ -148,7 +150,7 @@ void add(Digester& d, const Sky& sky) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, width, height, cameras, cameraPath, lights, sky, ambient, materials,
+  const auto& [name, isModel, width, height, cameras, cameraPath, lights, sky, ambient, materials,
                mediumOfMaterial, media, textures, geometries, instances, triangles, normals, colors,
                secondUvs, lower, upper, instancedTriangles, flush, effects, reasons] = scene;
   Digester d;

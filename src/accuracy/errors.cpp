@@ -78,7 +78,7 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   const Image& image = frames.film.image;
   const auto against = [&](const Image& a, const Image& b) {
     const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
-    return compareImages(a, b, base_.exposure, base_.toneCurve, encoding);
+    return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
   };
   std::vector<std::function<void()>> comparisons;
   comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
@@ -114,7 +114,7 @@ const ReferencePaths& ErrorMeter::referencePaths(const Point& point, FrameSource
 }
 
 std::string ErrorMeter::pngOf(const Image& image) const {
-  return encodePng(toDisplay(image, base_.exposure, base_.toneCurve));
+  return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
 }
 
 void ErrorMeter::depict(Point& point, const Image& image) const {

@@ -56,10 +56,12 @@ void makeFolder(const std::string& path) {
   if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
 }
 
-void addSettings(const std::vector<std::string>& settings, ImageMetadata& metadata) {
+void addSettings(const std::vector<std::string>& settings, const std::string& sky,
+                 ImageMetadata& metadata) {
   std::string text;
   for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
   if (!text.empty()) metadata.emplace_back("set", text);
+  if (!sky.empty()) metadata.emplace_back("sky", sky);
 }
 
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
@@ -70,7 +72,7 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
   } else if (options.mode == Mode::packets && film.wantDisplay) {
     writePng(path, film.display, metadata);
   } else {
-    writePng(path, toDisplay(film.image, options.exposure, options.toneCurve, options.srgb),
+    writePng(path, toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb),
              metadata);
   }
 }

@@ -20,7 +20,8 @@ void makeFolder(const std::string& path);
 void requireJsonWritable(const std::string& path);
 
 // Says with which settings of LoadOptions the scene was read; nothing without any.
-void addSettings(const std::vector<std::string>& settings, ImageMetadata& metadata);
+void addSettings(const std::vector<std::string>& settings, const std::string& sky,
+                 ImageMetadata& metadata);
 
 // Writes .exr (linear) or .png (display) by the name's extension.
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/option_table.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/load_scene.h"
@@ -16,9 +17,16 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
   open->scene = Scene::finalize(loadScene(name, common.load, open->warnings, progress),
                                 open->warnings, progress);
   open->settings = common.load.settings;
+  open->sky = common.load.sky;
   open->loadMs = stopwatch.ms();
   if (!common.quiet) tellWarnings(open->warnings);
   return open;
+}
+
+RenderOptions optionsFor(const Scene& scene, const CommonOptions& common) {
+  RenderOptions options = common.render;
+  if (scene.isModel) applyModelDefaults(options, common.given);
+  return options;
 }
 
 void tellWarnings(const Warnings& warnings) {

@@ -17,13 +17,19 @@ struct OpenScene {
   explicit OpenScene(bool strict) : warnings(strict) {}
   Scene scene;
   Warnings warnings;
-  std::vector<std::string> settings;  // that it was read with, as LoadOptions has them
-  double loadMs = 0;                  // reading and baking
+  // That it was read with, as LoadOptions has them.
+  std::vector<std::string> settings;
+  std::string sky;
+  double loadMs = 0;  // reading and baking
 };
 
 // Loads and bakes; tells people on standard error what was repaired, unless --quiet.
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress);
+
+// The options of a frame of the scene: models have defaults of their own. An automatic exposure is
+// still to be settled (render/auto_exposure.h).
+RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
 
 // What was repaired, one line each on standard error.
 void tellWarnings(const Warnings& warnings);

@@ -110,6 +110,12 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       "a member of the scene's description, by JSON pointer, and what it is to be instead, in "
       "JSON: /lights/0/intensity=40; may be repeated",
       common.load.settings);
+  list.value({"sky", "FILE"},
+             "what is around the scene in place of its own sky: nothing, a studio with soft boxes "
+             "to be mirrored, or an equirectangular image (default: the scene's own; of models the "
+             "studio)",
+             common.load.sky)
+      .placeholder = "none|studio|FILE";
   list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
              common.maxMemoryGb);
   listReportOptions(list, common);

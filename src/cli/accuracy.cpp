@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
+#include "render/auto_exposure.h"
 
 namespace whit::cli {
 
@@ -117,6 +118,15 @@ accuracy::RunFacts factsOf(const AccuracyJob& job) {
   return facts;
 }
 
+// All pictures of a sweep are shown alike.
+RenderOptions sweptOptions(const OpenScene& open, const CommonOptions& common) {
+  RenderOptions options = optionsFor(open.scene, common);
+  if (!options.exposure.automatic) return options;
+  Renderer renderer(open.scene, options);
+  settleExposure(renderer, chooseCamera(open.scene, options), options);
+  return options;
+}
+
 std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
                                               const accuracy::RunFacts& facts) {
   auto progress = makeProgressBar(job.common);
@@ -130,7 +140,8 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   for (const std::string& name : job.scenes) {
     const auto open = openScene(name, job.common, progress.get());
     openFilm(open->scene, job.common);  // refuses a size that does not fit into memory
-    sweeps.push_back(sweepScene(open->scene, job.common.render, settings, progress.get()));
+    const RenderOptions options = sweptOptions(*open, job.common);
+    sweeps.push_back(sweepScene(open->scene, options, settings, progress.get()));
   }
   return sweeps;
 }

@@ -62,7 +62,7 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
   const auto add = [&](const RenderOptions& options) {
     runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress, &farm));
   };
-  RenderOptions options = job.common.render;
+  RenderOptions options = optionsFor(open->scene, job.common);
   if (job.widths) {
     for (const int width : kWidths) {
       options.packet = width;

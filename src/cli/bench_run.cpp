@@ -1,6 +1,7 @@
 #include "cli/bench_run.h"
 
 #include "accuracy/digest.h"
+#include "render/auto_exposure.h"
 #include "render/floor.h"
 
 namespace whit::cli {
@@ -12,8 +13,10 @@ BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& c
       options_(options),
       renderer_(open_->scene, options, progress),
       camera_(chooseCamera(open_->scene, options)),
-      film_(openFilm(open_->scene, common)),
-      summary_(summarize(open_->scene, options, renderer_, film_, open_->loadMs)) {}
+      film_(openFilm(open_->scene, common)) {
+  settleExposure(renderer_, camera_, options_);
+  summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
+}
 
 FrameStats BenchRun::frame() {
   return farm_ ? renderShared(*farm_, renderer_, options_, camera_, film_)

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "render/auto_exposure.h"
 #include "render/path_divergence.h"
 
 namespace whit::cli {
@@ -36,6 +37,7 @@ struct CompareJob {
 struct Compared {
   Comparison numbers;
   Image a, b;
+  float exposure = 0;  // EV
 };
 
 OptionList listOptions(CompareJob& job) {
@@ -54,8 +56,13 @@ OptionList listOptions(CompareJob& job) {
 Compared compareFiles(const CompareJob& job) {
   if (job.stages) throwUsage("--stages needs a scene, not two images");
   if (!job.common.load.settings.empty()) throwUsage("--set needs a scene, not two images");
+  if (!job.common.load.sky.empty()) throwUsage("--sky needs a scene, not two images");
+  if (job.common.render.exposure.automatic) {
+    throwUsage("--exposure auto needs a scene, not two images");
+  }
   Warnings warnings(job.common.render.strict);
   Compared result;
+  result.exposure = job.common.render.exposure.ev;
   result.a = readImage(job.subjects[0], ImageLimits(), warnings);
   result.b = readImage(job.subjects[1], ImageLimits(), warnings);
   if (!job.common.quiet) tellWarnings(warnings);
@@ -65,10 +72,13 @@ Compared compareFiles(const CompareJob& job) {
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.subjects[0], job.common, progress.get());
-  Renderer renderer(open->scene, job.common.render, progress.get());
-  const Camera camera = chooseCamera(open->scene, job.common.render);
+  RenderOptions options = optionsFor(open->scene, job.common);
+  Renderer renderer(open->scene, options, progress.get());
+  const Camera camera = chooseCamera(open->scene, options);
+  settleExposure(renderer, camera, options);
   Film packets = openFilm(open->scene, job.common), reference = packets;
   Compared result;
+  result.exposure = options.exposure.ev;
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
   result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
   const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;
@@ -164,8 +174,8 @@ int compareCommand(const Words& words) {
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
-  compared.numbers.difference = compareImages(compared.a, compared.b, job.common.render.exposure,
-                                              job.common.render.toneCurve);
+  compared.numbers.difference =
+      compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     printNumbers(people, compared.numbers);

@@ -51,8 +51,9 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   BenchRuns runs;
   const auto add = [&](std::string_view added, EffectSet kept) {
     steps.push_back({std::string(added), {}, 0});
-    runs.push_back(std::make_unique<BenchRun>(openStep(whole, kept, job), job.common,
-                                              job.common.render, progress));
+    const std::shared_ptr<OpenScene> step = openStep(whole, kept, job);
+    runs.push_back(std::make_unique<BenchRun>(step, job.common, optionsFor(step->scene, job.common),
+                                              progress));
   };
   EffectSet kept = kMatteEffects;
   add("matte", kept);

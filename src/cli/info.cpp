@@ -24,6 +24,7 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
+  std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");
   for (const Camera& camera : s.cameras) std::printf("%s ", printable(camera.name).c_str());
   std::printf("\n  %-12s%.1f MB\n", "memory", memoryMb(s, renderer));
@@ -99,14 +100,15 @@ int infoCommand(const Words& words) {
   CommonOptions loading = common;
   loading.quiet = true;  // the warnings are part of the report
   const auto open = openScene(scenes[0], loading, progress.get());
-  const Renderer renderer(open->scene, common.render, progress.get());
+  const RenderOptions options = optionsFor(open->scene, common);
+  const Renderer renderer(open->scene, options, progress.get());
   progress.reset();
   if (!json.empty()) {
-    writeJson(json, infoJson(open->scene, renderer, common.render, open->warnings));
+    writeJson(json, infoJson(open->scene, renderer, options, open->warnings));
   }
   if (json == "-") return 0;
   printCounts(*open, renderer);
-  printPlan(*open, renderer, common.render);
+  printPlan(*open, renderer, options);
   return 0;
 }
 

@@ -96,6 +96,7 @@ Json runJson(const RunSummary& run) {
   json.update(settingsJson(run.options));
   json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
   json["effects"] = effectNames(run.effects);
+  json["exposure_ev"] = run.options.exposure.ev;
   json["triangles"] = run.triangles;
   json["frames"] = run.frames.size();
   json["build_ms"] = run.buildMs;
@@ -154,6 +155,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"materials", scene.materials.size()},
             {"lights", scene.lights.size()},
             {"textures", scene.textures.size()},
+            {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
   json["cameras"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);

@@ -16,6 +16,7 @@
 #include "core/image.h"
 #include "core/options.h"
 #include "io/image_file.h"
+#include "render/auto_exposure.h"
 #include "render/describe_image.h"
 
 namespace whit::cli {
@@ -115,9 +116,12 @@ class ImageWriter {
         farm_(farm),
         open_(open),
         progress_(progress),
-        renderer_(open.scene, job.common.render, progress),
-        film_(openFilm(open.scene, job.common)),
-        run_(summarize(open.scene, job.common.render, renderer_, film_, open.loadMs)) {
+        options_(optionsFor(open.scene, job.common)),
+        renderer_(open.scene, options_, progress),
+        film_(openFilm(open.scene, job.common)) {
+    // One for all frames of a path, whichever of them are asked for.
+    settleExposure(renderer_, firstCamera(), options_);
+    run_ = summarize(open.scene, options_, renderer_, film_, open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
     film_.wantDisplay = false;
     for (const std::string& output : job.outputs) {
@@ -128,9 +132,9 @@ class ImageWriter {
   // With --resume, nothing is traced when all files are there.
   void write(const Camera& camera, const std::vector<std::string>& files,
              const ImageMetadata& more = {}) {
-    const RenderOptions& options = job_.common.render;
+    const RenderOptions& options = options_;
     ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
-    addSettings(open_.settings, metadata);
+    addSettings(open_.settings, open_.sky, metadata);
     metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
     if (farm_.leads() && job_.resume &&
@@ -152,13 +156,20 @@ class ImageWriter {
   }
 
   const RunSummary& run() const { return run_; }
+  const Exposure& exposure() const { return options_.exposure; }
   const std::vector<std::string>& written() const { return written_; }
 
  private:
+  Camera firstCamera() const {
+    return job_.frames.empty() ? chooseCamera(open_.scene, options_)
+                               : cameraOnPath(open_.scene, options_, 0);
+  }
+
   const RenderJob& job_;
   Farm& farm_;
   const OpenScene& open_;
   Progress* progress_;
+  RenderOptions options_;  // with an automatic exposure settled
   Renderer renderer_;
   Film film_;
   RunSummary run_;
@@ -197,7 +208,12 @@ int render(const Words& words, Farm& farm) {
   progress.reset();
   if (!farm.leads()) return 0;
   const bool traced = !writer.run().frames.empty();  // else all images were there
-  if (traced && !job.common.quiet) std::fputs(stageTable(writer.run()).c_str(), stderr);
+  if (traced && !job.common.quiet) {
+    std::fputs(stageTable(writer.run()).c_str(), stderr);
+    if (optionsFor(open->scene, job.common).exposure.automatic) {
+      std::fprintf(stderr, "exposure %+g EV\n", static_cast<double>(writer.exposure().ev));
+    }
+  }
   if (!job.json.empty()) {
     Json json = runJson(writer.run());
     json["files"] = writer.written();

@@ -27,5 +27,7 @@ void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
 // Sets what options.quality stands for, leaving alone the options named in `given` (as in
 // forEachOption): what the user says counts for more than a preset.
 void applyQuality(RenderOptions& options, const std::set<std::string>& given);
+// Likewise what is better for a model without a scene file: nobody has looked at its picture.
+void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given);
 
 }  // namespace whit

@@ -115,6 +115,12 @@ void parseValue(const OptionSpec& spec, const std::string& text, double& value) 
   parseNumber(spec, text, "a number", value);
 }
 
+void parseValue(const OptionSpec& spec, const std::string& text, Exposure& value) {
+  Exposure parsed{0, text == "auto"};
+  if (!parsed.automatic) parseNumber(spec, text, "auto or a number", parsed.ev);
+  value = parsed;
+}
+
 void parseValue(const OptionSpec& spec, const std::string& text, ImageSize& value) {
   const std::vector<std::string> parts = split(text, 'x');
   ImageSize size;
@@ -161,6 +167,9 @@ std::string formatValue(const OptionSpec& spec, int value) {
 }
 std::string formatValue(const OptionSpec&, float value) { return shortest(value); }
 std::string formatValue(const OptionSpec&, double value) { return shortest(value); }
+std::string formatValue(const OptionSpec&, const Exposure& value) {
+  return value.automatic ? "auto" : shortest(value.ev);
+}
 std::string formatValue(const OptionSpec&, const ImageSize& value) {
   return std::to_string(value.width) + "x" + std::to_string(value.height);
 }

@@ -30,6 +30,13 @@ enum class BvhQuality { low, medium, high };
 inline constexpr Need kNeedsSoftShadows{EffectSet().with(Effect::softShadows),
                                         "no light has a radius and a shadow"};
 
+// Of 8-bit output, in EV. An automatic one follows from the view (render/auto_exposure.h); until
+// then it is 0.
+struct Exposure {
+  float ev = 0;
+  bool automatic = false;
+  bool operator==(const Exposure&) const = default;
+};
 struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
@@ -67,7 +74,7 @@ struct RenderOptions {
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
   EffectSet disable;
-  float exposure = 0;  // EV
+  Exposure exposure;
   ToneCurve toneCurve = ToneCurve::none;
   FilmPrecision film = FilmPrecision::single;
   SrgbEncoding srgb = SrgbEncoding::exact;
@@ -282,8 +289,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "effects left out (the names that whit info prints)",
               .rebuilds = Rebuild::tables, .tab = Tab::none},
              o.disable},
-      Option{{.name = "exposure", .words = "EV", .low = -64, .high = 64,
-              .help = "exposure of 8-bit output",
+      Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
+              .help = "exposure of 8-bit output; auto: what the view calls for (default: 0, of "
+                      "models without a scene file auto)",
               .tab = Tab::picture},
              o.exposure},
       Option{{.name = "tonemap", .words = "none|filmic|reinhard",

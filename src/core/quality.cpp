@@ -47,4 +47,9 @@ void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
   }
 }
 
+void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given) {
+  if (!given.contains("exposure")) options.exposure = {0, true};
+  if (!given.contains("terminator")) options.shading.terminator = true;
+}
+
 }  // namespace whit

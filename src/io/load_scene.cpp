@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "core/box.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
@@ -17,6 +16,7 @@
 #include "io/scene_materials.h"
 #include "io/scene_settings.h"
 #include "io/scene_view.h"
+#include "io/supply_view.h"
 
 namespace whit {
 namespace {
@@ -79,51 +79,13 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   readLights(file, context.scene);
   readSky(file, context);
   const std::optional<double> fromSky = readAmbient(file, context.scene);
+  replaceSky(context);
   MaterialReader materials(file, context);
   ItemReader(context, materials).read(file);
   materials.checkUnused();
   file.finish();
   finishTextures(context, fromSky);
   return std::move(context.scene);
-}
-
-// Of the objects' boxes where their instances stand. The description is not validated yet: points
-// that are not finite count for nothing.
-Box boundsOf(const SceneDescription& scene) {
-  const auto add = [](const Vec3f& p, Box& box) {
-    if (isFinite(p)) box.add(p);
-  };
-  std::vector<Box> objects(scene.objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    for (const Mesh& mesh : scene.objects[i].meshes) {
-      for (const Vec3f& p : mesh.positions) add(p, objects[i]);
-    }
-  }
-  Box all;
-  for (const Instance& instance : scene.instances) {
-    const Box& own = objects[instance.object];
-    if (own.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      add(Vec3f(instance.toWorld.point(Vec3d(own.corner(corner)))), all);
-    }
-  }
-  return all.empty() ? Box{Vec3f(), Vec3f()} : all;
-}
-
-// A light above, beside and in front of the model, and light from all around.
-void supplyLight(SceneDescription& scene) {
-  const auto [lower, upper] = boundsOf(scene);
-  const float size = std::max(length(upper - lower), 1e-6f);
-  const Vec3f offset = Vec3f(0.6f, 1.0f, 0.8f) * size;
-  Light light;
-  light.name = "supplied";
-  light.position = (lower + upper) * 0.5f + offset;
-  // A white surface that faces the light from the middle of the model is seen as 1.
-  light.intensity = Rgb(3.14159265f * dot(offset, offset));
-  light.radius = 0.01f * size;
-  scene.lights.push_back(light);
-  scene.ambient.up = Rgb(0.25f);
-  scene.ambient.down = Rgb(0.1f);
 }
 
 Json listOf(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
@@ -187,8 +149,14 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   ItemReader(context, materials).readModelAlone(file, path);
-  if (context.scene.lights.empty()) supplyLight(context.scene);
-  finishTextures(context, readModelView(others, path.string(), context));
+  supplyView(context);
+  const bool ownAmbient = std::any_of(others.begin(), others.end(), [](const SceneSetting& s) {
+    return s.tokens.front() == "ambient";
+  });
+  std::optional<double> fromSky = readModelView(others, path.string(), context);
+  replaceSky(context);
+  if (!ownAmbient && context.scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;
+  finishTextures(context, fromSky);
   return std::move(context.scene);
 }
 

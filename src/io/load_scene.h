@@ -19,6 +19,9 @@ struct LoadOptions {
   // "POINTER=VALUE", see scene_settings.h, taken for parts of the scene file. Of a model: members
   // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient".
   std::vector<std::string> settings;
+  // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
+  // image. Empty: the scene's own; of a model, which has none, the studio.
+  std::string sky;
 };
 
 // `name`: a scene file (.json), a model (model.h), or the bare name of a shipped scene, looked for

@@ -25,6 +25,7 @@ struct SceneContext {
         budget(options.maxMemoryBytes),
         warnings(warnings_),
         progress(progress_),
+        sky(options.sky),
         textures(options.threads, budget, warnings, progress) {
     scene.name = file.stem().string();
   }
@@ -42,6 +43,7 @@ struct SceneContext {
   Warnings& warnings;
   Progress* progress;
   SceneDescription scene;
+  std::string sky;  // as in LoadOptions
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene
 };

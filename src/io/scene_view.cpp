@@ -120,12 +120,14 @@ void readSky(JsonObject& file, SceneContext& context) {
   if (!value) return;
   JsonObject object(*value);
   Sky& sky = context.scene.sky;
+  sky = Sky();
   sky.scale = object.number("scale", sky.scale, 0);
   if (const auto image = object.find("image")) {
     sky.kind = Sky::Kind::image;
     sky.rotation = object.number("rotation", sky.rotation);
     const auto path = context.rules.resolve(image->text(), context.folder, image->where());
-    context.textures.addEnvironment(path.string(), sky.image);
+    sky.name = path.filename().string();
+    if (context.sky.empty()) context.textures.addEnvironment(path.string(), sky.image);
   } else if (const auto color = object.find("color")) {
     sky.kind = Sky::Kind::color;
     sky.zenith = sky.horizon = sky.ground = color->color();

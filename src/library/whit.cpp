@@ -12,6 +12,7 @@
 #include "io/image_file.h"
 #include "io/load_scene.h"
 #include "io/paths.h"
+#include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/renderer.h"
 
@@ -64,6 +65,7 @@ Scene loadScene(const std::string& name, const LoadOptions& options, const char*
     const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
     load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
     load.threads = options.threads;
+    load.sky = options.sky;
     load.shippedScenes = shippedScenes;
     auto data = std::make_shared<Scene::Data>(options.strict);
     data->scene =
@@ -144,6 +146,7 @@ struct Renderer::Data {
   explicit Data(Scene s) : scene(std::move(s)) {}
 
   const whit::Scene& internal() const { return scene.data_->scene; }
+  RenderOptions settledOptions() const;
   void prepare();
   void prepare(Film& film) const;
   void render(const Camera& camera, Image& image);
@@ -151,23 +154,30 @@ struct Renderer::Data {
   Scene scene;
   RenderOptions options;  // as set
   std::set<std::string> given;
-  RenderOptions settled;  // with what --quality stands for
+  RenderOptions settled;  // with what --quality stands for and follows from the scene
   bool changed = true;
   std::unique_ptr<whit::Renderer> renderer;
   FrameStatistics statistics;
 };
 
+RenderOptions Renderer::Data::settledOptions() const {
+  RenderOptions all = options;
+  applyQuality(all, given);
+  if (internal().isModel) applyModelDefaults(all, given);
+  return all;
+}
+
 // After options were set: the renderer takes them over, or is made anew.
 void Renderer::Data::prepare() {
   if (!changed) return;
-  settled = options;
-  applyQuality(settled, given);
+  settled = settledOptions();
   if (renderer && renderer->canSetOptions(settled)) {
     renderer->setOptions(settled);
   } else {
     renderer.reset();  // two acceleration structures at a time could be too many
     renderer = std::make_unique<whit::Renderer>(internal(), settled);
   }
+  settleExposure(*renderer, chooseCamera(internal(), settled), settled);
   changed = false;
 }
 
@@ -204,11 +214,7 @@ Renderer& Renderer::set(const std::string& name, const std::string& value) {
 }
 
 std::string Renderer::get(const std::string& name) const {
-  return guarded([&] {
-    RenderOptions settled = data_->options;
-    applyQuality(settled, data_->given);
-    return optionText(settled, name);
-  });
+  return guarded([&] { return optionText(data_->settledOptions(), name); });
 }
 
 Image Renderer::render() {

@@ -39,6 +39,9 @@ struct LoadOptions {
   bool strict = false;        // what would be repaired is an error
   double maxMemoryGb = 16;    // 10^9 bytes that geometry and images may take
   int threads = 0;            // 0: what affinity and cgroup quota allow
+  // In place of the scene's own sky: none, studio or the file of an image. Empty: the scene's own;
+  // of a model the studio.
+  std::string sky = {};
 };
 
 // A scene that is ready to be rendered. A handle: copies share the scene, which never changes.

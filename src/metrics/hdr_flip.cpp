@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/luminance.h"
 #include "core/quantile.h"
 #include "metrics/metrics.h"
 
@@ -21,11 +22,6 @@ constexpr double kTarget = 0.85;  // of full scale
 double inputForTarget() {
   const double a = kA - kTarget * kC, b = kB - kTarget * kD, c = -kTarget * kE;
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
-}
-
-double luminance(const Rgb& c) {
-  return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-         0.0722 * static_cast<double>(c.z);
 }
 
 std::vector<double> exposuresFor(const Image& reference) {

@@ -62,6 +62,14 @@ bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& 
   return startsOnOne(kProbe) || startsOnOne(-kProbe);
 }
 
+CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                           const Camera& camera, int width, int height) {
+  CameraFrame frame = makeCameraFrame(camera, width, height);
+  frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
+  frame.mediaVary = frame.orthographic || liesOnDielectric(scene, effects, intersector, frame.eye);
+  return frame;
+}
+
 MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
                         const CameraFrame& camera, const Ray& ray) {
   // Far enough for the rounding of the sum where a ray leaves at a hundredth of a right angle.

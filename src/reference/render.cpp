@@ -67,7 +67,7 @@ RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Sett
                       const Crop& window, const std::vector<std::uint8_t>& edges,
                       FirstPicture& first, ProbeSamples& probes, Progress* progress) {
   const RenderOptions& options = settings.options;
-  const double scale = std::exp2(static_cast<double>(options.exposure));
+  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
   const int samples = std::min(options.spp, kProbeSamples);
   const auto trace = [&](int x, int y, RayCounts& counts) {
     PixelProbes& own = probes.at(x, y);
@@ -98,7 +98,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   RayCounts counts = traceCenters(tracer, frame, settings, first, progress);
   std::vector<std::uint8_t> edges(first.image.pixels.size());
   const DisplayImage display =
-      toDisplay(first.image, options.exposure, options.toneCurve, options.srgb);
+      toDisplay(first.image, options.exposure.ev, options.toneCurve, options.srgb);
   findEdges(display, first.surfaces, options.contrast, 0, first.image.windowHeight(), edges);
   ProbeSamples probes(first.image.window, edges,
                       samplePattern(std::max(options.spp, kProbeSamples)));
@@ -161,10 +161,8 @@ PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) co
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
-  CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-  frame.media = initialMediumStack(scene, settings.effects, intersector, frame.eye);
-  frame.mediaVary =
-      frame.orthographic || liesOnDielectric(scene, settings.effects, intersector, frame.eye);
+  const CameraFrame frame =
+      frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
   const Tracer tracer(scene, intersector, settings);
   if (settings.options.adaptive && settings.options.spp > 1) {
     return renderAdaptively(tracer, frame, settings, image, progress);

@@ -13,7 +13,7 @@ std::uint32_t displayCode(const Rgb& pixel, double exposureScale, ToneCurve curv
 }
 
 std::uint32_t updateImage(const RenderOptions& options, const Rgb& pixel) {
-  return displayCode(pixel * std::exp2(options.exposure), 1, options.toneCurve, options.srgb);
+  return displayCode(pixel * std::exp2(options.exposure.ev), 1, options.toneCurve, options.srgb);
 }
 
 }  // namespace whit::reference

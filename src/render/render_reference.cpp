@@ -32,7 +32,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
   const reference::RayCounts counts =
       reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
   if (film.wantDisplay) {
-    film.display = toDisplay(film.image, options_.exposure, options_.toneCurve, options_.srgb);
+    film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve, options_.srgb);
   }
   FrameStats stats;
   stats.frameMs = stopwatch.ms();

@@ -33,7 +33,7 @@ void keepAsCodes(const Chunk& c) {
 
 void encodeForDisplay(Chunk& c) {
   const RenderOptions& o = c.options();
-  simd::encodeDisplay({std::exp2(o.exposure), o.toneCurve, o.srgb, c.radiance, c.n, c.codes});
+  simd::encodeDisplay({std::exp2(o.exposure.ev), o.toneCurve, o.srgb, c.radiance, c.n, c.codes});
 }
 
 void updateImage(Chunk& c) {

@@ -60,6 +60,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   settleSides(d);
   Scene scene;
   scene.name = std::move(d.name);
+  scene.isModel = d.isModel;
   scene.width = d.width;
   scene.height = d.height;
   scene.cameras = std::move(d.cameras);

@@ -67,6 +67,12 @@ double SpotCone::falloff(const Vec3d& unitToLight) const {
   return s * s;
 }
 
+std::string skyName(const Sky& sky) {
+  if (!sky.name.empty()) return sky.name;
+  constexpr const char* kKinds[] = {"none", "color", "gradient", "image"};
+  return kKinds[static_cast<std::size_t>(sky.kind)];
+}
+
 RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
   switch (sky.kind) {
     case Sky::Kind::none:

@@ -49,6 +49,7 @@ SpotCone coneOf(const Light& light);
 
 struct Sky {
   enum class Kind { none, color, gradient, image };
+  std::string name;  // where it has one: studio, or the image's file
   Kind kind = Kind::none;
   // gradient: linear in the sine of the elevation, horizon to zenith above, horizon to ground
   // below. color: `zenith` everywhere.
@@ -66,6 +67,8 @@ struct Ambient {
   Rgb up{0, 0, 0}, down{0, 0, 0};
 };
 
+// What it is called: none, color, gradient, studio, or the name of its image's file.
+std::string skyName(const Sky& sky);
 // Radiance of the sky along the unit direction `d` (double precision; the kernels' oracle).
 RgbD skyRadiance(const Sky& sky, const Vec3d& d);
 // Cosine-weighted means of the sky over the upper and the lower hemisphere, times `strength`.

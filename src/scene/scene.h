@@ -27,6 +27,7 @@ inline constexpr float kLargestCoordinate = 1.844e18f;
 
 struct SceneDescription {
   std::string name;               // the bare name of the file
+  bool isModel = false;           // without a scene file: light, sky and view are supplied
   int width = 480, height = 300;  // the scene's own image size
   std::vector<Camera> cameras;    // the first is the default
   std::vector<Keyframe> cameraPath;
@@ -109,6 +110,7 @@ class Scene {
                         Progress* progress = nullptr);
 
   std::string name;
+  bool isModel = false;  // as in SceneDescription
   int width = 480, height = 300;
   std::vector<Camera> cameras;  // at least one
   std::vector<Keyframe> cameraPath;

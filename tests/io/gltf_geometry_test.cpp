@@ -267,10 +267,11 @@ TEST_F(GltfGeometry, SpotAndDirectionalLights) {
   EXPECT_EQ(warned("spot light's cone repaired"), 1u);
 }
 
-TEST_F(GltfGeometry, FilesWithoutALightAreGivenOne) {
+TEST_F(GltfGeometry, FilesWithoutALightAreGivenTwo) {
   const SceneDescription scene = loadText(triangleText("\"nodes\":[{\"mesh\":0}]"));
-  ASSERT_EQ(scene.lights.size(), 1u);
+  ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[0].name, "supplied");
+  EXPECT_EQ(scene.lights[1].name, "supplied fill");
 }
 
 TEST_F(GltfGeometry, ScenesPlaceModelsAndOverrideTheirMaterials) {

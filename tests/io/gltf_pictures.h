@@ -26,6 +26,9 @@ struct Square {
 // Seen from (0, 0, 3) by a camera that holds exactly [-1, 1]^2 of the plane z = 0.
 class GltfMaterials : public GltfTest {
  protected:
+  // What they are lit with is the light at the eye alone.
+  GltfMaterials() { options_.sky = "none"; }
+
   std::string sceneText(const std::vector<Square>& squares) {
     GltfBuilder b;
     const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));

@@ -139,11 +139,11 @@ TEST_F(ObjFaces, MaterialsOfFaces) {
   EXPECT_EQ(warned("material missing, gray instead"), 1u);
 }
 
-TEST_F(ObjFaces, AModelAloneGetsALight) {
+TEST_F(ObjFaces, AModelAloneGetsLightsAndACamera) {
   const SceneDescription scene = loadObj(std::string(kSquare) + "f 1 2 3 4\n");
   EXPECT_EQ(scene.name, "m");
-  EXPECT_TRUE(scene.cameras.empty());
-  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.cameras.size(), 1u);
+  ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_GT(scene.lights[0].position.y, 1);
   Warnings warnings;
   SceneDescription copy = scene;

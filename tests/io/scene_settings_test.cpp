@@ -91,7 +91,7 @@ TEST_F(SceneSettings, RefuseWhatIsNone) {
 
 TEST_F(SceneSettings, OfAModel) {
   const SceneDescription plain = modelWith({});
-  ASSERT_EQ(plain.lights.size(), 1u);
+  ASSERT_EQ(plain.lights.size(), 2u);
   const SceneDescription scene =
       modelWith({"/materials/blue/mirror=0.5", "/lights/0/position=[1, 2, 3]", "/sky/color=0.1"});
   EXPECT_EQ(scene.materials[0].mirror, Rgb(0.0f));

@@ -74,7 +74,7 @@ TEST(UpdateImage, CodesFollowTheFormula) {
 
 TEST(UpdateImage, ExposesThenBendsThenEncodes) {
   RenderOptions o;
-  o.exposure = 1;
+  o.exposure.ev = 1;
   EXPECT_EQ(updateImage(o, Rgb(0.25f)), updateImage(RenderOptions(), Rgb(0.5f)));
   o.toneCurve = ToneCurve::reinhard;  // 1 / (1 + 1)
   EXPECT_EQ(updateImage(o, Rgb(0.5f)), updateImage(RenderOptions(), Rgb(0.5f)));

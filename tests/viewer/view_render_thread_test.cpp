@@ -78,7 +78,7 @@ TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
   request_.options.disable = EffectSet().with(Effect::lights);
   expectRightPicture(thread);
   request_.options.disable = EffectSet();
-  request_.options.exposure = 1.5f;
+  request_.options.exposure.ev = 1.5f;
   expectRightPicture(thread);
   request_.spp = 4;
   request_.options.size = {31, 17};
@@ -100,7 +100,7 @@ TEST_F(RenderThreadTest, TheNewestRequestWins) {
   request_.interruptible = true;
   TracedFrame early;
   for (int i = 1; i <= 50; ++i) {
-    request_.options.exposure = static_cast<float>(i) / 8;
+    request_.options.exposure.ev = static_cast<float>(i) / 8;
     while (!thread.ask(request_)) thread.take(early);
   }
   ASSERT_TRUE(waitFor(thread));

@@ -1,0 +1,91 @@
+#include "render/auto_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/luminance.h"
+#include "core/quantile.h"
+#include "core/worker_pool.h"
+#include "reference/initial_medium_stack.h"
+#include "reference/reference.h"
+#include "render/embree_intersector.h"
+
+namespace whit {
+
+namespace {
+
+constexpr int kLongSide = 64, kDepth = 8;
+constexpr double kMiddle = 0.3;  // what the mean of the surfaces becomes
+// What is no brighter than this share of the surfaces' pixels stays below white.
+constexpr double kBrightShare = 0.93, kBright = 0.95;
+// For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
+// before a gray sky is meant to be dark.
+constexpr double kSky = 0.5, kMostForSky = 2;
+constexpr double kDarkest = 1.0e-2;  // of the bright ones: darker pixels count as this
+constexpr double kSteps = 8;         // of an EV
+constexpr double kMostEv = 32;
+constexpr auto kNothing = PixelSurface::kNothing;
+
+struct Luminances {
+  std::vector<double> surfaces, sky;  // of the pixels that show the one or the other
+};
+
+Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
+  const Scene& scene = renderer.scene();
+  const int longer = std::max(scene.width, scene.height);
+  const auto side = [&](int of) { return std::max(1, (of * kLongSide + longer / 2) / longer); };
+  const int width = side(scene.width), height = side(scene.height);
+  reference::Settings settings;
+  settings.options.depth = kDepth;
+  settings.effects = renderer.plan().effects.without(notAskedFor(settings.options));
+  const EmbreeIntersector intersector(renderer.accel());
+  const reference::Tracer tracer(scene, intersector, settings);
+  const CameraFrame frame =
+      reference::frameWithMedia(scene, settings.effects, intersector, camera, width, height);
+  std::vector<Luminances> rows(static_cast<std::size_t>(height));
+  parallelFor(renderer.machine().threads, rows.size(), [&](std::size_t row, int) {
+    reference::RayCounts counts;
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width; ++x) {
+      const double l = luminance(Rgb(tracer.center(frame, x, y, counts)));
+      if (!(l >= 0) || !std::isfinite(l)) continue;
+      const bool nothing = tracer.surfaceAtCenter(frame, x, y).material == kNothing;
+      (nothing ? rows[row].sky : rows[row].surfaces).push_back(l);
+    }
+  });
+  Luminances all;
+  for (const Luminances& row : rows) {
+    all.surfaces.insert(all.surfaces.end(), row.surfaces.begin(), row.surfaces.end());
+    all.sky.insert(all.sky.end(), row.sky.begin(), row.sky.end());
+  }
+  return all;
+}
+
+// By which the surfaces are well seen.
+double evOf(const std::vector<double>& surfaces, double bright) {
+  double sum = 0;
+  for (const double l : surfaces) sum += std::log2(std::clamp(l, kDarkest * bright, bright));
+  const double mean = sum / static_cast<double>(surfaces.size());
+  return std::min(std::log2(kMiddle) - mean, std::log2(kBright / bright));
+}
+
+}  // namespace
+
+float exposureFor(const Renderer& renderer, const Camera& camera) {
+  const Luminances seen = luminancesOf(renderer, camera);
+  const double bright = quantile(seen.surfaces, kBrightShare), sky = quantile(seen.sky, 0.5);
+  if (!(bright > 0)) return 0;
+  double ev = evOf(seen.surfaces, bright);
+  if (sky > 0) ev = std::clamp(std::log2(kSky / sky), ev - kMostForSky, ev);
+  // Not -0, which would be said as such.
+  return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);
+}
+
+void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options) {
+  if (!options.exposure.automatic) return;
+  options.exposure = {exposureFor(renderer, camera), false};
+  renderer.setOptions(options);
+}
+
+}  // namespace whit

@@ -1,0 +1,122 @@
+// A model without a scene file: its sky, its exposure, and what is said of them.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/image_file.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+// A bent plate.
+std::string writeModel(const TemporaryFolder& folder) {
+  std::ofstream(folder / "model.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\n"
+                                         "f 1 2 3 4\nf 2 5 6 3\n";
+  return folder / "model.obj";
+}
+
+std::map<std::string, std::string> saidIn(const std::string& path) {
+  std::map<std::string, std::string> said;
+  for (const auto& [name, text] : readPngMetadata(path)) said[name] = text;
+  return said;
+}
+
+TEST(Models, InfoNamesTheSky) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), tiny = writeTinyScene(folder);
+  const auto sky = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "info");
+    words.insert(words.end(), {"--json", "-"});
+    return nlohmann::json::parse(runWhit(words).out)["sky"].get<std::string>();
+  };
+  EXPECT_EQ(sky({model}), "studio");
+  EXPECT_EQ(sky({model, "--sky", "none"}), "none");
+  EXPECT_EQ(sky({tiny}), "none");
+  EXPECT_EQ(sky({tiny, "--sky", "studio"}), "studio");
+  EXPECT_NE(runWhit({"info", model}).out.find("sky         studio"), std::string::npos);
+}
+
+TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), a = folder / "a.png", b = folder / "b.png";
+  const Outcome first = runWhit({"render", model, "-o", a, "--size", "48x30", "--json", "-"});
+  ASSERT_EQ(first.status, 0) << first.err;
+  const std::string ev = saidIn(a).at("exposure");
+  EXPECT_NE(ev, "auto");
+  EXPECT_NE(ev, "0");
+  EXPECT_EQ(saidIn(a).at("terminator"), "on");
+  EXPECT_EQ(nlohmann::json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
+  EXPECT_NE(first.err.find("exposure "), std::string::npos);
+  EXPECT_EQ(first.err.find("exposure 0"), std::string::npos);
+  ASSERT_EQ(runWhit({"render", model, "-o", b, "--size", "48x30", "--quiet", "--exposure", ev,
+                     "--terminator", "on"})
+                .status,
+            0);
+  EXPECT_EQ(readFile(a), readFile(b));
+  EXPECT_EQ(runWhit({"render", model, "-o", a, "--quiet"}).err, "");
+  EXPECT_EQ(saidIn(a).at("exposure"), ev) << "of another size";
+}
+
+TEST(Models, ACropIsExposedAsTheWhole) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), tiny = writeTinyScene(folder);
+  const auto codes = [&](const std::string& scene, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", scene,   "-o",         folder / "x.png",
+                                   "--size", "40x25", "--exposure", "auto"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(runWhit(words).status, 0);
+    Warnings warnings;
+    return readRawImage(folder / "x.png", ImageLimits(), warnings).codes;
+  };
+  for (const std::string& scene : {model, tiny}) {
+    const auto whole = codes(scene, {}), corner = codes(scene, {"--crop", "0,0,40,3"});
+    ASSERT_GE(whole.size(), corner.size());
+    EXPECT_TRUE(std::equal(corner.begin(), corner.end(), whole.begin())) << scene;
+  }
+}
+
+TEST(Models, FramesOfAPathAreExposedAlike) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "f#.png", "--frames", "0..1", "--fps", "1",
+                     "--exposure", "auto", "--quiet"})
+                .status,
+            0);
+  const std::string ev = saidIn(folder / "f0.png").at("exposure");
+  EXPECT_EQ(saidIn(folder / "f1.png").at("exposure"), ev);
+  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "g#.png", "--frames", "1", "--fps", "1",
+                     "--exposure", "auto", "--quiet"})
+                .status,
+            0);
+  EXPECT_EQ(readFile(folder / "g1.png"), readFile(folder / "f1.png"));
+}
+
+TEST(Models, TheSkyAskedForIsKeptInThePicture) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder), a = folder / "a.png";
+  ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--sky", "studio", "--quiet"}).status, 0);
+  EXPECT_EQ(saidIn(a).at("sky"), "studio");
+  EXPECT_EQ(saidIn(a).at("exposure"), "0") << "a scene file";
+  ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--quiet"}).status, 0);
+  EXPECT_EQ(saidIn(a).count("sky"), 0u);
+}
+
+TEST(Models, WrongUsageIsTold) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), a = folder / "a.exr";
+  const Outcome bad = runWhit({"render", model, "-o", a, "--exposure", "bright"});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_NE(bad.err.find("auto or a number from -64 to 64"), std::string::npos) << bad.err;
+  const Outcome gone = runWhit({"render", model, "-o", a, "--sky", folder / "gone.hdr"});
+  EXPECT_EQ(gone.status, 4);
+  EXPECT_NE(gone.err.find("gone.hdr"), std::string::npos) << gone.err;
+  ASSERT_EQ(runWhit({"render", model, "-o", a, "--quiet", "--size", "8x8"}).status, 0);
+  EXPECT_EQ(runWhit({"compare", a, a, "--sky", "none"}).status, 2);
+  EXPECT_EQ(runWhit({"compare", a, a, "--exposure", "auto"}).status, 2);
+  EXPECT_EQ(runWhit({"compare", model, "--size", "24x16", "--quiet"}).status, 0);
+}
+
+}  // namespace
+}  // namespace whit::cli

@@ -1,0 +1,106 @@
+// The exposure that a view calls for.
+#include "render/auto_exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/option_table.h"
+#include "shipped_scene.h"
+
+namespace whit {
+namespace {
+
+float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
+  const Renderer renderer(scene, options);
+  return exposureFor(renderer, chooseCamera(scene, options));
+}
+
+// A plate that fills the view and glows.
+Scene glowing(const Rgb& radiance, const Rgb& sky = {}, float side = 10) {
+  SceneDescription d;
+  d.materials.resize(1);
+  d.materials[0].diffuse = Rgb(0.0f);
+  d.materials[0].emission = radiance;
+  Mesh plate;
+  plate.positions = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
+  plate.triangles = {{0, 1, 2}, {0, 2, 3}};
+  plate.materials = {0};
+  d.objects.push_back({"plate", {plate}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.emplace_back();
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = d.sky.horizon = d.sky.ground = sky;
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+TEST(AutoExposure, TakesTheMeanOfTheSurfacesToTheMiddle) {
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f))), 0);
+  EXPECT_EQ(exposureOf(glowing(Rgb(1.2f))), -2);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 1024))), 10);
+  EXPECT_EQ(exposureOf(glowing(Rgb(3.0e5f))), std::round(8 * std::log2(1.0e-6f)) / 8);
+}
+
+TEST(AutoExposure, NothingToSeeStaysAsItIs) {
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0f))), 0);
+  EXPECT_EQ(exposureOf(glowing(Rgb(5.0f), Rgb(1.0f), 1.0e-6f)), 0) << "sky only";
+}
+
+// A sky beside a dark surface holds it down, but not without end.
+TEST(AutoExposure, TheSkyIsHeardToo) {
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.0625f), 1)), 3);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.125f), 1)), 2);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(50.0f), 1)), 1);
+}
+
+TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {
+  const Scene scene = test::load("glass");
+  const float expected = exposureOf(scene);
+  EXPECT_NE(expected, 0);
+  for (const auto& [name, value] : {std::pair{"size", "33x21"},
+                                    {"crop", "0,0,5,5"},
+                                    {"threads", "1"},
+                                    {"tile", "7"},
+                                    {"packet", "1"},
+                                    {"batch", "frame"},
+                                    {"spp", "4"},
+                                    {"depth", "0"},
+                                    {"mode", "reference"},
+                                    {"exposure", "3"},
+                                    {"glossy", "4"},
+                                    {"light-samples", "4"},
+                                    {"film", "8bit"},
+                                    {"effects", "all"}}) {
+    RenderOptions options;
+    setOption(options, name, value);
+    EXPECT_EQ(exposureOf(scene, options), expected) << name;
+  }
+}
+
+TEST(AutoExposure, IsSettledOnce) {
+  const Scene scene = glowing(Rgb(1.2f));
+  RenderOptions options;
+  setOption(options, "exposure", "auto");
+  EXPECT_EQ(optionText(options, "exposure"), "auto");
+  Renderer renderer(scene, options);
+  settleExposure(renderer, scene.cameras[0], options);
+  EXPECT_EQ(optionText(options, "exposure"), "-2");
+  EXPECT_EQ(renderer.options().exposure, options.exposure);
+  setOption(options, "exposure", "1.5");
+  settleExposure(renderer, scene.cameras[0], options);
+  EXPECT_EQ(options.exposure.ev, 1.5f);
+}
+
+TEST(AutoExposure, IsTheDefaultOfModels) {
+  RenderOptions options;
+  applyModelDefaults(options, {});
+  EXPECT_TRUE(options.exposure.automatic);
+  EXPECT_TRUE(options.shading.terminator);
+  RenderOptions given;
+  applyModelDefaults(given, {"exposure", "terminator"});
+  EXPECT_EQ(given, RenderOptions());
+}
+
+}  // namespace
+}  // namespace whit

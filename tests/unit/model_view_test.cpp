@@ -1,0 +1,143 @@
+// How models are looked at that bring no camera.
+#include "scene/model_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pi.h"
+#include "scene_builder.h"
+
+namespace whit {
+namespace {
+
+using test::sceneOf;
+using test::square;
+
+// The unit square about the origin, its front turned from +z by the map.
+SceneDescription plate(const Affine& turn) {
+  SceneDescription scene = sceneOf(square());
+  scene.instances[0].toWorld = turn * Affine::translation({-0.5, -0.5, 0});
+  return scene;
+}
+
+// A box of that half size; its fronts look inwards if `room`. Without `open` faces: bit 2 * axis,
+// and the next for the upper end.
+Mesh box(const Vec3f& half, bool room, unsigned open = 0) {
+  Mesh mesh;
+  mesh.materials = {0};
+  for (int i = 0; i < 8; ++i) {
+    mesh.positions.push_back(
+        {i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto u = 1u << ((axis + 1) % 3), v = 1u << ((axis + 2) % 3), w = 1u << axis;
+    for (const unsigned end : {0u, 1u}) {
+      if ((open >> (2 * axis)) & (1u << end)) continue;
+      const unsigned at = end * w;
+      const bool turned = (end == 0) != room;
+      const unsigned a = turned ? v : u, b = turned ? u : v;
+      mesh.triangles.push_back({at, at + a, at + a + b});
+      mesh.triangles.push_back({at, at + a + b, at + b});
+    }
+  }
+  return mesh;
+}
+
+Vec3d towardsEye(const ModelView& view) {
+  return normalized(Vec3d(view.camera.eye) - Vec3d(view.camera.at));
+}
+
+TEST(ModelViews, ABodyIsSeenFromTheFrontTheRightAndAbove) {
+  const Vec3d eye = towardsEye(viewOf(sceneOf(box({1, 1, 1}, false))));
+  EXPECT_GT(eye.z, eye.x);
+  EXPECT_GT(eye.x, 0);
+  EXPECT_GT(eye.y, 0);
+}
+
+// From no side does one see less than the half of it.
+TEST(ModelViews, APlateIsNotSeenEdgeOn) {
+  for (const Vec3d& axis : {Vec3d{0, 1, 0}, Vec3d{1, 0, 0}}) {
+    for (const double degrees : {0.0, 90.0, 180.0, 270.0}) {
+      if (axis.x != 0 && degrees == 90) continue;  // its front looks down
+      const Affine turn = Affine::rotation(axis, degrees);
+      const double cosine = dot(towardsEye(viewOf(plate(turn))), turn.vector({0, 0, 1}));
+      EXPECT_GT(cosine, 0.5) << axis.x << " " << degrees;
+    }
+  }
+  const Affine down = Affine::rotation({1, 0, 0}, 90);
+  EXPECT_GT(towardsEye(viewOf(plate(down))).y, 0.2) << "from above nevertheless";
+}
+
+// Every corner is in the picture, and one of them near its edge.
+TEST(ModelViews, TheModelFillsThePicture) {
+  for (const Vec3f& half : {Vec3f{1, 1, 1}, Vec3f{5, 0.2f, 1}, Vec3f{0.1f, 3, 0.1f}}) {
+    for (const int width : {480, 100}) {
+      SceneDescription scene = sceneOf(box(half, false));
+      scene.width = width;
+      scene.instances[0].toWorld = Affine::translation({100, -20, 7});
+      const ModelView view = viewOf(scene);
+      const CameraFrame frame = makeCameraFrame(view.camera, scene.width, scene.height);
+      double farthest = 0;
+      for (const Vec3f& p : scene.objects[0].meshes[0].positions) {
+        const Vec3d way = scene.instances[0].toWorld.point(Vec3d(p)) - frame.eye;
+        const double depth = dot(way, normalized(frame.forward)) / length(frame.forward);
+        const double x = dot(way, frame.right) / dot(frame.right, frame.right) / depth;
+        const double y = dot(way, frame.up) / dot(frame.up, frame.up) / depth;
+        EXPECT_GT(depth, 0);
+        farthest = std::max({farthest, 2 * std::abs(x) / width, 2 * std::abs(y) / scene.height});
+      }
+      EXPECT_LT(farthest, 1);
+      EXPECT_GT(farthest, 0.9);
+    }
+  }
+}
+
+TEST(ModelViews, AClosedRoomIsSeenFromInside) {
+  const ModelView view = viewOf(sceneOf(box({4, 1.5f, 3}, true)));
+  EXPECT_TRUE(view.inside);
+  for (const Vec3d& p : {Vec3d(view.camera.eye), view.ceiling}) {
+    EXPECT_LT(std::abs(p.x), 4);
+    EXPECT_LT(std::abs(p.y), 1.5);
+    EXPECT_LT(std::abs(p.z), 3);
+  }
+  EXPECT_GT(view.ceiling.y, 0.5);
+  EXPECT_GT(view.camera.eye.x, 1);
+}
+
+// The eye keeps out of what stands there.
+TEST(ModelViews, ARoomMayBeFurnished) {
+  SceneDescription scene = sceneOf(box({4, 2, 4}, true));
+  scene.objects[0].meshes.push_back(box({0.5f, 2, 0.5f}, false));
+  for (Vec3f& p : scene.objects[0].meshes[1].positions) p += Vec3f(3.4f, 0, 3.4f);
+  const ModelView view = viewOf(scene);
+  EXPECT_TRUE(view.inside);
+  EXPECT_LT(view.camera.eye.x, 2.9f);
+}
+
+TEST(ModelViews, NothingElseIsARoom) {
+  EXPECT_FALSE(viewOf(sceneOf(box({4, 2, 3}, false))).inside) << "a body";
+  for (int face = 0; face < 6; ++face) {
+    EXPECT_FALSE(viewOf(sceneOf(box({2, 2, 2}, true, 1u << face))).inside) << "open: " << face;
+  }
+  EXPECT_FALSE(viewOf(sceneOf(box({9, 0.1f, 9}, true))).inside) << "flat";
+  // Above three floors, one on the other, the winding number is that of a room.
+  SceneDescription floors =
+      plate(Affine::scaling({1e4, 1, 1e4}) * Affine::rotation({1, 0, 0}, -90));
+  floors.instances.resize(3, floors.instances[0]);
+  floors.objects.push_back({"posts", {box({1000, 1000, 1000}, false)}});
+  for (Vec3f& p : floors.objects[1].meshes[0].positions) p += Vec3f(3900, 1001, 0);
+  floors.instances.push_back({1, Affine{}});
+  EXPECT_FALSE(viewOf(floors).inside);
+}
+
+TEST(ModelViews, NothingToSeeIsNoView) {
+  EXPECT_EQ(viewOf(SceneDescription()).radius, 0);
+  SceneDescription broken = sceneOf(square());
+  broken.objects[0].meshes[0].triangles = {{0, 1, 7}, {0, 0, 0}};
+  broken.objects[0].meshes[0].positions[1].x = std::nanf("");
+  EXPECT_EQ(viewOf(broken).radius, 0);
+}
+
+}  // namespace
+}  // namespace whit
