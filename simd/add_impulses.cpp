@@ -180,7 +180,7 @@ HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size
   const SurfelColumns& surfels = job.surfels;
   const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
   return RayOrigin(job.shading.offset, position, lanes.ng, lanes.direction,
-                   hn::Load(FloatTag(), surfels.offset + i), side);
+                   LoadClearance(surfels, i), side);
 }
 
 void AddReflections(Chunk& c) noexcept {

@@ -111,6 +111,11 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   Surface s =
       InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
+  const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
+  if (job.flush) {
+    const auto shared = hn::Ne(hn::And(others, hn::Set(du, kSharesPlace)), hn::Zero(du));
+    s.inDoubt = hn::Or(s.inDoubt, hn::RebindMask(d, shared));
+  }
   const MaterialLanes material(tables, t.material, valid);
   const auto [diffuse, diffuseMap] = material.Diffuse();
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
@@ -130,7 +135,9 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   if constexpr ((kBits & kNormalMapped) != 0) {
     QueueNormal(job, material.Emission().normalMap, t.uv, valid, s, flip, at, slot, block);
   }
-  StoreSurface(s, flip, i, surfels);
+  const VF distance = hn::Load(d, hits.t + i);
+  FollowRay(t, rays, distance, i, s);
+  StoreSurface(s, distance, flip, i, surfels);
   const LobeLanes lobe = material.Lobe();
   Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
   V3 scattered = diffuse;
@@ -158,7 +165,6 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     hn::Store(lobe.alpha, d, surfels.alpha + i);
   }
   if (job.transmission) {
-    const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
     StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);
   }
   return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);

@@ -126,12 +126,12 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
         RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
-                  hn::Load(d, surfels.offset + i), 1.0f);
+                  LoadClearance(surfels, i), 1.0f);
     const Compactor lit(live);
     lit.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
     const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
     lit.Store(way, shadows.dirX, shadows.dirY, shadows.dirZ, count);
-    lit.Store(lanes.Reach(inverseDistance), shadows.tFar + count);
+    lit.Store(lanes.Reach(), shadows.tFar + count);
     lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
     count += lit.Count();
   }

@@ -18,13 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// Where on the way to the light shadow rays stop: short of it by the rounding error of its
-// position.
-HWY_INLINE float LightBound(const Light& light) {
-  const Vec3f p = abs(light.position);
-  return 0x1p-19f * (p.x + p.y + p.z);
-}
-
 // lightPoint(): the lattice of each lane's own stream.
 HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
                                   uint32_t k) {
@@ -45,7 +38,6 @@ class LightLanes {
     const bool directional = light.kind == Light::Kind::directional;
     position_ = Broadcast3(light.position);
     radiusSquared_ = hn::Set(d, light.radius * light.radius);
-    bound_ = hn::Set(d, LightBound(light));
     if constexpr (kDirectional) {
       directional_ = directional;
       if (directional) position_ = Broadcast3(Vec3f(towards(light, {})));
@@ -128,13 +120,12 @@ class LightLanes {
   }
 
   // Where shadow rays end, in lengths of Towards().
-  HWY_INLINE VF Reach(VF inverseDistance) const {
+  HWY_INLINE VF Reach() const {
     const FloatTag d;
     if constexpr (kDirectional) {
       if (directional_) return hn::Set(d, std::numeric_limits<float>::infinity());
     }
-    const VF shortest = hn::Set(d, 1.0f - 0x1p-22f);
-    return hn::Max(hn::NegMulAdd(bound_, inverseDistance, shortest), hn::Zero(d));
+    return hn::Set(d, kShadowReach);
   }
 
  private:
@@ -147,7 +138,7 @@ class LightLanes {
   }
 
   V3 position_;  // of a directional light the unit vector towards it
-  VF radiusSquared_, bound_;
+  VF radiusSquared_;
   bool spot_ = false, directional_ = false;
   V3 axis_;
   VF cosOuter_, coneScale_;

@@ -8,6 +8,7 @@
 
 #include "core/shading_choices.h"
 #include "simd/vec3-inl.h"
+#include "stages/columns.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -25,10 +26,19 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
   return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
 }
 
-// `side` is 1 for the viewer's side of the surface, -1 for the other; `direction` the viewer's ray,
-// `bound` the surfels' offset.
+// How far rays start from surfels (SurfelColumns).
+struct Clearance {
+  VF offset, retreat;
+};
+
+HWY_INLINE Clearance LoadClearance(const SurfelColumns& surfels, size_t i) {
+  const FloatTag d;
+  return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.retreat + i)};
+}
+
+// `side` is 1 for the viewer's side of the surface, -1 for the other; `direction` the viewer's ray.
 HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, const V3& direction,
-                        VF bound, float side) {
+                        const Clearance& clearance, float side) {
   const FloatTag d;
   const VF sign = hn::Set(d, side);
   if (method == OffsetMethod::wachterBinder) {
@@ -37,9 +47,9 @@ HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, c
             MovedByUlps(position.z, n.z)};
   }
   if (method == OffsetMethod::bound && side > 0) {
-    return MulAdd3(MulAdd3(direction, hn::Set(d, -kTowardsViewer), ng), bound, position);
+    return MulAdd3(ng, clearance.offset, MulAdd3(direction, hn::Neg(clearance.retreat), position));
   }
-  const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : bound;
+  const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : clearance.offset;
   return MulAdd3(ng, hn::Mul(offset, sign), position);
 }
 

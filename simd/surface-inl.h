@@ -80,13 +80,32 @@ HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3&
           Interpolate(w, a.z, b.z, c.z)};
 }
 
+// The corner of the largest weight, and what the others add to it: exact in a coordinate that all
+// corners share, and as exact as the point is near to one of them.
+HWY_INLINE V3 InterpolatePosition(const Weights& w, const V3& a, const V3& b, const V3& c) {
+  const MF nearA = hn::And(hn::Ge(w.w0, w.w1), hn::Ge(w.w0, w.w2)), nearB = hn::Ge(w.w1, w.w2);
+  const V3 near = Select3(nearA, a, Select3(nearB, b, c));
+  return Add3(near, Interpolate3(w, Sub3(a, near), Sub3(b, near), Sub3(c, near)));
+}
+
+HWY_INLINE VF SumOf(const V3& v) { return hn::Add(hn::Add(v.x, v.y), v.z); }
+
 // Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
 // products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
-HWY_INLINE V3 GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
+struct NormalLanes {
+  V3 normal;
+  MF inDoubt;  // so narrow a triangle that rounding may have turned it
+};
+
+HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
+  const FloatTag d;
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
-  const V3 unit{hn::Zero(FloatTag()), hn::Zero(FloatTag()), hn::Set(FloatTag(), 1.0f)};
-  return NormalizeOr(Cross(Scale3(edge1, scale), Scale3(edge2, scale)), unit, how);
+  const V3 unit{hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0f)};
+  const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = Cross(a, b);
+  const VF sides = hn::Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
+  return {NormalizeOr(area, unit, how),
+          hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};
 }
 
 // A vector for each corner.
@@ -170,6 +189,8 @@ HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, MF valid, size_t i
 struct Surface {
   V3 position, edge1, edge2;
   V3 magnitude;  // of all that went into the position
+  VF across;     // by so many roundings it may be off, also along the surface
+  MF inDoubt;    // more than that may have gone into what rays that start there meet again
   V3 ng, ns;     // as modelled
   VF handedness;
 };
@@ -179,8 +200,10 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
                                       VI triangle, const Weights& w, Reciprocal how) {
   Surface s;
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
-  s.position = Interpolate3(w, t.p0, t.p1, t.p2);
-  s.ng = GeometricNormal(s.edge1, s.edge2, how);
+  s.position = InterpolatePosition(w, t.p0, t.p1, t.p2);
+  const NormalLanes found = GeometricNormal(s.edge1, s.edge2, how);
+  s.ng = found.normal;
+  s.inDoubt = found.inDoubt;
   s.ns = s.ng;
   if constexpr (kSmoothNormals) s.ns = SmoothNormal(tables, triangle, w, s.ng, how);
   const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
@@ -189,11 +212,20 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   return s;
 }
 
-// Rounding error of the interpolated point: at most gamma(7) times the sum of what went into it
-// (pbrt-v4, section 6.8.5); 32 ulps along the normal also cover Embree's own arithmetic.
-HWY_INLINE VF OriginOffset(const Surface& s) {
-  const VF sum = hn::Add(hn::Add(s.magnitude.x, s.magnitude.y), s.magnitude.z);
-  return hn::Mul(sum, hn::Set(FloatTag(), 0x1p-19f));
+// The scalar twin, with what its terms are for: placeSurfel in
+// src/reference/find_intersections.cpp.
+HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
+  const FloatTag d;
+  const V3 edges = Add3(Abs3(s.edge1), Abs3(s.edge2)), n = Abs3(s.ng);
+  const VF point = SumOf(s.magnitude), sides = SumOf(edges);
+  const VF most = hn::Mul(point, hn::Set(d, 0x1p-19f));
+  const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
+  const VF along = hn::MulAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
+                              hn::MulAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
+  const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
+  const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
+  hn::Store(hn::IfThenElse(s.inDoubt, most, hn::Min(along, most)), d, surfels.offset + i);
+  hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.retreat + i);
 }
 
 // In the world, where the hits are on instances.
@@ -216,6 +248,25 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   s.ng = Select3(placed, NormalizeOr(TransformVector(normal, s.ng), s.ng), s.ng);
   s.ns = Select3(placed, NormalizeOr(TransformVector(normal, s.ns), s.ns), s.ns);
   s.handedness = hn::IfThenElse(placed, p.handedness, one);
+  s.inDoubt = hn::Or(s.inDoubt, placed);
+}
+
+// Of a triangle that is larger than its distance from the ray's start the weights say less than the
+// distance does: there the ray's point, moved into the plane, is the position.
+HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF distance, size_t i,
+                          Surface& s) {
+  const FloatTag d;
+  const VF sides = SumOf(Add3(Abs3(s.edge1), Abs3(s.edge2)));
+  const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
+  s.across = hn::MulAdd(SumOf(s.magnitude), two, sides);
+  const MF large = hn::AndNot(s.inDoubt, hn::Lt(hn::Mul(distance, eight), sides));
+  if (HWY_LIKELY(hn::AllFalse(d, large))) return;
+  const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
+  const V3 point = MulAdd3(Load3(rays.dirX, rays.dirY, rays.dirZ, i), distance, origin);
+  const VF height = Dot(Sub3(point, t.p0), s.ng);
+  s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
+  const VF near = hn::MulAdd(SumOf(Abs3(s.position)), two, hn::Mul(distance, eight));
+  s.across = hn::IfThenElse(large, near, s.across);
 }
 
 // The sign that turns normals towards the viewer.
@@ -225,11 +276,12 @@ HWY_INLINE VF TurnToViewer(MF entering) {
 }
 
 // Stores all that textures do not change; `flip` turns the normals towards the viewer.
-HWY_INLINE void StoreSurface(const Surface& s, VF flip, size_t i, const SurfelColumns& surfels) {
+HWY_INLINE void StoreSurface(const Surface& s, VF t, VF flip, size_t i,
+                             const SurfelColumns& surfels) {
   Store3(s.position, surfels.posX, surfels.posY, surfels.posZ, i);
   Store3(Scale3(s.ng, flip), surfels.ngX, surfels.ngY, surfels.ngZ, i);
   Store3(Scale3(s.ns, flip), surfels.nsX, surfels.nsY, surfels.nsZ, i);
-  hn::Store(OriginOffset(s), FloatTag(), surfels.offset + i);
+  StoreClearance(s, t, i, surfels);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -74,12 +74,10 @@ try() {
 
 mutations() {
   plant fixed-epsilon simd/ray_origin-inl.h \
-    'hn::Set(d, -kTowardsViewer), ng), bound, position)' \
-    'hn::Set(d, -kTowardsViewer), ng), hn::Set(d, 1e-3f), position)'
+    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Set(d, 1e-3f),'
   plant no-offset simd/ray_origin-inl.h \
-    'hn::Set(d, -kTowardsViewer), ng), bound, position)' \
-    'hn::Set(d, -kTowardsViewer), ng), hn::Zero(d), position)'
-  plant normal-offset-only src/core/shading_choices.h 'kTowardsViewer = 0.5f' 'kTowardsViewer = 0'
+    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Zero(d),'
+  plant normal-offset-only simd/ray_origin-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant unfactored-fresnel simd/fresnel-inl.h \
@@ -92,7 +90,7 @@ mutations() {
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
     'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
   plant shadow-ray-too-long simd/light-inl.h \
-    'shortest = hn::Set(d, 1.0f - 0x1p-22f)' 'shortest = hn::Set(d, 1.0f + 0x1p-10f)'
+    'return hn::Set(d, kShadowReach)' 'return hn::Set(d, kShadowReach + 0x1p-10f)'
   plant light-without-radius simd/light-inl.h \
     'hn::Max(distanceSquared, radiusSquared_)' \
     'distanceSquared'

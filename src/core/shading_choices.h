@@ -18,10 +18,10 @@ enum class TextureFilter { nearest, bilinear, trilinear };
 
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {
-  // The surfel's own bound on the rounding error of its position (see makeSurfel). On the
-  // viewer's side, kTowardsViewer of it back along the ray as well: the way there is clear, so a
-  // point that has been rounded onto or beyond a wall which meets the surface in an edge comes back
-  // inside of that, and no light leaks in (hard case H7).
+  // The surfel's own bound on the rounding error of its position (see makeSurfel). On the viewer's
+  // side back along the ray as well: the way there is clear, so a point that has been rounded onto
+  // or beyond a wall which meets the surface in an edge comes back inside of that, and no light
+  // leaks in (hard case H7).
   bound,
   // kFixedOffset, whatever the size of the scene.
   fixed,
@@ -31,8 +31,9 @@ enum class OffsetMethod {
   wachterBinder,
 };
 inline constexpr float kFixedOffset = 1e-3f;
-// Less than the whole, because the surface that the viewer's ray started on may be that close.
-inline constexpr float kTowardsViewer = 0.5f;
+// Where on the way to a light shadow rays end. The light's position is exact, the way to it and
+// what Embree finds at its end are not: by some ulps of the way, whatever the place.
+inline constexpr float kShadowReach = 1.0f - 0x1p-20f;
 
 // How kernels find 1 / sqrt(x), where they normalize: by division and root, both correctly rounded;
 // or by the processor's estimate, alone (approximate: 12 bits on x86-64) or after one step of

@@ -49,15 +49,58 @@ TextureEdges textureEdgesOf(const float* uvs) {
   return {uvs[2] - u0, uvs[3] - v0, uvs[4] - u0, uvs[5] - v0};
 }
 
-// Sum of the magnitudes that the hit point is added up from, per axis, in the world.
-double magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* toWorld) {
+// The magnitudes that the hit point is added up from, per axis, in the world.
+Vec3d magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* toWorld) {
   const double w = std::max(0.0, 1 - hit.u - hit.v);
   const Vec3d sum = abs(triple(t.position)) * w + abs(triple(t.position + 3)) * hit.u +
                     abs(triple(t.position + 6)) * hit.v;
-  if (!toWorld) return sum.x + sum.y + sum.z;
-  const Vec3d carried =
-      abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z + abs(toWorld->p);
-  return carried.x + carried.y + carried.z;
+  if (!toWorld) return sum;
+  return abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z +
+         abs(toWorld->p);
+}
+
+double sumOf(const Vec3d& v) { return v.x + v.y + v.z; }
+
+// Whether the triangle is so narrow that in floats its normal may be turned.
+bool isNarrow(const Edges& e) {
+  const Vec3d area = abs(cross(e.e1, e.e2));
+  return sumOf(area) <= 0x1p-14 * sumOf(abs(e.e1)) * sumOf(abs(e.e2));
+}
+
+// Where the ray meets the plane, if that is more than the weights say: of a triangle that is larger
+// than its distance from the ray's start the weights of a hit found in floats say less.
+std::optional<Vec3d> pointOnRay(const Edges& e, const TriangleRecord& t, const TriangleHit& hit,
+                                const Ray& ray, const Vec3d& normal) {
+  if (!(8 * hit.t < sumOf(abs(e.e1) + abs(e.e2)))) return std::nullopt;
+  const Vec3d point = ray.origin + ray.direction * hit.t;
+  return point - normal * dot(point - triple(t.position), normal);
+}
+
+// The position, and how far from it rays start, in the arithmetic of floats. What a point is added
+// up from is off by an ulp or two of itself along each axis (pbrt-v4, section 6.8.5), the edges and
+// what Embree makes of them by some more. Of that only what goes along the normal counts for the
+// offset, and 2^-6 of an ulp of all, for a start must not lie in the plane, nor is the normal
+// exact. The point is off across the normal as well, which the retreat makes good: half of the way
+// that the ray has come is clear. `inDoubt`: on the way through an instance's space the axes are
+// mixed, and of several surfaces in one place another one may be larger.
+void placeSurfel(const TriangleRecord& t, const TriangleHit& hit, const Ray& ray,
+                 const Affine* toWorld, bool inDoubt, Surfel& s) {
+  const Vec3d point = magnitude(t, hit, toWorld);
+  s.position = interpolate(t.position, hit);
+  if (toWorld) s.position = toWorld->point(s.position);
+  s.offset = 32 * kUnitRoundOff * sumOf(point);
+  s.retreat = std::min(s.offset, hit.t) / 2;
+  const Edges e = edgesOf(t);
+  if (inDoubt || toWorld || isNarrow(e)) return;
+  const Vec3d edges = abs(e.e1) + abs(e.e2), n = abs(s.geometricNormal);
+  double across = sumOf(point * 2.0 + edges);
+  if (const auto onRay = pointOnRay(e, t, hit, ray, s.geometricNormal)) {
+    s.position = *onRay;
+    across = 2 * sumOf(abs(s.position)) + 8 * hit.t;
+  }
+  const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
+  s.offset = std::min(s.offset, kUnitRoundOff * along);
+  s.retreat = std::min(s.retreat, kUnitRoundOff * across);
 }
 
 // The textures at a hit. `cosine` is that between ray and geometric normal.
@@ -259,18 +302,17 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
 }
 
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup) {
+                  const TriangleHit& hit, const Ray& ray, const TextureLookup& lookup,
+                  bool sharesPlace) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
   const Affine* toWorld =
       candidate.instance == kNoHit ? nullptr : &scene.instances[candidate.instance].toWorld;
   Surfel s;
-  s.view = -direction;
-  s.position = interpolate(triangle.position, hit);
-  if (toWorld) s.position = toWorld->point(s.position);
-  s.offset = 32 * kUnitRoundOff * magnitude(triangle, hit, toWorld);
+  s.view = -ray.direction;
   s.cone = lookup.cone;
   findNormals(scene, effects, candidate, hit, toWorld, s);
-  const double cosine = dot(direction, s.geometricNormal);
+  placeSurfel(triangle, hit, ray, toWorld, sharesPlace, s);
+  const double cosine = dot(ray.direction, s.geometricNormal);
   const Lookups lookups(scene, lookup, candidate.triangle, toWorld, hit, cosine);
   const Material& material = scene.materials[triangle.material];
   if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
@@ -297,16 +339,19 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   // Looked up at the width that the step has found: what is left of it decides between mip levels.
   const TextureLookup lookup{chunk.options().shading.textureFilter, world.maps,
                              surfelOf(chunk, slot).cone};
-  const Surfel s = makeSurfel(world.scene, world.effects, candidate, hit, ray.direction, lookup);
+  const std::uint32_t others = alsoCrossedAt(chunk, slot);
+  const Surfel s =
+      makeSurfel(world.scene, world.effects, candidate, hit, ray, lookup, others >= kSharesPlace);
   const std::uint32_t media = mediaOf(chunk, slot);
-  const Crossing crossing = crossMedia(world.scene, world.effects, s.material, s.entering, media,
-                                       alsoCrossedAt(chunk, slot));
+  const Crossing crossing =
+      crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
   const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);
   put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);
   put(s.shadingNormal, row.nsX, row.nsY, row.nsZ);
   row.offset = s.offset;
+  row.retreat = s.retreat;
   put(s.diffuse, row.diffuseR, row.diffuseG, row.diffuseB);
   row.material = s.material;
   put(s.specular, row.specularR, row.specularG, row.specularB);

@@ -26,17 +26,19 @@ struct TextureLookup {
   RayCone cone{};                 // at the hit: what a ray starts with that goes on from there
 };
 
-// `hit` must lie on the candidate's triangle (refineHit); `direction` is the ray's, unit length.
+// `hit` must lie on the candidate's triangle (refineHit); the ray's direction has unit length.
 //
 // The geometric normal alone decides which side was met, and both normals are turned over for a ray
 // that meets the inside, so that surfaces are two-sided. The shading normal may still point away
 // from the viewer, or disagree with the geometric one about a light; whoever uses it must check.
 //
-// `offset` bounds the rounding error of a float hit point interpolated from float corners:
-// 32 * 2^-24 times the sum of the magnitudes that go into it (hard cases H1-H4; after the error
-// bounds of Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
+// `offset` bounds the rounding error, along the normal, of a float hit point interpolated from
+// float corners: at most 32 * 2^-24 times the sum of the magnitudes that go into it, as where
+// `sharesPlace` says that other surfaces lie there (hard cases H1-H4; after the error bounds of
+// Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                  const TriangleHit& hit, const Vec3d& direction, const TextureLookup& lookup = {});
+                  const TriangleHit& hit, const Ray& ray, const TextureLookup& lookup = {},
+                  bool sharesPlace = false);
 
 // The area of texture space, spanned by `uvs` (Scene::uvsOf), of which a repeat is 1, that a cone
 // of this width covers about the hit, if it does so alike in all directions: its section by the

@@ -12,13 +12,10 @@ namespace whit::reference {
 
 namespace {
 
-// Distance from O to the light, in lengths of the shadow ray, up to which occluders count: less
-// than the whole way by the rounding of the light's position in float.
-double shadowReach(const Light& light, double distance) {
+// Up to which occluders count, in lengths of the shadow ray.
+double shadowReach(const Light& light) {
   if (light.kind == Light::Kind::directional) return std::numeric_limits<double>::infinity();
-  const Vec3d p = abs(Vec3d(light.position));
-  const double uncertainty = 32 * kUnitRoundOff * (p.x + p.y + p.z) / distance;
-  return std::max(0.0, 1 - (uncertainty + 4 * kUnitRoundOff));
+  return double{kShadowReach};
 }
 
 LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
@@ -112,7 +109,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   const Vec3d origin = rayOrigin(choices.offset, start, 1);
   arrival.shadowRay = {origin,
                        point.center ? towards(light, origin) : surfel.position + toLight - origin};
-  arrival.tFar = shadowReach(light, distance);
+  arrival.tFar = shadowReach(light);
   return arrival;
 }
 

@@ -30,7 +30,7 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
     Candidate candidate;
     if (!intersector.closest(ray, candidate)) break;
     const TriangleHit hit = refineHit(scene, ray, candidate);
-    const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray.direction);
+    const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray);
     std::vector<Place> places = placesAt(scene, effects, ray, candidate);
     ray.origin = surfel.position - surfel.geometricNormal * surfel.offset;
     if (places.empty()) {

@@ -29,8 +29,8 @@ Vec3d rayOrigin(OffsetMethod method, const Surfel& surfel, double side) {
     case OffsetMethod::bound:
       break;
   }
-  const Vec3d back = side > 0 ? surfel.view * kTowardsViewer : Vec3d{};
-  return p + (n + back) * surfel.offset;
+  const Vec3d back = side > 0 ? surfel.view * surfel.retreat : Vec3d{};
+  return p + n * surfel.offset + back;
 }
 
 }  // namespace whit::reference

@@ -155,7 +155,7 @@ PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) co
   const std::optional<Settled> met = nearest(ray, 0);
   if (!met) return {};
   const TriangleHit hit = refineHit(scene_, ray, met->candidate);
-  const Surfel s = makeSurfel(scene_, effects_, met->candidate, hit, ray.direction);
+  const Surfel s = makeSurfel(scene_, effects_, met->candidate, hit, ray);
   return surfaceOf(s, met->candidate);
 }
 

@@ -58,6 +58,29 @@ void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
   places = std::move(surfaces);
 }
 
+// By how much the distance of a hit may be off in floats: of the corners as seen from the ray's
+// start what goes along the normal counts.
+double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
+  const Corners corners = worldCorners(scene, place.candidate.triangle, place.candidate.instance);
+  Vec3d far;
+  for (const Vec3d& corner : corners) far = max(far, abs(corner - ray.origin));
+  const Vec3d n = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double error = 32 * kUnitRoundOff * dot(abs(n), far);
+  return error / std::abs(dot(n, ray.direction));
+}
+
+// Those that are no farther than the nearest one, as far as floats can tell.
+void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places) {
+  if (places.empty()) return;
+  const auto nearest =
+      std::min_element(places.begin(), places.end(),
+                       [](const Place& a, const Place& b) { return a.hit.t < b.hit.t; });
+  const double least = nearest->hit.t + distanceError(scene, ray, *nearest);
+  std::erase_if(places, [&](const Place& place) {
+    return place.hit.t - distanceError(scene, ray, place) > least;
+  });
+}
+
 // Whether light meets `a` rather than `b`.
 bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
   const bool opaqueA = a.medium == 0, opaqueB = b.medium == 0;
@@ -91,6 +114,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
   scene.flush.forEachPartnerAt(idOf(met), met.u, met.v, add);
   if (places.empty()) return places;
   add(idOf(met));
+  keepNearest(scene, ray, places);
   mergeNeighbors(scene, places);
   return places;
 }
@@ -104,11 +128,11 @@ Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const
     if (comesFirst(scene, place, *first)) first = &place;
   }
   Settled settled{first->candidate, first->hit, true};
-  if (first->medium == 0) return settled;
   for (const Place& place : places) {
-    if (&place == first) continue;
+    if (&place == first || first->medium == 0) continue;
     settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);
   }
+  if (places.size() > 1) settled.alsoCrossed |= kSharesPlace;
   return settled;
 }
 

@@ -17,6 +17,7 @@ struct Surfel {
   Vec3d shadingNormal;    // unit, interpolated and bent by the normal map; see makeSurfel
   Vec3d lift;             // from the facet to the surface its vertex normals stand for
   double offset = 0;      // how far along the geometric normal a new ray must start
+  double retreat = 0;     // on the viewer's side, how far along `view` as well
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
   RgbD diffuse, specular;  // textures and vertex colors applied

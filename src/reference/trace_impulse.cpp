@@ -50,7 +50,8 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const TextureLookup lookup{options_.shading.textureFilter,
                              maps_ ? &*maps_ : nullptr,
                              {ray.cone.widthAt(hit.t), ray.cone.spread}};
-  const Surfel surfel = makeSurfel(scene_, effects_, candidate, hit, ray.direction, lookup);
+  const Surfel surfel =
+      makeSurfel(scene_, effects_, candidate, hit, ray, lookup, met->alsoCrossed >= kSharesPlace);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
 

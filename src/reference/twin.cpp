@@ -21,6 +21,7 @@ Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
   s.lift = {r.liftX, r.liftY, r.liftZ};
   s.offset = r.offset;
+  s.retreat = r.retreat;
   s.entering = (r.flags & kEntering) != 0;
   s.material = r.material;
   s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};

@@ -20,8 +20,10 @@ namespace whit {
 inline constexpr double kRoundedLimit = 4;    // a few products and sums
 inline constexpr double kDirectionLimit = 4;  // a normalized sum of three products
 inline constexpr double kPositionLimit = 4;   // three products, against the largest corner
-inline constexpr double kOffsetLimit = 8;     // a sum of nine magnitudes, of instances twice
-inline constexpr double kLiftLimit = 8;       // three products of two positions' difference
+// An ulp of the normal along the edges, of which the offset counts 16, against the 2^-6 that it
+// counts of all; times two for what the normal and the edges are rounded themselves.
+inline constexpr double kOffsetLimit = 2048;
+inline constexpr double kLiftLimit = 8;    // three products of two positions' difference
 inline constexpr double kNormalLimit = 4;  // cross product by differences of products, normalized
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
 // the contrast between two of them it is a visible number of ulps of the color (hard case H68).
@@ -96,14 +98,26 @@ double notEdgeOn(const Place<SurfelRow>& p) {
   return cosineOf(p) < 1e-5 ? kNotHere : kScale(p);
 }
 inline double byItself(const Place<SurfelRow>&) { return 0; }
-// The offset is 32 units in the last place of all that went into the position.
-inline double byMagnitude(const Place<SurfelRow>& p) { return p.twin.offset * 0x1p19; }
+inline Corners cornersAt(const Place<SurfelRow>& p) {
+  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
+  return worldCorners(p.world.scene, candidate.triangle, candidate.instance);
+}
+// Of an instance the offset is 32 units in the last place of all that went into the position.
+inline double byMagnitude(const Place<SurfelRow>& p) {
+  Vec3d largest;
+  for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
+  return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);
+}
 // How much the cross product of the edges amplifies their rounding.
 inline double bySliver(const Place<SurfelRow>& p) {
-  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
-  const Corners c = worldCorners(p.world.scene, candidate.triangle, candidate.instance);
+  const Corners c = cornersAt(p);
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
   return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
+}
+// From slivers of 2^14 on another offset counts; rounding decides what is one.
+inline double byOffset(const Place<SurfelRow>& p) {
+  const double sliver = bySliver(p);
+  return sliver > 0x1p11 ? kNotHere : sliver * p.twin.offset;
 }
 inline double bySliverIfMapped(const Place<SurfelRow>& p) {
   return p.world.effects.has(Effect::normalMaps) ? bySliver(p) : kNotHere;
@@ -178,7 +192,8 @@ inline std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
   constexpr Stage stage = Stage::findIntersections;
   return {
       {stage, "position", xyz("pos"), kPositionLimit, byMagnitude},
-      {stage, "offset", {"offset"}, kOffsetLimit},
+      {stage, "offset", {"offset"}, kOffsetLimit, byOffset},
+      {stage, "retreat", {"retreat"}, kOffsetLimit, byOffset},
       {stage, "geometricNormal", xyz("ng"), kNormalLimit, notEdgeOn<bySliver>},
       {stage, "shadingNormal", xyz("ns"), kNormalLimit, notEdgeOn<bySliverIfNotMapped>},
       {stage, "shadingNormal", xyz("ns"), kTexturedLimit, notEdgeOn<bySliverIfMapped>},

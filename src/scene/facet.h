@@ -7,7 +7,7 @@
 namespace whit {
 
 // How far off a point of a surface may be, for each unit of the magnitudes that it is added up
-// from: what rays that start there are offset by (Surfel::offset).
+// from: rays that start there are offset by no more (Surfel::offset).
 inline constexpr double kErrorOfMagnitude = 32 * 0x1p-24;
 
 // Sum over the axes of the magnitudes that the point, carried by the map if there is one, is added

@@ -79,7 +79,7 @@ class FlushTriangles {
     std::size_t firstCell = 0;  // in cellBegin_
     std::size_t side = 1;       // of a square of so many cells a side
     // Of a finer square: the cells that some overlapping partner reaches into.
-    std::bitset<kMaskSide * kMaskSide> contested = {};
+    std::bitset<kMaskSide* kMaskSide> contested = {};
   };
   static std::size_t cellOf(double weight, std::size_t side) {
     const auto most = static_cast<double>(side);

@@ -58,7 +58,8 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
 // `instance` indexes Scene::instances, kMiss in the world; `alsoCrossed` are the dielectrics whose
 // faces lie in the very place of the one that was hit: 10 bits each, medium * 2 + (1 if its outside
-// is hit), 0 for none.
+// is hit), 0 for none; with kSharesPlace where any surface does.
+inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 #define WHIT_HIT_COLUMNS(X)             \
   X(std::uint32_t, triangle, always)    \
   X(float, t, always)                   \
@@ -69,10 +70,10 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
-// must start (hard cases H1-H4). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a
-// refracted child; the material's emission is multiplied by `emission`; `lift` is added to the
-// position where shadow rays start; `cone` is the width that the ray's cone has reached, and its
-// children's start with.
+// must start (hard cases H1-H4), and `retreat`, on the viewer's side, how far back along the
+// viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
+// the material's emission is multiplied by `emission`; `lift` is added to the position where shadow
+// rays start; `cone` is the width that the ray's cone has reached, and its children's start with.
 #define WHIT_SURFEL_COLUMNS(X)          \
   X(float, posX, always)                \
   X(float, posY, always)                \
@@ -84,6 +85,7 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   X(float, nsY, always)                 \
   X(float, nsZ, always)                 \
   X(float, offset, always)              \
+  X(float, retreat, always)             \
   X(float, diffuseR, always)            \
   X(float, diffuseG, always)            \
   X(float, diffuseB, always)            \

@@ -108,12 +108,14 @@ double distanceToPlane(const Corners& c, const Vec3d& point) {
   return static_cast<double>(std::fabs(dot(Vec(point) - Vec(*base), n)));
 }
 
-// Hits are given, so that every triangle has some whatever its shape.
+// Hits are given, so that every triangle has some whatever its shape; at a distance at which
+// weights say more than it does.
 Finding offsetBoundsTheError(const Setup& setup) {
   Finding finding(1);
   Numbers numbers(4);
   Mesh mesh;
   constexpr std::uint32_t kTriangles = 4096;
+  constexpr float kFar = 1e12f;
   for (std::uint32_t i = 0; i < 3 * kTriangles; ++i) {
     const double size = std::pow(10, numbers.in(-8, 8));
     mesh.positions.emplace_back(numbers.direction() * size);
@@ -124,7 +126,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
   probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     const double u = numbers.in(0, 1), v = numbers.in(0, 1 - u);
-    probe.hit(i, i, 1, static_cast<float>(u), static_cast<float>(v));
+    probe.hit(i, i, kFar, static_cast<float>(u), static_cast<float>(v));
   }
   probe.interpolate();
   for (std::uint32_t i = 0; i < kTriangles; ++i) {

@@ -112,6 +112,7 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   s.ngX[i] = ng.x, s.ngY[i] = ng.y, s.ngZ[i] = ng.z;
   s.nsX[i] = ns.x, s.nsY[i] = ns.y, s.nsZ[i] = ns.z;
   s.offset[i] = 0x1p-19f;
+  s.retreat[i] = 0x1p-20f;
   s.diffuseR[i] = s.diffuseG[i] = s.diffuseB[i] = 1;
   s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;
   s.alpha[i] = 1;

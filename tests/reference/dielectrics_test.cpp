@@ -32,7 +32,7 @@ StraightThrough followRefracted(const Scene& scene, const Vec3d& origin, const V
   while (path.hits < 20 && bruteForce.closest(path.last, candidate)) {
     ++path.hits;
     const TriangleHit hit = refineHit(scene, path.last, candidate);
-    const Surfel s = makeSurfel(scene, EffectSet::all(), candidate, hit, path.last.direction);
+    const Surfel s = makeSurfel(scene, EffectSet::all(), candidate, hit, path.last);
     const Crossing crossing =
         crossMedia(scene, EffectSet::all(), s.material, s.entering, path.media);
     const Impulses found = findImpulses(scene, EffectSet::all(), s, crossing, path.media);

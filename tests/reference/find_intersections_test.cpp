@@ -59,7 +59,7 @@ Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards
     ADD_FAILURE() << "the ray was meant to hit";
     return {};
   }
-  return makeSurfel(scene, effects, candidate, refineHit(scene, ray, candidate), ray.direction);
+  return makeSurfel(scene, effects, candidate, refineHit(scene, ray, candidate), ray);
 }
 
 void expectVectorNear(const Vec3d& a, const Vec3d& b, double tolerance) {
@@ -87,12 +87,25 @@ TEST(Surfel, OffsetBoundsTheRounding) {
   SceneBuilder builder;
   builder.add(test::floorAt(3, 2, 0));
   const Scene scene = builder.build();
-  // In the corner (-2, 3, 2): 32 u (2 + 3 + 2).
+  // In the corner (-2, 3, 2), of edges that add up to (8, 0, 4): what goes along the normal is 3.
+  const double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0), retreat = u * (14 + 12);
   const Surfel s = surfelAlong(scene, {-2, 9, 2}, {0, -1, 0});
-  EXPECT_DOUBLE_EQ(s.offset, 32 * 7 / 16777216.0);
+  EXPECT_DOUBLE_EQ(s.offset, offset);
+  EXPECT_DOUBLE_EQ(s.retreat, retreat);
   // In the middle of the diagonal the two corners' magnitudes are averaged, not their values.
   const Surfel middle = surfelAlong(scene, {0, 9, 0}, {0, -1, 0});
-  EXPECT_DOUBLE_EQ(middle.offset, 32 * 7 / 16777216.0);
+  EXPECT_DOUBLE_EQ(middle.offset, offset);
+}
+
+// Where other surfaces lie in the same place, and no more than that anywhere.
+TEST(Surfel, OffsetIsAtMostThatOfAllMagnitudes) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(3, 2, 0));
+  const Scene scene = builder.build();
+  const Surfel s =
+      makeSurfel(scene, EffectSet::all(), {0}, {6, 0, 0}, {{-2, 9, 2}, {0, -1, 0}}, {}, true);
+  EXPECT_DOUBLE_EQ(s.offset, 32 * 7 / 16777216.0);
+  EXPECT_DOUBLE_EQ(s.retreat, 16 * 7 / 16777216.0);
 }
 
 Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {
@@ -350,7 +363,7 @@ TEST(FindIntersectionsTwin, IsTheSurfelOfTheHit) {
   small.chunk.hits.v[0] = 0.5f;
   const auto row = findIntersections(small.world, small.chunk, 0);
   ASSERT_TRUE(row);
-  const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, {0, -1, 0});
+  const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, Ray{});
   EXPECT_EQ(Vec3d(row->posX, row->posY, row->posZ), s.position);
   EXPECT_EQ(Vec3d(row->ngX, row->ngY, row->ngZ), Vec3d(0, 1, 0));
   EXPECT_EQ(row->offset, s.offset);
