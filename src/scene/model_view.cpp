@@ -14,7 +14,7 @@ namespace whit {
 namespace {
 
 // More than these are looked at in part only; and what is not taken for a room, to be spared that.
-constexpr std::uint64_t kMostTriangles = 4'000'000, kMostOfRoom = 1'000'000;
+constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
 
 // Towards the eye, the most usual first: the front is +z. None from below, where no light is.
 constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
@@ -53,7 +53,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::transform(kSides.begin(), kSides.end(), sides.begin(),
                  [](const Vec3d& side) { return normalized(side); });
   std::array<double, kSides.size()> shown{};
-  forEachPlacedTriangle(scene, kMostTriangles, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
     for (std::size_t i = 0; i < sides.size(); ++i) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
@@ -70,7 +70,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
 double windingNumber(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12;
   double angle = 0;
-  forEachPlacedTriangle(scene, kMostTriangles, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);
     const double volume = dot(a, cross(b, c)), space = la * lb * lc;
@@ -113,7 +113,7 @@ bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
   }
   std::array<double, kDirections> met;
   met.fill(-std::numeric_limits<double>::infinity());
-  forEachPlacedTriangle(scene, kMostTriangles, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
     for (std::size_t i = 0; i < kDirections; ++i) {
       const double distance = distanceTo(t, point, directions[i]);
       if (std::abs(distance) < std::abs(met[i])) met[i] = distance;
@@ -178,7 +178,7 @@ void lookFrom(const Vec3d& side, const SceneDescription& scene, ModelView& view)
   const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
   const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side)), up = cross(side, right);
   const auto everyCorner = [&](const auto& use) {
-    forEachPlacedTriangle(scene, kMostTriangles, [&](const PlacedTriangle& t) {
+    forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
       for (const Vec3d& corner : t) {
         const Vec3d p = corner - view.center;
         use(Vec3d{dot(p, right), dot(p, up), dot(p, side)});

@@ -1,4 +1,5 @@
 // H1 to H4 and H9 to H11: rays that start on a surface.
+#include <algorithm>
 #include <array>
 
 #include "reference/triangle.h"
@@ -204,6 +205,75 @@ Finding eyeInAPlane(const Setup& setup) {
   return finding;
 }
 
+// Whether the way from `p` to `q` meets the unit box on the floor, made larger all around.
+bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
+  const Vec3d low = Vec3d{-0.5, 0, -0.5} - Vec3d(larger), high = Vec3d{0.5, 1, 0.5} + Vec3d(larger);
+  double enters = 0, leaves = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (low[axis] - p[axis]) / (q[axis] - p[axis]),
+                 b = (high[axis] - p[axis]) / (q[axis] - p[axis]);
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  return enters <= leaves;
+}
+
+// The floor is so large that its corners' ulps are a sixteenth of a unit, but where it is seen its
+// points are of the order of 1.
+Finding shadowOnLargeFloors(const Setup& setup) {
+  constexpr double kUnsure = 0.01;  // next to the box and to the shadow's edge; pixels are larger
+  Finding finding(0);
+  for (const float half : {10.0f, 1e3f, 1e5f, 1e6f}) {
+    SceneBuilder builder;
+    const auto white = builder.add(diffuseMaterial(0.8f));
+    builder.add(floorAt(0, half, white));
+    builder.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white));
+    builder.description.lights = {lightAt({2, 3, 1}, 30)};
+    Camera camera{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
+    RenderOptions options = optionsOf(setup);
+    options.size = ImageSize{64, 48};
+    const Image image = pictureOf(builder.build(), camera, options);
+    const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const Vec3d way = frame.forward + frame.right * (x + 0.5 - image.width / 2.0) -
+                          frame.up * (y + 0.5 - image.height / 2.0);
+        const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
+        if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
+        const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
+        if (!hidden && meetsUnitBox(at, {2, 3, 1}, kUnsure)) continue;
+        finding.count((image.at(x, y).x > 0) == hidden, [&] {
+          return "floor " + hexText(double{half}) + ", pixel " + std::to_string(x) + "," +
+                 std::to_string(y);
+        });
+      }
+    }
+  }
+  return finding;
+}
+
+// A shade 16 float steps under a lamp far from the origin, and what it hides from the lamp.
+Finding shadeNextToItsLamp(const Setup& setup) {
+  Finding finding(0);
+  for (const float far : {0x1p10f, 0x1p14f, 0x1p18f}) {
+    SceneBuilder builder;
+    const auto white = builder.add(diffuseMaterial(0.8f));
+    const float shade = 4 - 16 * far * 0x1p-23f;
+    builder.add(quad({far - 2, 0, 2}, {far + 2, 0, 2}, {far + 2, 0, -2}, {far - 2, 0, -2}, white));
+    builder.add(quad({far - 0.5f, shade, -0.5f}, {far - 0.5f, shade, 0.5f},
+                     {far + 0.5f, shade, 0.5f}, {far + 0.5f, shade, -0.5f}, white));
+    builder.description.lights = {lightAt({far, 4, 0}, 30)};
+    Camera camera = lookingDown();
+    camera.eye.x = camera.at.x = far;
+    RenderOptions options = optionsOf(setup);
+    options.size = ImageSize{32, 24};
+    for (const Rgb& pixel : pictureOf(builder.build(), camera, options).pixels) {
+      finding.count(pixel.x != 0, [&] { return "lamp at " + hexText(double{far}); });
+    }
+  }
+  return finding;
+}
+
 // A refracted ray that starts on the wrong side meets its own face again.
 Finding sideOfTheOffset(const Setup& setup) {
   Finding finding(0);
@@ -261,6 +331,12 @@ constexpr Case kLeavingSurfaceCases[] = {
      "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
     {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
      Runs::packets, farFromOrigin},
+    {"H2b", "the shadow of a box on floors of any size",
+     "half of 10 to 1e6 units; pixels that are not as the box and the lamp have it", Runs::packets,
+     shadowOnLargeFloors},
+    {"H2c", "a shade next to its lamp, far from the origin",
+     "16 float steps apart, 2^10 to 2^18 away; pixels that are lit", Runs::packets,
+     shadeNextToItsLamp},
     {"H3", "hit points lie on the triangle, whatever the distance of the eye",
      "patch seen from 1e5; distance to its plane over gamma(7) times the coordinates",
      Runs::packets, pointsFromFarAway},
