@@ -62,10 +62,11 @@ std::uint32_t SceneLayout::add(const std::string& name) {
 }
 
 void SceneLayout::append(const Body& from, const std::vector<Affine>& placements, Body& to) {
-  budget_.charge(from.parts.size() * sizeof(Part) + from.children.size() * sizeof(Placement),
+  budget_.charge(from.parts.size() * sizeof(BodyPart) + from.children.size() * sizeof(Placement),
                  placements.size(), "repeated items");
   for (const Affine& placement : placements) {
-    for (const Part& part : from.parts) to.parts.push_back({part.mesh, placement * part.toBody});
+    for (const BodyPart& part : from.parts)
+      to.parts.push_back({part.mesh, placement * part.toBody});
     for (const Placement& child : from.children) {
       to.children.push_back({child.body, placement * child.toParent});
     }
@@ -89,7 +90,7 @@ void SceneLayout::moveTo(SceneDescription& scene) {
 }
 
 // The last user of a mesh gets it, others a copy.
-Mesh SceneLayout::take(Part& part, const std::string& body) {
+Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
   const std::shared_ptr<Mesh> mesh = std::move(part.mesh);
   if (mesh.use_count() == 1) return std::move(*mesh);
   budget_.charge(1, bytesOf(*mesh), "object " + body);
@@ -97,7 +98,7 @@ Mesh SceneLayout::take(Part& part, const std::string& body) {
 }
 
 void SceneLayout::placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene) {
-  for (Part& part : body.parts) {
+  for (BodyPart& part : body.parts) {
     Mesh mesh = take(part, body.name);
     scene.instances.push_back(
         {static_cast<std::uint32_t>(scene.objects.size()), toWorld * part.toBody});
@@ -114,7 +115,7 @@ void SceneLayout::place(std::uint32_t index, const Affine& toWorld, SceneDescrip
     if (objects_[index] == kNoObject) {
       objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
       Object object{body.name, {}};
-      for (Part& part : body.parts) {
+      for (BodyPart& part : body.parts) {
         object.meshes.push_back(take(part, body.name));
         if (!(part.toBody == Affine())) transform(object.meshes.back(), part.toBody);
       }

@@ -19,7 +19,7 @@ inline constexpr int kNestingLimit = 256;
 // What a mesh takes in memory.
 std::uint64_t bytesOf(const Mesh& mesh);
 
-struct Part {
+struct BodyPart {
   std::shared_ptr<Mesh> mesh;  // shared by copies of the part
   Affine toBody;
 };
@@ -31,7 +31,7 @@ struct Placement {
 
 struct Body {
   std::string name;
-  std::vector<Part> parts;
+  std::vector<BodyPart> parts;
   std::vector<Placement> children;
 };
 
@@ -55,7 +55,7 @@ class SceneLayout {
  private:
   void place(std::uint32_t body, const Affine& toWorld, SceneDescription& scene);
   void placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene);
-  Mesh take(Part& part, const std::string& body);
+  Mesh take(BodyPart& part, const std::string& body);
 
   MemoryBudget& budget_;
   std::deque<Body> bodies_;  // a deque: references stay valid

@@ -27,7 +27,7 @@ double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
 
 double lightLevel(const SceneDescription& scene) {
   double sum = 0, area = 0;
-  forEachPlacedTriangle(scene, kMostTriangles, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostTriangles, [&](const Corners& t) {
     const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double weight = length(normal);
     const Vec3d point = (t[0] + t[1] + t[2]) / 3.0;

@@ -40,10 +40,9 @@ struct Bounds {
 
 Bounds boundsOf(const SceneDescription& scene) {
   Bounds bounds;
-  forEachPlacedTriangle(scene, std::numeric_limits<std::uint64_t>::max(),
-                        [&](const PlacedTriangle& t) {
-                          for (const Vec3d& corner : t) bounds.add(corner);
-                        });
+  forEachPlacedTriangle(scene, std::numeric_limits<std::uint64_t>::max(), [&](const Corners& t) {
+    for (const Vec3d& corner : t) bounds.add(corner);
+  });
   return bounds;
 }
 
@@ -53,7 +52,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::transform(kSides.begin(), kSides.end(), sides.begin(),
                  [](const Vec3d& side) { return normalized(side); });
   std::array<double, kSides.size()> shown{};
-  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
     for (std::size_t i = 0; i < sides.size(); ++i) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
@@ -70,7 +69,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
 double windingNumber(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12;
   double angle = 0;
-  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);
     const double volume = dot(a, cross(b, c)), space = la * lb * lc;
@@ -88,7 +87,7 @@ bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
 
 // How far it is to the triangle along the unit direction, negative where its back is met; infinite
 // where it is missed (after Moeller and Trumbore 1997).
-double distanceTo(const PlacedTriangle& t, const Vec3d& point, const Vec3d& direction) {
+double distanceTo(const Corners& t, const Vec3d& point, const Vec3d& direction) {
   constexpr double kMissed = std::numeric_limits<double>::infinity();
   const Vec3d a = t[1] - t[0], b = t[2] - t[0], p = cross(direction, b);
   const double determinant = dot(a, p);
@@ -113,7 +112,7 @@ bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
   }
   std::array<double, kDirections> met;
   met.fill(-std::numeric_limits<double>::infinity());
-  forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     for (std::size_t i = 0; i < kDirections; ++i) {
       const double distance = distanceTo(t, point, directions[i]);
       if (std::abs(distance) < std::abs(met[i])) met[i] = distance;
@@ -178,7 +177,7 @@ void lookFrom(const Vec3d& side, const SceneDescription& scene, ModelView& view)
   const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
   const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side)), up = cross(side, right);
   const auto everyCorner = [&](const auto& use) {
-    forEachPlacedTriangle(scene, kMostLookedAt, [&](const PlacedTriangle& t) {
+    forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
       for (const Vec3d& corner : t) {
         const Vec3d p = corner - view.center;
         use(Vec3d{dot(p, right), dot(p, up), dot(p, side)});

@@ -7,10 +7,9 @@
 #include <optional>
 
 #include "scene/scene.h"
+#include "scene/world_corners.h"
 
 namespace whit {
-
-using PlacedTriangle = std::array<Vec3d, 3>;
 
 inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
   std::uint64_t count = 0;
@@ -21,10 +20,9 @@ inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
 }
 
 // None where a corner is missing or lies beyond what can be traced: nothing is validated yet.
-inline std::optional<PlacedTriangle> placed(const Mesh& mesh,
-                                            const std::array<std::uint32_t, 3>& triangle,
-                                            const Affine& toWorld) {
-  PlacedTriangle corners;
+inline std::optional<Corners> placed(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
+                                     const Affine& toWorld) {
+  Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
     if (triangle[i] >= mesh.positions.size()) return std::nullopt;
     corners[i] = toWorld.point(Vec3d(mesh.positions[triangle[i]]));
