@@ -17,7 +17,7 @@ class LooseJson {
   explicit LooseJson(const Json& value) : value_(&value) {}
 
   LooseJson operator[](std::string_view name) const {
-    if (!isObject()) return {};
+    if (!value_ || !value_->is_object()) return {};
     const auto found = value_->find(std::string(name));
     return found == value_->end() ? LooseJson() : LooseJson(*found);
   }
