@@ -90,13 +90,13 @@ HWY_INLINE V3 InterpolatePosition(const Weights& w, const V3& a, const V3& b, co
 
 HWY_INLINE VF SumOf(const V3& v) { return hn::Add(hn::Add(v.x, v.y), v.z); }
 
-// Unit geometric normal. Edges are brought to the order of 1 by a power of two first, so that the
-// products of tiny or huge edges stay in range and scaling a scene by 2^k changes no bit.
 struct NormalLanes {
-  V3 normal;
+  V3 normal;   // unit, of the triangle's plane
   MF inDoubt;  // so narrow a triangle that rounding may have turned it
 };
 
+// Edges are brought to the order of 1 by a power of two first, so that the products of tiny or huge
+// edges stay in range and scaling a scene by 2^k changes no bit.
 HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
   const FloatTag d;
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
@@ -256,7 +256,8 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
 HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF distance, size_t i,
                           Surface& s) {
   const FloatTag d;
-  const VF sides = SumOf(Add3(Abs3(s.edge1), Abs3(s.edge2)));
+  const V3 edges = Add3(Abs3(s.edge1), Abs3(s.edge2));
+  const VF sides = SumOf(edges);
   const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
   s.across = hn::MulAdd(SumOf(s.magnitude), two, sides);
   const MF large = hn::AndNot(s.inDoubt, hn::Lt(hn::Mul(distance, eight), sides));
@@ -265,7 +266,8 @@ HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF dis
   const V3 point = MulAdd3(Load3(rays.dirX, rays.dirY, rays.dirZ, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
   s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
-  const VF near = hn::MulAdd(SumOf(Abs3(s.position)), two, hn::Mul(distance, eight));
+  const VF ofRay = hn::MulAdd(distance, eight, hn::Mul(Dot(Abs3(s.ng), edges), two));
+  const VF near = hn::MulAdd(SumOf(Abs3(s.position)), two, ofRay);
   s.across = hn::IfThenElse(large, near, s.across);
 }
 

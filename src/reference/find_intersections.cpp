@@ -96,7 +96,7 @@ void placeSurfel(const TriangleRecord& t, const TriangleHit& hit, const Ray& ray
   double across = sumOf(point * 2.0 + edges);
   if (const auto onRay = pointOnRay(e, t, hit, ray, s.geometricNormal)) {
     s.position = *onRay;
-    across = 2 * sumOf(abs(s.position)) + 8 * hit.t;
+    across = 2 * sumOf(abs(s.position)) + 8 * hit.t + 2 * dot(n, edges);
   }
   const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
   s.offset = std::min(s.offset, kUnitRoundOff * along);
