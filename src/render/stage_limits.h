@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -102,17 +103,31 @@ inline Corners cornersAt(const Place<SurfelRow>& p) {
   const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
   return worldCorners(p.world.scene, candidate.triangle, candidate.instance);
 }
-// Of an instance the offset is 32 units in the last place of all that went into the position.
-inline double byMagnitude(const Place<SurfelRow>& p) {
-  Vec3d largest;
-  for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
-  return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);
-}
 // How much the cross product of the edges amplifies their rounding.
 inline double bySliver(const Place<SurfelRow>& p) {
   const Corners c = cornersAt(p);
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
   return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
+}
+// What a position found along the ray is made of (placeSurfel); none where the corners make it.
+inline std::optional<double> alongRay(const Place<SurfelRow>& p) {
+  const double t = double{p.chunk.hits.t[p.slot]};
+  const Corners c = cornersAt(p);
+  const Vec3d edges = abs(c[1] - c[0]) + abs(c[2] - c[0]);
+  const bool placed = reference::candidateOf(p.chunk, p.slot).instance != reference::kNoHit;
+  const bool shared = reference::alsoCrossedAt(p.chunk, p.slot) >= kSharesPlace;
+  if (placed || shared || bySliver(p) > 0x1p11 || !(8 * t < edges.x + edges.y + edges.z)) return {};
+  const SurfelRow& s = p.twin;
+  const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
+  return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
+}
+// By the corners, which may be far larger than the place that a ray found; of an instance the
+// offset is 32 units in the last place of all that went into the position.
+inline double byMagnitude(const Place<SurfelRow>& p) {
+  if (const auto found = alongRay(p)) return *found;
+  Vec3d largest;
+  for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
+  return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);
 }
 // From slivers of 2^14 on another offset counts; rounding decides what is one.
 inline double byOffset(const Place<SurfelRow>& p) {
