@@ -60,7 +60,7 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
   crossing.stackBehind = crossed(stack, medium, entering);
   for (; others != 0; others >>= kOtherBits) {
     const std::uint32_t other = others & ((1u << kOtherBits) - 1);
-    if (other >> 1 == 0) continue;
+    if (other >> 1 == 0) continue;  // kSharesPlace
     crossing.stackBehind = crossed(crossing.stackBehind, other >> 1, (other & 1) != 0);
   }
   const std::uint32_t before = currentMedium(scene, stack);
