@@ -17,7 +17,11 @@ struct CoveredPart {
   };
   std::array<Edge, 3> edges;
 
-  bool holds(float u, float v) const { return meets(u, v, 0); }
+  bool holds(float u, float v) const {
+    if (u < u0 || u > u1 || v < v0 || v > v1) return false;
+    const auto isInside = [&](const Edge& e) { return e.a * u + e.b * v + e.c >= 0; };
+    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+  }
   // Of a square, from its corner of the least weights: false only if it holds no point of it.
   bool meets(float u, float v, float side) const {
     const auto isInside = [&](const Edge& e) {

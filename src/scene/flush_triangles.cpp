@@ -199,6 +199,7 @@ void FlushTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Vi
 void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
+  constexpr std::uint32_t kFewPartners = 32;
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
@@ -211,20 +212,28 @@ void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlap
   slot.side = static_cast<std::size_t>(
       std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
   while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
-  slot.firstCell = cellBegin_.size() - 1;
-  std::vector<std::vector<std::size_t>> cells(slot.side * slot.side);
-  std::vector<std::uint8_t> contested(cells.size());
+  slot.firstCell = cells_.size();
+  slot.maskSide = slot.count < kFewPartners ? 16 : 64;
+  slot.firstWord = contested_.size();
+  contested_.resize(slot.firstWord + slot.maskSide * slot.maskSide / 64);
+  std::vector<std::vector<std::size_t>> overlapping(slot.side * slot.side), touching = overlapping;
   for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
-    forEachCellOf(covered_[i], slot.side, [&](std::size_t cell) {
-      cells[cell].push_back(i);
-      contested[cell] |= overlaps[i];
-    });
+    auto& lists = overlaps[i] != 0 ? overlapping : touching;
+    forEachCellOf(covered_[i], slot.side, [&](std::size_t cell) { lists[cell].push_back(i); });
     if (overlaps[i] == 0) continue;
-    forEachCellOf(covered_[i], kMaskSide, [&](std::size_t cell) { slot.contested.set(cell); });
+    forEachCellOf(covered_[i], slot.maskSide, [&](std::size_t cell) {
+      contested_[slot.firstWord + cell / 64] |= std::uint64_t{1} << cell % 64;
+    });
   }
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (contested[k] != 0) inCells_.insert(inCells_.end(), cells[k].begin(), cells[k].end());
-    cellBegin_.push_back(inCells_.size());
+  for (std::size_t k = 0; k < overlapping.size(); ++k) {
+    Cell cell{inCells_.size()};
+    if (!overlapping[k].empty()) {
+      inCells_.insert(inCells_.end(), overlapping[k].begin(), overlapping[k].end());
+      inCells_.insert(inCells_.end(), touching[k].begin(), touching[k].end());
+      cell.overlapping = static_cast<std::uint32_t>(overlapping[k].size());
+      cell.count = static_cast<std::uint32_t>(inCells_.size() - cell.first);
+    }
+    cells_.push_back(cell);
   }
 }
 
@@ -270,7 +279,8 @@ std::uint64_t FlushTriangles::bytes() const {
   if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(CoveredPart)) +
-         (cellBegin_.size() + inCells_.size()) * sizeof(std::size_t);
+         cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t) +
+         contested_.size() * sizeof(contested_[0]);
 }
 
 FlushTriangles findFlushTriangles(const Scene& scene, int threads) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bitset>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -52,17 +51,28 @@ class FlushTriangles {
   // orderOf(). Empty where it is not flush.
   std::span<const PlacedTriangleId> partnersOf(PlacedTriangleId id) const;
 
+  // Of a scene that has some: false only where forEachPartnerAt() visits none.
+  bool anyAt(PlacedTriangleId id, double u, double v) const {
+    const Slot& slot = slots_[slotOf(id)];
+    return slot.count != 0 && isContested(slot, u, v);
+  }
+
   // visit(partner) for those that may lie at the point of this one that has the weights u and v of
-  // corners 1 and 2. None where none overlaps it thereabouts.
+  // corners 1 and 2. None where none overlaps it there.
   template <typename Visitor>
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
     const Slot& slot = slots_[slotOf(id)];
-    if (slot.count == 0 || !slot.contested[cellAt(u, v, kMaskSide)]) return;
-    const std::size_t cell = slot.firstCell + cellAt(u, v, slot.side);
-    for (std::size_t k = cellBegin_[cell]; k < cellBegin_[cell + 1]; ++k) {
-      const std::size_t i = inCells_[k];
-      if (covered_[i].holds(static_cast<float>(u), static_cast<float>(v))) visit(partners_[i]);
+    if (slot.count == 0 || !isContested(slot, u, v)) return;
+    const Cell& cell = cells_[slot.firstCell + cellAt(u, v, slot.side)];
+    const auto own = std::span(inCells_).subspan(cell.first, cell.count);
+    const auto holds = [&](std::size_t i) {
+      return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
+    };
+    const auto overlapping = own.first(cell.overlapping);
+    if (std::none_of(overlapping.begin(), overlapping.end(), holds)) return;
+    for (const std::size_t i : own) {
+      if (holds(i)) visit(partners_[i]);
     }
   }
 
@@ -71,15 +81,14 @@ class FlushTriangles {
  private:
   friend class FlushFinder;
 
-  static constexpr std::size_t kMaskSide = 16;
   struct Slot {
     PlacedTriangleId id;
     std::uint32_t count = 0;    // 0: the slot is free
     std::uint64_t first = 0;    // in partners_
-    std::size_t firstCell = 0;  // in cellBegin_
+    std::size_t firstCell = 0;  // in cells_
     std::size_t side = 1;       // of a square of so many cells a side
-    // Of a finer square: the cells that some overlapping partner reaches into.
-    std::bitset<kMaskSide* kMaskSide> contested = {};
+    std::size_t firstWord = 0;  // in contested_
+    std::size_t maskSide = 0;   // of a finer square
   };
   static std::size_t cellOf(double weight, std::size_t side) {
     const auto most = static_cast<double>(side);
@@ -87,6 +96,10 @@ class FlushTriangles {
   }
   static std::size_t cellAt(double u, double v, std::size_t side) {
     return cellOf(v, side) * side + cellOf(u, side);
+  }
+  bool isContested(const Slot& slot, double u, double v) const {
+    const std::size_t cell = cellAt(u, v, slot.maskSide);
+    return (contested_[slot.firstWord + cell / 64] >> cell % 64 & 1) != 0;
   }
   template <typename Visitor>
   static void forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit);
@@ -98,9 +111,16 @@ class FlushTriangles {
   std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
   std::vector<CoveredPart> covered_;  // by each of them of the one whose partner it is
-  // Partners by place: of each cell that some partner overlaps, all that reach into it.
-  std::vector<std::size_t> cellBegin_{0};  // in inCells_
-  std::vector<std::size_t> inCells_;       // places in partners_
+  // Partners by place: of each cell that some partner overlaps, all that reach into it, those that
+  // overlap first.
+  struct Cell {
+    std::uint64_t first = 0;  // in inCells_
+    std::uint32_t count = 0, overlapping = 0;
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> inCells_;  // places in partners_
+  // A bit a cell of the finer squares, for those that some overlapping partner reaches into.
+  std::vector<std::uint64_t> contested_;
 };
 
 // Two placed triangles lie in one plane if the corners of each are no farther from the plane of the
