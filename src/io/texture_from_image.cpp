@@ -104,6 +104,10 @@ std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format) {
   return format == TexelFormat::radiance ? encodeRadianceTexel(linear) : encodeColorTexel(linear);
 }
 
+void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings& warnings) {
+  warnings.add("color texel above 1 clamped", name, countAbove(raw, 1));
+}
+
 Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings) {
   warnings.add("emission texel above 65408 clamped", name, countAbove(raw, kLargestRadianceTexel));
   return makeTexture(name, raw, emissionFormat(raw));

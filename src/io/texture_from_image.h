@@ -12,6 +12,8 @@ namespace whit {
 // codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
 // alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
+// Counts the texels of an image of reflectances that makeTexture() clamps to 1.
+void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings& warnings);
 // The same for what is emitted, of colors: linear images with texels above 1 keep their range
 // (TexelFormat::radiance), all others are color textures. What is beyond that format's largest
 // value is clamped, and counted in `warnings`.

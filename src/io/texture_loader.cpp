@@ -19,6 +19,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, Tex
                                const TextureSource& source, Warnings& warnings) {
   switch (use) {
     case TextureUse::color:
+      warnOfClampedColors(name, raw, warnings);
       return makeTexture(name, raw, TexelFormat::color);
     case TextureUse::emission:
       return makeEmissionTexture(name, raw, warnings);
@@ -170,6 +171,7 @@ void TextureLoader::finish(SceneDescription& scene) {
     renumber(material.emissionMap);
     renumber(material.normalMap);
     renumber(material.alphaMap);
+    renumber(material.coverageMap);
   }
 }
 

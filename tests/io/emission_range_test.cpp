@@ -63,6 +63,18 @@ TEST_F(EmissionRange, BeyondTheLargestIsClampedAndCounted) {
   EXPECT_EQ(warned("emission texel above 65408 clamped"), 2u);
 }
 
+// A reflectance is no more than 1.
+TEST_F(EmissionRange, OfReflectancesIsCutAndCounted) {
+  saveExr(kTexels);
+  const Scene scene = Scene::finalize(
+      loadMembers("\"textures\": {\"bright\": {\"image\": \"glow.exr\"}}, \"materials\": {\"m\": "
+                  "{\"diffuseMap\": \"bright\"}}, \"scene\": [{\"shape\": \"quad\", \"width\": 2, "
+                  "\"depth\": 1, \"material\": \"m\"}]"),
+      warnings_);
+  EXPECT_EQ(scene.textures[0].format, TexelFormat::color);
+  EXPECT_EQ(warned("color texel above 1 clamped"), 2u);
+}
+
 // 128 / 256 * 2^(132 - 128) = 8, and 192 / 256 * 2^(138 - 128) = 768.
 std::string hdrFile() {
   return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
