@@ -27,7 +27,7 @@ struct ImpulseJob {
   SurfelColumns surfels;
   RayColumns children;
   size_t n;
-  bool cones, streams, transmission;
+  bool cones, coverage, streams, transmission;
 };
 
 HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
@@ -39,6 +39,7 @@ HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
           c.children,
           c.n,
           c.has(Feature::cones),
+          c.has(Feature::coverage),
           c.has(Feature::streams),
           c.has(Feature::transmission)};
 }
@@ -118,6 +119,12 @@ HWY_INLINE V3 TransmittanceUnder(const V3& coat, const V3& transmission) {
   return Mul3(transmission, {share(coat.x), share(coat.y), share(coat.z)});
 }
 
+// Of the surfels at i, the share that is there.
+HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
+  const FloatTag d;
+  return job.coverage ? hn::Load(d, job.surfels.coverage + i) : hn::Set(d, 1.0f);
+}
+
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
@@ -194,6 +201,7 @@ void AddReflections(Chunk& c) noexcept {
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const auto [mirror, impulseShare] = material.Mirror();
     V3 weight = CoatReflectance(material, mirror, lanes.cosine);
+    if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
       const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
       weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
@@ -238,7 +246,8 @@ void AddGlossyReflections(Chunk& c) noexcept {
     for (uint32_t k = 0; k < sampling.count; ++k) {
       const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, lobes.rough);
       if (hn::AllFalse(d, sampled)) break;
-      const LobeSample sample = SampleLobe(lobes, LobePoints(path, sampling, k));
+      LobeSample sample = SampleLobe(lobes, LobePoints(path, sampling, k));
+      if (job.coverage) sample.weight = Scale3(sample.weight, CoverageAt(job, i));
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
       const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(job, sample.cosine), live);
       const Child child{origin,
@@ -268,8 +277,12 @@ void AddRefractions(Chunk& c) noexcept {
     const auto [mirror, ownShare] = material.Mirror();
     const VF impulseShare = hn::IfThenElse(lanes.hidden, one, ownShare);
     const VF through = hn::Sub(one, interface.reflectance);
-    const V3 transmittance = TransmittanceUnder(CoatReflectance(material, mirror, lanes.cosine),
-                                                material.Transmission());
+    V3 transmittance = TransmittanceUnder(CoatReflectance(material, mirror, lanes.cosine),
+                                          material.Transmission());
+    if (job.coverage) {
+      const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
+      transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
+    }
     const V3 weight = Select3(lanes.hidden, {one, one, one}, Scale3(transmittance, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,

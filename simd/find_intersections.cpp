@@ -238,13 +238,16 @@ StepFunction FindInterpolateSurfels(size_t index) {
   return kVariants[index];
 }
 
-HWY_INLINE void QueueRoughness(const SurfelJob& job, size_t i, size_t slot, MapQueue& queue) {
+// Of the vector at i what mapOf(materials) names, to be looked up by the first texture coordinates.
+template <typename MapOf>
+HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&& mapOf,
+                             MapQueue& queue) {
   const FloatTag d;
   queue.level.any[slot] = false;
   const auto [valid, triangle] = LoadHits(job.hits, i);
   if (hn::AllFalse(d, valid)) return;
   const TriangleLanes t = LoadTriangles(job.tables, triangle);
-  const VI map = MaterialLanes(job.tables, t.material, valid).Roughness().roughnessMap;
+  const VI map = mapOf(MaterialLanes(job.tables, t.material, valid));
   const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(d, mapped)) return;
   const Weights w = LoadWeights(job.hits, i);
@@ -276,12 +279,58 @@ void LookUpRoughness(Chunk& c) noexcept {
   MapQueue queue;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    for (size_t i = begin; i < end; i += lanes) QueueRoughness(job, i, i - begin, queue);
+    for (size_t i = begin; i < end; i += lanes) {
+      QueueDataMap(
+          job, i, i - begin,
+          [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().roughnessMap; }, queue);
+    }
     for (size_t i = begin; i < end; i += lanes) ApplyRoughness(job, queue, i - begin, i);
   }
 }
 
 StepFunction FindLookUpRoughness(size_t /*index*/) { return LookUpRoughness; }
+
+// 1 where a ray has left the scene.
+HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
+  const FloatTag d;
+  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+  const MF live = hn::RebindMask(d, NonNegative(number));
+  VF coverage = hn::Set(d, 1.0f);
+  if (!hn::AllFalse(d, live)) {
+    const VF own = MaterialLanes(job.tables, number, live).Coverage().coverage;
+    coverage = hn::IfThenElse(live, own, coverage);
+  }
+  if (queue.level.any[slot]) {
+    const V3 map =
+        FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+    const VF mapped = hn::Mul(coverage, map.x);
+    coverage = hn::IfThenElse(QueuedLanes(queue.level, slot), mapped, coverage);
+  }
+  hn::Store(coverage, d, job.surfels.coverage + i);
+}
+
+// The scalar twin is findColors in src/reference/find_intersections.cpp.
+void LookUpCoverage(Chunk& c) noexcept {
+  const FloatTag d;
+  const size_t lanes = hn::Lanes(d), n = c.n;
+  const SurfelJob job = SurfelJobOf(c);
+  if ((c.materialFlags & kMaterialIsPartlyThere) == 0) {
+    for (size_t i = 0; i < n; i += lanes) hn::Store(hn::Set(d, 1.0f), d, c.surfels.coverage + i);
+    return;
+  }
+  MapQueue queue;
+  for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
+    const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
+    for (size_t i = begin; i < end; i += lanes) {
+      QueueDataMap(
+          job, i, i - begin,
+          [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().coverageMap; }, queue);
+    }
+    for (size_t i = begin; i < end; i += lanes) StoreCoverage(job, queue, i - begin, i);
+  }
+}
+
+StepFunction FindLookUpCoverage(size_t /*index*/) { return LookUpCoverage; }
 
 // Corners and their normals, in the world.
 struct WorldCorners {
@@ -360,6 +409,10 @@ StepFunction findInterpolateSurfels(std::size_t index) {
 HWY_EXPORT(FindLookUpRoughness);
 StepFunction findLookUpRoughness(std::size_t index) {
   return HWY_DYNAMIC_DISPATCH(FindLookUpRoughness)(index);
+}
+HWY_EXPORT(FindLookUpCoverage);
+StepFunction findLookUpCoverage(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindLookUpCoverage)(index);
 }
 HWY_EXPORT(FindLiftShadowOrigins);
 StepFunction findLiftShadowOrigins(std::size_t index) {

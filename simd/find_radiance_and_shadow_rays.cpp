@@ -48,7 +48,7 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
   const ShadowColumns shadows = c.shadows;
   const size_t n = c.n;
   const bool traced = c.has(Feature::shadows), hidden = c.has(Feature::transmission);
-  const bool lifted = c.has(Feature::lift);
+  const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const LightLanes<kBits> lanes(light);
   const V3 intensity = Broadcast3(light.intensity);
@@ -110,7 +110,8 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
         bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
       }
     }
-    const V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
+    V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
+    if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
     const VF largest = MaxComponent(radiance);
     live = hn::And(live, hn::Gt(largest, zero));
     if (choices.lightCutoff > 0) {

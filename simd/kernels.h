@@ -70,6 +70,7 @@ struct Kernel {
 StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);
 StepFunction findLookUpRoughness(std::size_t index);
+StepFunction findLookUpCoverage(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
@@ -106,6 +107,11 @@ inline constexpr Kernel kLookUpRoughness{
     "lookUpRoughness",   Stage::findIntersections,
     findLookUpRoughness, {Part::rays, Part::hits, Part::surfels},
     {Part::surfels},     {}};
+
+// The share of each surface that is there, by number or map.
+inline constexpr Kernel kLookUpCoverage{"lookUpCoverage",   Stage::findIntersections,
+                                        findLookUpCoverage, {Part::rays, Part::hits, Part::surfels},
+                                        {Part::surfels},    {}};
 
 // Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
 // the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
@@ -177,6 +183,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kUnpackHits,
                                      kInterpolateSurfels,
                                      kLookUpRoughness,
+                                     kLookUpCoverage,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,

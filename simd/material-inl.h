@@ -34,6 +34,10 @@ struct RoughnessLanes {
   VF roughness;
   VI roughnessMap;
 };
+struct CoverageLanes {
+  VF coverage;
+  VI coverageMap;
+};
 struct MirrorLanes {
   V3 mirror;
   VF impulseShare;
@@ -72,6 +76,12 @@ class MaterialLanes {
                   offsetof(MaterialRecord, roughness) + 4);
     const V4 r = records_.template Load4<offsetof(MaterialRecord, roughness)>();
     return {r.x, hn::BitCast(IntTag(), r.y)};
+  }
+  HWY_INLINE CoverageLanes Coverage() const {
+    static_assert(offsetof(MaterialRecord, coverage) == offsetof(MaterialRecord, roughness) + 8);
+    const V4 r = records_.template Load4<offsetof(MaterialRecord, roughness),
+                                         offsetof(MaterialRecord, coverageMap)>();
+    return {r.z, hn::BitCast(IntTag(), r.w)};
   }
   HWY_INLINE MirrorLanes Mirror() const {
     const V4 r = records_.template Load4<offsetof(MaterialRecord, mirror),

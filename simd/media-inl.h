@@ -93,7 +93,7 @@ HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, 
   const auto dielectric = hn::Ne(medium, hn::Zero(du));
   const auto enters = hn::RebindMask(du, entering);
   VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
-  behind = hn::IfThenElse(dielectric, CrossOthers(behind, others), stack);
+  behind = CrossOthers(hn::IfThenElse(dielectric, behind, stack), others);
   const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
   const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
   hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,

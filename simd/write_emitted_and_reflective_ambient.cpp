@@ -22,6 +22,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   // Of a chunk in which nothing emits, no surfel needs its material.
   const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
   const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
+  const bool coverage = c.has(Feature::coverage);
   const bool sky = c.has(Feature::sky), hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
   // down + (up - down) * (1 + n.y) / 2 as middle + half * n.y
@@ -43,6 +44,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
       }
       result = Add3(result, own);
     }
+    if (coverage) result = Scale3(result, hn::Load(d, surfels.coverage + i));
     if (hidden) {
       const VU flags = hn::Load(du, surfels.flags + i);
       const auto there = hn::Eq(hn::And(flags, hn::Set(du, kHidden)), hn::Zero(du));

@@ -24,6 +24,7 @@ MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::u
     if (material.alphaMap == kNoTexture || maps.empty()) continue;
     masks[m].map = maps[static_cast<std::size_t>(material.alphaMap)].get();
     masks[m].cutoff = material.alphaCutoff;
+    masks[m].shadowCutoff = material.shadowCutoff();
   }
   triangles.reserve(end - first);
   for (std::uint32_t i = first; i < end; ++i) {

@@ -24,7 +24,7 @@ struct alignas(32) MaskedTriangle {
 // A material's mask; all is opaque where there is no map.
 struct Mask {
   const AlphaMap* map = nullptr;
-  float cutoff = 0;
+  float cutoff = 0, shadowCutoff = 0;
   bool doubleSided = true;
 };
 
@@ -44,16 +44,17 @@ inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitiv
   return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
 }
 
-// False where the alpha mask cuts the triangle's point (u, v).
-inline bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
-                       float v) noexcept {
+// False where the alpha mask, cut at that member of it, cuts the triangle's point (u, v).
+template <float Mask::*kCutoff>
+bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
+                float v) noexcept {
   const MaskedTriangle& t = geometry.triangles[primitive];
   const Mask& mask = geometry.masks[t.mask];
   if (!mask.map) return true;
   const float w = 1.0f - u - v;
   const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
   const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
-  return mask.map->isOpaqueAt(s, r, mask.cutoff);
+  return mask.map->isOpaqueAt(s, r, mask.*kCutoff);
 }
 
 }  // namespace whit

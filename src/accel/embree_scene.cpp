@@ -39,18 +39,19 @@ void filterBySide(const RTCFilterFunctionNArguments* args) {
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
     const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
     const bool passed = isSingleSided(geometry, primitive) && isBehind(*args, lane);
-    if (passed || !isOpaqueAt(geometry, primitive, u, v)) args->valid[lane] = 0;
+    if (passed || !isOpaqueAt<&Mask::cutoff>(geometry, primitive, u, v)) args->valid[lane] = 0;
   }
 }
 
 // Called for each hit on a masked triangle, with as many lanes as Embree has at hand.
+template <float Mask::*kCutoff>
 void filterByAlpha(const RTCFilterFunctionNArguments* args) {
   const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
     const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
-    if (!isOpaqueAt(geometry, primitive, u, v)) args->valid[lane] = 0;
+    if (!isOpaqueAt<kCutoff>(geometry, primitive, u, v)) args->valid[lane] = 0;
   }
 }
 
@@ -140,9 +141,10 @@ void EmbreeScene::setFilters(MaskedGeometry& filtered, RTCGeometry geometry) {
   if (filtered.anySingleSided) {
     rtcSetGeometryIntersectFilterFunction(geometry, filterBySide);
   } else if (filtered.anyMask) {
-    rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha);
+    rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha<&Mask::cutoff>);
   }
-  if (filtered.anyMask) rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha);
+  if (filtered.anyMask)
+    rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha<&Mask::shadowCutoff>);
 }
 
 void EmbreeScene::addInstances(const Scene& scene) {

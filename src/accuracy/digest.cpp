@@ -104,12 +104,14 @@ void add(Digester& d, const InstanceRecord& instance) {
 void add(Digester& d, const Material& material) {
   const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, roughnessMap,
                glossyReflection, emission, emissionMap, normalMap, emissionBySecondUvs,
-               normalBySecondUvs, alphaMap, alphaCutoff, mirror, mirrorGrazing, transmission, ior,
-               absorption, priority, vertexTint, doubleSided, castsShadow, pointer] = material;
+               normalBySecondUvs, alphaMap, alphaCutoff, coverage, coverageMap, mirror,
+               mirrorGrazing, transmission, thin, ior, absorption, priority, vertexTint,
+               doubleSided, castsShadow, pointer] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
   add(d, roughnessMap);
   add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
   add(d, emissionBySecondUvs), add(d, normalBySecondUvs);
+  add(d, coverage), add(d, coverageMap), add(d, thin);
   add(d, alphaMap), add(d, alphaCutoff), add(d, mirror), add(d, mirrorGrazing);
   add(d, transmission), add(d, ior), add(d, absorption), add(d, priority), add(d, vertexTint);
   add(d, doubleSided), add(d, castsShadow);

@@ -15,6 +15,7 @@ namespace whit {
   X(textures, "color textures")                                \
   X(normalMaps, "tangent-space normal maps")                   \
   X(alphaMasks, "holes cut by alpha masks")                    \
+  X(coverage, "surfaces that are there in part")               \
   X(smoothNormals, "interpolated vertex normals")              \
   X(glossy, "glossy lobe")                                     \
   X(glossyReflection, "sampled reflections of rough surfaces") \

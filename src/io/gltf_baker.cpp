@@ -120,23 +120,15 @@ class Baker {
     }
   }
 
-  // Blending is even where most of what is not opaque is not clear either.
   void bakeAlpha(std::optional<Texture>& map, GltfMeans& means) const {
     if (material_.alphaMode == GltfMaterial::Alpha::opaque) return;
-    double alpha = 0;
-    std::uint64_t between = 0, translucent = 0;
-    for (int y = 0; y < rawBase_->height; ++y) {
-      for (int x = 0; x < rawBase_->width; ++x) {
-        const float a = Stretched(rawBase_, rawBase_->width, rawBase_->height).at(x, y).code[3];
-        alpha += a;
-        translucent += a < 1;
-        between += a > 0.1f && a < 0.9f;
+    const ChannelMean alpha = meanOf(*rawBase_, 3);
+    if (material_.alphaMode == GltfMaterial::Alpha::blend) {
+      means.alphaByMap = alpha.varies;
+      if (!alpha.varies) {
+        means.alpha = alpha.mean;
+        return;
       }
-    }
-    if (material_.alphaMode == GltfMaterial::Alpha::blend && 2 * between > translucent) {
-      means.alpha =
-          static_cast<float>(alpha / (static_cast<double>(rawBase_->width) * rawBase_->height));
-      return;
     }
     // The texture, and the channel that it is made from.
     const MemoryHold held = holdImage(material_.where, rawBase_->width, rawBase_->height,

@@ -117,18 +117,22 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   maps.means = means;
   if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0()) {
     const auto slots = textures.add(
-        kGltfBakedMaps,
-        [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap),
-         strength = image(m.specularMap), tint = image(m.specularColorMap), &textures] {
+        kGltfBakedMaps, [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap),
+                         strength = image(m.specularMap), tint = image(m.specularColorMap),
+                         &textures, &warnings = warnings_] {
           const ImageLimits limits = textures.limits();
           const auto rawBase = decoded(base, limits), rawMetal = decoded(metal, limits);
           const auto rawStrength = decoded(strength, limits), rawTint = decoded(tint, limits);
+          for (const RawImage* color : {m.unlit ? nullptr : rawBase.get(), rawTint.get()}) {
+            if (color) warnOfClampedColors(m.where, *color, warnings);
+          }
           return bake(m, {rawBase.get(), rawMetal.get(), rawStrength.get(), rawTint.get()}, limits,
                       *means);
         });
     if (wantsBaked(m, kGltfDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kGltfDiffuse];
     if (wantsBaked(m, kGltfSpecular)) maps.specular = slots[kGltfSpecular];
     if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kGltfAlpha];
+    if (m.alphaMode == GltfMaterial::Alpha::blend) maps.coverage = slots[kGltfAlpha];
   }
   const auto single = [&](const GltfTexture& map, const auto& make) {
     return textures.add(1, [=, image = image(map), &textures] {

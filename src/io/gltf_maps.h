@@ -20,7 +20,7 @@ class GltfImage;
 struct GltfMaps {
   std::int32_t diffuse = kNoTexture, specular = kNoTexture, emission = kNoTexture;
   std::int32_t roughness = kNoTexture;
-  std::int32_t normal = kNoTexture, alpha = kNoTexture;
+  std::int32_t normal = kNoTexture, alpha = kNoTexture, coverage = kNoTexture;
   std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
 };
 

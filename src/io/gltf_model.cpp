@@ -57,6 +57,8 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   member("absorption", &Material::absorption);
   member("vertexTint", &Material::vertexTint);
   member("castsShadow", &Material::castsShadow);
+  member("coverage", &Material::coverage);
+  if (!given.contains("alphaMap")) member("alphaCutoff", &Material::alphaCutoff);
 }
 
 GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
@@ -80,6 +82,9 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
   if (!given.contains("emissionMap")) material.emissionMap = maps.emission;
   if (!given.contains("normalMap")) material.normalMap = maps.normal;
   if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;
+  if (!given.contains("coverage") && !given.contains("coverageMap")) {
+    material.coverageMap = maps.coverage;
+  }
   const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
     renew(m, shadedAs(source, *means), given);
   };

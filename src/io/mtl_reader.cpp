@@ -108,13 +108,12 @@ class MtlMaterialReader {
     if (glass) {
       m_.transmission = has("Tf") ? albedo(source_.transmittance) : Rgb(1 - dissolve);
       m_.ior = index();
-    } else if (dissolve < 1) {
-      m_.transmission = Rgb(1 - dissolve);
-      m_.ior = 1;
+      m_.diffuse *= dissolve;
+    } else {
+      m_.coverage = dissolve;
     }
-    m_.diffuse *= dissolve;
     m_.glossyReflection = !m_.hasMirror() && !m_.hasTransmission();
-    m_.castsShadow = !m_.hasTransmission();
+    m_.castsShadow = m_.blocksLight();
   }
 
   float index() {

@@ -185,11 +185,15 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   readMap(object, "normalMap", TextureUse::data, m.normalMap);
   readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
   m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);
+  m.coverage = object.number("coverage", m.coverage, 0, 1);
+  readMap(object, "coverageMap", TextureUse::mask, m.coverageMap);
+  if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
   const bool mirrorGiven = object.has("mirror");
   m.mirror = object.color("mirror", m.mirror, 1);
   m.mirrorGrazing = object.color("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
   const bool transmissionGiven = object.has("transmission");
   m.transmission = object.color("transmission", m.transmission, 1);
+  if (const auto thin = object.find("thin")) m.thin = thin->flag();
   m.ior = object.number("ior", m.ior, kLeastIor, kLargestIor);
   m.absorption = object.color("absorption", m.absorption);
   if (const auto priority = object.find("priority")) {
@@ -202,8 +206,8 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   }
   if (const auto castsShadow = object.find("castsShadow")) {
     m.castsShadow = castsShadow->flag();
-  } else if (transmissionGiven) {
-    m.castsShadow = !m.hasTransmission();
+  } else if (transmissionGiven || object.has("coverage")) {
+    m.castsShadow = m.blocksLight();
   }
 }
 
@@ -211,7 +215,9 @@ void MaterialReader::override(JsonObject& object, Material& material, GivenMembe
   read(object, material);
   for (const auto& [name, value] : object.value().members()) given.insert(name);
   if (object.has("mirror")) given.insert("mirrorGrazing");
-  if (object.has("transmission")) given.insert("castsShadow");
+  for (const char* passing : {"transmission", "coverage"}) {
+    if (object.has(passing)) given.insert("castsShadow");
+  }
   for (const char* impulse : {"mirror", "mirrorGrazing", "transmission"}) {
     if (object.has(impulse)) given.insert("glossyReflection");
   }

@@ -119,13 +119,14 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   const double c = std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
   const bool mirrors = effects.has(Effect::mirror);
   const RgbD coat = mirrors ? coatReflectance(material, c) : RgbD();
-  RgbD reflectance = coat;
+  RgbD reflectance = coat * surfel.coverage;
   if (crossing.dielectric) {
     const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
     const double passed = 1 - interface.reflectance;
-    if (mirrors) reflectance = RgbD(interface.reflectance) + coat * passed;
+    if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
     if (passed > 0) {
-      result.refracted = {transmittanceUnder(coat, material) * passed,
+      const RgbD through = transmittanceUnder(coat, material) * surfel.coverage;
+      result.refracted = {(through + RgbD(1 - surfel.coverage)) * passed,
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
   }
@@ -171,7 +172,7 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const Vec3d r =
       choices.bend ? lifted(mirrored, s.geometricNormal, std::min(0.9 * nl, 0.01)) : mirrored;
-  return {fresnel * passes, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
+  return {fresnel * (passes * s.coverage), {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 
 RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {

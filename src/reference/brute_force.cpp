@@ -47,7 +47,7 @@ bool BruteForce::occluded(const Ray& ray, double tFar) const {
     if (found || !scene_.materials[scene_.triangles[triangle].material].castsShadow) return;
     const auto hit = intersectTriangle(ray, worldCorners(scene_, triangle, instance));
     if (!hit || !(hit->t < tFar)) return;
-    found = !effects_.has(Effect::alphaMasks) || !cutAway(scene_, triangle, *hit);
+    found = !effects_.has(Effect::alphaMasks) || !cutAway(scene_, triangle, *hit, true);
   });
   return found;
 }

@@ -228,6 +228,9 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   }
   roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
+  if (!effects.has(Effect::coverage)) return;
+  s.coverage = material.coverage;
+  if (material.coverageMap != kNoTexture) s.coverage *= lookups.data(material.coverageMap, false).r;
 }
 
 }  // namespace
@@ -261,13 +264,14 @@ double textureFootprint(const TriangleRecord& triangle, const float* uvs, const 
   return inTexture / inWorld * across * across;
 }
 
-bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
+bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit, bool forShadows) {
   const TriangleRecord& record = scene.triangles[triangle];
   const Material& material = scene.materials[record.material];
   if (material.alphaMap == kNoTexture) return false;
   const TexturePoint at = texturePoint(record.uv, hit);
   const Texture& mask = scene.textures[static_cast<std::size_t>(material.alphaMap)];
-  return sampleData(mask, at.u, at.v).r < material.alphaCutoff;
+  return sampleData(mask, at.u, at.v).r <
+         double{forShadows ? material.shadowCutoff() : material.alphaCutoff};
 }
 
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
@@ -357,6 +361,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   put(s.specular, row.specularR, row.specularG, row.specularB);
   row.alpha = s.alpha;
   put(s.emission, row.emissionR, row.emissionG, row.emissionB);
+  row.coverage = s.coverage;
   put(s.lift, row.liftX, row.liftY, row.liftZ);
   row.cone = cone.widthAt(hit.t);
   row.flags = (s.entering ? kEntering : 0) | (crossing.hidden ? kHidden : 0);

@@ -59,8 +59,10 @@ struct TexturePoint {
 };
 TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
-// Whether an alpha mask has cut a hole where the ray meets the triangle.
-bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit);
+// Whether an alpha mask has cut a hole where the ray meets the triangle; `forShadows`: one that
+// light falls through (Material::shadowCutoff).
+bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
+             bool forShadows = false);
 
 // Whether the ray passes the triangle, which it meets from behind, because it is single-sided.
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,

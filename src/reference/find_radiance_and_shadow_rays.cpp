@@ -103,7 +103,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   if (effects.has(Effect::glossy) && maxComponent(surfel.specular) > 0) {
     reflected += glossyLobe(surfel, l);
   }
-  arrival.radiance = reflected * biradiance * cosine;
+  arrival.radiance = reflected * biradiance * (cosine * surfel.coverage);
   Surfel start = surfel;
   if (lifted) start.position += surfel.lift;
   const Vec3d origin = rayOrigin(choices.offset, start, 1);

@@ -52,12 +52,12 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
                     MediaStack stack, std::uint32_t others) {
   Crossing crossing;
   crossing.stackBehind = stack;
-  if (!effects.has(Effect::transmission) || !scene.materials[material].hasTransmission()) {
+  if (!effects.has(Effect::transmission) || !scene.materials[material].passesLight()) {
     return crossing;
   }
   const std::uint32_t medium = scene.mediumOfMaterial[material];
   crossing.dielectric = true;
-  crossing.stackBehind = crossed(stack, medium, entering);
+  if (medium != 0) crossing.stackBehind = crossed(stack, medium, entering);
   for (; others != 0; others >>= kOtherBits) {
     const std::uint32_t other = others & ((1u << kOtherBits) - 1);
     if (other >> 1 == 0) continue;  // kSharesPlace
@@ -65,7 +65,7 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
   }
   const std::uint32_t before = currentMedium(scene, stack);
   const std::uint32_t behind = currentMedium(scene, crossing.stackBehind);
-  crossing.hidden = before == behind;
+  crossing.hidden = medium != 0 && before == behind;
   crossing.n1 = scene.media[before].ior;
   crossing.n2 = scene.media[behind].ior;
   return crossing;

@@ -81,10 +81,10 @@ void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places)
   });
 }
 
-// Whether light meets `a` rather than `b`.
+// Whether light meets `a` rather than `b`: what is opaque first, and a sheet before a dielectric.
 bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
-  const bool opaqueA = a.medium == 0, opaqueB = b.medium == 0;
-  if (opaqueA != opaqueB) return opaqueA;
+  if (a.opaque != b.opaque) return a.opaque;
+  if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
   const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
   if (priorityA != priorityB) return priorityA > priorityB;
   return orderOf(idOf(a.candidate)) > orderOf(idOf(b.candidate));
@@ -106,7 +106,9 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
     Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false};
     if (effects.has(Effect::transmission)) {
-      place.medium = scene.mediumOfMaterial[scene.triangles[id.triangle].material];
+      const std::uint32_t material = scene.triangles[id.triangle].material;
+      place.medium = scene.mediumOfMaterial[material];
+      place.opaque = !scene.materials[material].passesLight();
     }
     place.entering = isEntered(scene, place.candidate, ray.direction);
     places.push_back(place);
@@ -129,7 +131,7 @@ Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const
   }
   Settled settled{first->candidate, first->hit, true};
   for (const Place& place : places) {
-    if (&place == first || first->medium == 0) continue;
+    if (&place == first || first->opaque || place.medium == 0) continue;
     settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);
   }
   if (places.size() > 1) settled.alsoCrossed |= kSharesPlace;

@@ -18,6 +18,7 @@ struct Place {
   TriangleHit hit;
   std::uint32_t medium = 0;  // of dielectrics
   bool entering = false;     // its outside is hit
+  bool opaque = true;
 };
 
 // All surfaces that the ray pierces there, that of `met` included, holes of alpha masks left out;

@@ -23,6 +23,7 @@ struct Surfel {
   RgbD diffuse, specular;  // textures and vertex colors applied
   RgbD emission{1, 1, 1};  // what they multiply the material's by
   double alpha = 1;        // width of the glossy lobe (GGX), roughness squared
+  double coverage = 1;     // the share of the surface that is there
   RayCone cone;            // of rays that go on from here
 };
 

@@ -28,6 +28,7 @@ Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.specular = {r.specularR, r.specularG, r.specularB};
   if (chunk.has(Feature::emissionFactors)) s.emission = {r.emissionR, r.emissionG, r.emissionB};
   if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
+  if (chunk.has(Feature::coverage)) s.coverage = r.coverage;
   s.cone.width = r.cone;
   return s;
 }

@@ -17,7 +17,7 @@ RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surf
     const RgbD up(scene.ambient.up), down(scene.ambient.down);
     radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
   }
-  return radiance;
+  return radiance * surfel.coverage;
 }
 
 RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,

@@ -16,13 +16,15 @@ void copy3(const Rgb& from, float* to) {
 }
 
 std::uint32_t flagsOf(const Material& m, EffectSet effects) {
-  const bool transmits = m.hasTransmission() && effects.has(Effect::transmission);
+  const bool transmits = m.passesLight() && effects.has(Effect::transmission);
+  const bool reflects = m.hasMirror() || (transmits && m.boundsMedium());
   std::uint32_t flags = 0;
-  if (effects.has(Effect::mirror) && (m.hasMirror() || transmits)) flags |= kMaterialReflects;
+  if (effects.has(Effect::mirror) && reflects) flags |= kMaterialReflects;
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
+  if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
@@ -40,6 +42,8 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   r.specularMap = textured && m.hasGlossy() ? m.specularMap : kNoTexture;
   r.roughnessMap = textured && m.hasGlossy() ? m.roughnessMap : kNoTexture;
   r.roughness = m.roughness;
+  r.coverage = m.coverage;
+  r.coverageMap = effects.has(Effect::coverage) ? m.coverageMap : kNoTexture;
   copy3(m.emission, r.emission);
   r.emissionMap = effects.has(Effect::emissionMaps) ? m.emissionMap : kNoTexture;
   r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
@@ -163,7 +167,7 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
                  [](const MaterialRecord& a, const MaterialRecord& b) {
                    return a.diffuseMap == b.diffuseMap && a.specularMap == b.specularMap &&
                           a.roughnessMap == b.roughnessMap && a.emissionMap == b.emissionMap &&
-                          a.normalMap == b.normalMap;
+                          a.normalMap == b.normalMap && a.coverageMap == b.coverageMap;
                  });
   if (!sameTextures) {
     tables = buildTables(scene, effects, shading, threads);

@@ -27,8 +27,9 @@ EffectSet effectsOf(const Material& m) {
   if (m.alphaMap != kNoTexture) e = e.with(Effect::alphaMasks);
   if (m.hasGlossy()) e = e.with(Effect::glossy);
   if (maxComponent(m.emission) > 0) e = e.with(Effect::emission);
-  if (m.hasMirror() || (m.hasTransmission() && m.ior != 1)) e = e.with(Effect::mirror);
-  if (m.hasTransmission()) e = e.with(Effect::transmission);
+  if (m.hasMirror() || (m.boundsMedium() && m.ior != 1)) e = e.with(Effect::mirror);
+  if (m.passesLight()) e = e.with(Effect::transmission);
+  if (m.isPartlyThere()) e = e.with(Effect::coverage);
   return e;
 }
 

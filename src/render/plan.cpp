@@ -23,13 +23,13 @@ EffectSet consistent(EffectSet e) {
   }
   if (!e.has(Effect::shadows)) e = e.without(Effect::softShadows);
   if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
-  if (!e.has(Effect::transmission)) e = e.without(Effect::absorption);
+  if (!e.has(Effect::transmission)) e = e.without(Effect::absorption).without(Effect::coverage);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;
 }
 
 FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSet e) {
-  const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps);
+  const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps) || e.has(Effect::coverage);
   const bool emission = e.has(Effect::emission);
   return FeatureSet()
       .with(Feature::ambient, e.has(Effect::ambient))
@@ -43,6 +43,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
             e.has(Effect::glossy) && e.has(Effect::textures) &&
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
+      .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows))
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
@@ -129,6 +130,9 @@ class Planner {
     if (plan_.features.has(Feature::roughnessMaps)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness, plan_.effects));
       plan_.perQueue.back().wants = kMaterialVariesRoughness;
+    }
+    if (plan_.features.has(Feature::coverage)) {
+      plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage, plan_.effects));
     }
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));

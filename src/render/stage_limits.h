@@ -216,6 +216,7 @@ inline std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
       {stage, "specular", rgb("specular"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "alpha", {"alpha"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "emission", rgb("emission"), kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "coverage", {"coverage"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "lift", xyz("lift"), kLiftLimit, notEdgeOn<byMagnitude>},
       {stage, "cone", {"cone"}, kConeLimit},
       {stage, "flags", {"flags"}, kExact, notEdgeOn<byItself>},

@@ -14,10 +14,13 @@ constexpr TextureRecord kUnused{0, 1, 1, 0};
 // One flag a texture of the scene.
 std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const ShadingTables& tables) {
   std::vector<bool> used(scene.textures.size(), false);
-  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps)) return used;
+  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps) &&
+      !effects.has(Effect::coverage)) {
+    return used;
+  }
   for (const MaterialRecord& m : tables.materials) {
     for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap}) {
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.coverageMap}) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }

@@ -11,12 +11,12 @@ namespace {
 
 // Whether exchanging one for the other can neither bring nor take away an effect or a medium.
 bool sameKind(const Material& a, const Material& b) {
-  const bool sameMedium = !a.hasTransmission() || (a.ior == b.ior && a.absorption == b.absorption &&
-                                                   a.priority == b.priority);
-  return sameMedium && a.hasTransmission() == b.hasTransmission() &&
-         a.hasGlossy() == b.hasGlossy() && a.hasGlossyReflection() == b.hasGlossyReflection() &&
-         a.hasMirror() == b.hasMirror() && isBlack(a.emission) == isBlack(b.emission) &&
-         isBlack(a.diffuse) == isBlack(b.diffuse);
+  const bool sameMedium = !a.boundsMedium() || (a.ior == b.ior && a.absorption == b.absorption &&
+                                                a.priority == b.priority);
+  return sameMedium && a.boundsMedium() == b.boundsMedium() &&
+         a.hasTransmission() == b.hasTransmission() && a.hasGlossy() == b.hasGlossy() &&
+         a.hasGlossyReflection() == b.hasGlossyReflection() && a.hasMirror() == b.hasMirror() &&
+         isBlack(a.emission) == isBlack(b.emission) && isBlack(a.diffuse) == isBlack(b.diffuse);
 }
 
 bool sameKindOfLight(const Light& a, const Light& b) {
@@ -33,6 +33,8 @@ void keepBaked(const Material& from, Material& to) {
   to.normalBySecondUvs = from.normalBySecondUvs;
   to.alphaMap = from.alphaMap;
   to.alphaCutoff = from.alphaCutoff;
+  to.coverage = from.coverage;
+  to.coverageMap = from.coverageMap;
   to.doubleSided = from.doubleSided;
   to.castsShadow = from.castsShadow;
 }
@@ -46,7 +48,7 @@ void checkAndMend(const Scene& scene, std::vector<Material>& materials,
   d.materials = materials;
   for (Material& m : d.materials) {  // maps were judged with the textures that they name
     m.diffuseMap = m.specularMap = m.roughnessMap = kNoTexture;
-    m.emissionMap = m.normalMap = m.alphaMap = kNoTexture;
+    m.emissionMap = m.normalMap = m.alphaMap = m.coverageMap = kNoTexture;
   }
   Warnings warnings(false);
   validate(d, warnings);

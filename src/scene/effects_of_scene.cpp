@@ -91,6 +91,8 @@ void Gatherer::materials() {
              [](const Material& m) { return m.normalMap != kNoTexture; });
   byMaterial(Effect::alphaMasks, "with an alpha mask",
              [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; });
+  byMaterial(Effect::coverage, "whose coverage is not 1",
+             [](const Material& m) { return m.isPartlyThere(); });
   byMaterial(Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); });
   byMaterial(Effect::glossyReflection, "whose glossy lobe reflects the scene",
              [](const Material& m) { return m.hasGlossyReflection(); });
@@ -100,14 +102,13 @@ void Gatherer::materials() {
 
 void Gatherer::impulses() {
   byMaterial(Effect::transmission, "with transmission",
-             [](const Material& m) { return m.hasTransmission(); });
+             [](const Material& m) { return m.passesLight(); });
   byMaterial(Effect::absorption, "with absorption",
              [](const Material& m) { return m.hasAbsorption(); });
   // Fresnel reflection needs two different refractive indices at a surface. The vacuum's is 1, so
   // one that differs from it is enough; and where none does, nested media do not reflect either.
-  byMaterial(Effect::mirror, "with a mirror or a reflecting dielectric", [](const Material& m) {
-    return m.hasMirror() || (m.hasTransmission() && m.ior != 1);
-  });
+  byMaterial(Effect::mirror, "with a mirror or a reflecting dielectric",
+             [](const Material& m) { return m.hasMirror() || (m.boundsMedium() && m.ior != 1); });
 }
 
 void Gatherer::geometry() {

@@ -43,7 +43,7 @@ void numberMedia(Scene& scene) {
   const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
-    if (!m.hasTransmission() || uses[i] == 0) continue;
+    if (!m.boundsMedium() || uses[i] == 0) continue;
     const Medium medium{m.ior, m.absorption, m.priority};
     const auto known = std::find_if(scene.media.begin() + 1, scene.media.end(),
                                     [&](const Medium& other) { return sameMedium(medium, other); });

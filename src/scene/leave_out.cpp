@@ -13,6 +13,10 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   if (effects.has(Effect::emissionMaps)) m.emissionMap = kNoTexture;
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;
   if (effects.has(Effect::alphaMasks)) m.alphaMap = kNoTexture;
+  if (effects.has(Effect::coverage) || effects.has(Effect::transmission)) {
+    m.coverage = 1;
+    m.coverageMap = kNoTexture;
+  }
   if (effects.has(Effect::glossy)) m.specular = kBlack;
   if (effects.has(Effect::glossyReflection)) m.glossyReflection = false;
   if (effects.has(Effect::emission)) m.emission = kBlack;
@@ -29,8 +33,8 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
 void dropUnusedTexels(SceneDescription& d) {
   std::vector<bool> used(d.textures.size(), false);
   for (const Material& m : d.materials) {
-    for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.alphaMap}) {
+    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap,
+                                   m.normalMap, m.alphaMap, m.coverageMap}) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }

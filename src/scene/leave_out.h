@@ -13,7 +13,8 @@ namespace whit {
 // Takes out what turns each effect on (see effects_of_scene.cpp): textures and normal maps, whose
 // texels go too when no material is left that uses them; alpha masks, so that masked surfaces
 // become solid; vertex normals; lobes, emission, lights; the sky, or of a sky image only the image,
-// in whose place comes a gradient; mirrors, transmission (glass becomes opaque) and absorption; all
+// in whose place comes a gradient; mirrors, transmission (glass becomes opaque), absorption,
+// coverage (what is there in part becomes whole); all
 // uses of an object but the first. Without shadows nothing casts any. Without mirror dielectrics
 // get the refractive index of the vacuum, because others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
@@ -27,7 +28,7 @@ inline constexpr std::array kAddedEffects{
     Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
     Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
     Effect::glossy,       Effect::glossyReflection,  Effect::instances,     Effect::mirror,
-    Effect::transmission, Effect::absorption,        Effect::softShadows,
+    Effect::transmission, Effect::absorption,        Effect::coverage,      Effect::softShadows,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

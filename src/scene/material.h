@@ -11,6 +11,8 @@
 //   + reflectance * radiance along the mirrored ray
 //   + mean of radiance along rays that sample the glossy lobe (where glossyReflection)
 //   + transmittance * radiance along the refracted ray
+// All of that counts by the share of the surface that is there (`coverage`); through the rest light
+// goes straight on, as glTF's and most other formats' alpha has it (Porter and Duff 1984).
 // With the mirror's weight m and Fresnel's reflectance F of the interface (0 of what is no
 // dielectric),
 //   reflectance = m + (1 - m) * F
@@ -29,6 +31,8 @@ namespace whit {
 inline constexpr std::int32_t kNoTexture = -1;
 
 inline constexpr float kLargestIor = 10;  // that a file can ask for
+
+inline constexpr float kClearCoverage = 1.0f / 1024;  // less is none
 
 // What the colors of vertices multiply: the base color, wherever that went.
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
@@ -52,6 +56,10 @@ struct Material {
   bool emissionBySecondUvs = false, normalBySecondUvs = false;
   std::int32_t alphaMap = kNoTexture;  // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
+  // The share of the surface that is there, times coverageMap (data, channel r). Shadows are cast
+  // by what covers half or more.
+  float coverage = 1;
+  std::int32_t coverageMap = kNoTexture;
 
   // Reflected impulse. The weight goes from `mirror` at normal incidence to `mirrorGrazing` at
   // grazing incidence with Schlick's (1 - cos)^5. A dielectric (transmission above zero) reflects
@@ -59,8 +67,10 @@ struct Material {
   Rgb mirror{0, 0, 0};
   Rgb mirrorGrazing{0, 0, 0};
 
-  // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric.
+  // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric, or is a
+  // sheet so thin that light goes straight on.
   Rgb transmission{0, 0, 0};
+  bool thin = false;
   float ior = 1.5f;
   Rgb absorption{0, 0, 0};  // per unit length, inside
   int priority = 0;         // of nested dielectrics: the highest wins where they overlap
@@ -79,7 +89,24 @@ struct Material {
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
-  bool hasAbsorption() const { return hasTransmission() && maxComponent(absorption) > 0; }
+  bool isPartlyThere() const { return coverage < 1 || coverageMap != kNoTexture; }
+  bool passesLight() const { return hasTransmission() || isPartlyThere(); }
+  // Whether another medium begins behind it. What is there in part is a sheet.
+  bool boundsMedium() const { return hasTransmission() && !thin && !isPartlyThere(); }
+  bool hasAbsorption() const { return boundsMedium() && maxComponent(absorption) > 0; }
+  // What is cut by its own coverage has holes where it is clear, and casts shadows where it covers
+  // half.
+  bool isCutByCoverage() const { return alphaMap != kNoTexture && alphaMap == coverageMap; }
+  float shadowCutoff() const {
+    return isCutByCoverage() ? std::clamp(0.5f / coverage, alphaCutoff, 1.0f) : alphaCutoff;
+  }
+  // Rays pass clear texels without a bounce.
+  void cutWhereClear() {
+    alphaMap = coverageMap;
+    alphaCutoff = kClearCoverage;
+  }
+  // Where nothing else is said.
+  bool blocksLight() const { return !hasTransmission() && coverage >= 0.5f; }
   // What --cutoff counts of the weights of the impulses that start here: 1, or less where they can
   // add up to more than 1 (a glossy lobe on glass). So a pixel's paths never count for more than 1
   // together, and a cutoff c leaves 1/c of them at most, whatever the materials and the depth;

@@ -78,7 +78,7 @@ std::vector<bool> seenTextures(const Scene& scene) {
   std::vector<bool> seen(scene.textures.size(), false);
   for (const Material& m : scene.materials) {
     for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap}) {
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.coverageMap}) {
       if (map != kNoTexture) seen[static_cast<std::size_t>(map)] = true;
     }
   }

@@ -118,7 +118,7 @@ class Scene {
   Sky sky;
   Ambient ambient;
   std::vector<Material> materials;
-  std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material has no transmission
+  std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material bounds none
   std::vector<Medium> media;                   // [0] is vacuum
   std::vector<Texture> textures;
 

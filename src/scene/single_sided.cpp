@@ -106,13 +106,15 @@ void settleSides(SceneDescription& description) {
   const auto isSingle = [&](const Mesh& mesh) {
     return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
       return m < culls.size() && !culls[m] && !description.materials[m].doubleSided &&
-             !description.materials[m].hasTransmission();
+             !description.materials[m].boundsMedium();
     });
   };
   // Through which its inside is seen.
   const auto hasHoles = [&](const Mesh& mesh) {
     return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
-      return m < culls.size() && description.materials[m].alphaMap != kNoTexture;
+      if (m >= culls.size()) return false;
+      const Material& material = description.materials[m];
+      return material.alphaMap != kNoTexture || material.passesLight();
     });
   };
   for (const Object& object : description.objects) {
@@ -126,7 +128,7 @@ void settleSides(SceneDescription& description) {
   }
   for (std::size_t i = 0; i < culls.size(); ++i) {
     Material& m = description.materials[i];
-    m.doubleSided = m.doubleSided || m.hasTransmission() || !culls[i];
+    m.doubleSided = m.doubleSided || m.boundsMedium() || !culls[i];
   }
 }
 

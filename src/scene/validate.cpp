@@ -171,6 +171,7 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
     checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color, true);
     checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
     checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
+    checkMap(d, where, "coverageMap", m.coverageMap, TexelFormat::data);
     if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {
       throwBadScene(where, "expected an ior above 0");
     }
@@ -180,6 +181,7 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
       repaired += repairChannels(*c);
     }
     repaired += repairFactor(m.roughness, fallback.roughness);
+    repaired += repairFactor(m.coverage, fallback.coverage);
     if (m.alphaMap != kNoTexture) repaired += repairFactor(m.alphaCutoff, fallback.alphaCutoff);
     warnings.add("material value out of range repaired", where, repaired);
   }

@@ -72,8 +72,10 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
 // must start (hard cases H1-H4), and `retreat`, on the viewer's side, how far back along the
 // viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
-// the material's emission is multiplied by `emission`; `lift` is added to the position where shadow
-// rays start; `cone` is the width that the ray's cone has reached, and its children's start with.
+// the material's emission is multiplied by `emission`; `coverage` is the share of the surface that
+// is there: of all that it sends so much arrives, and through the rest light goes straight on;
+// `lift` is added to the position where shadow rays start; `cone` is the width that the ray's cone
+// has reached, and its children's start with.
 #define WHIT_SURFEL_COLUMNS(X)          \
   X(float, posX, always)                \
   X(float, posY, always)                \
@@ -97,6 +99,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(float, emissionR, emissionFactors)  \
   X(float, emissionG, emissionFactors)  \
   X(float, emissionB, emissionFactors)  \
+  X(float, coverage, coverage)          \
   X(float, liftX, lift)                 \
   X(float, liftY, lift)                 \
   X(float, liftZ, lift)                 \

@@ -31,7 +31,8 @@ struct alignas(64) MaterialRecord {
   float spare2;
   float roughness;  // before it is bounded below; times the map's
   std::int32_t roughnessMap;
-  float spare3[2];
+  float coverage;
+  std::int32_t coverageMap;
 };
 static_assert(sizeof(MaterialRecord) == 128);
 inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kMaterialEmits = 4,
@@ -41,7 +42,7 @@ inline constexpr std::uint32_t kMaterialReflects = 1, kMaterialTransmits = 2, kM
 inline constexpr std::uint32_t kMaterialEmissionBySecondUvs = 128, kMaterialNormalBySecondUvs = 256;
 // The emission map's texels are of radiance, not of color.
 inline constexpr std::uint32_t kMaterialEmissionIsRadiance = 512;
-inline constexpr std::uint32_t kMaterialVariesRoughness = 1024;
+inline constexpr std::uint32_t kMaterialVariesRoughness = 1024, kMaterialIsPartlyThere = 2048;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
 // kTexelCells bilinear footprints that begin in it whole, so that neighbors repeat a row and a

@@ -325,6 +325,34 @@ Finding openGlass(const Setup& setup) {
   return finding;
 }
 
+// Of sheets that glow and are there by a quarter, from above and from below: what one leaves of the
+// light behind it the next one sees. Between them, and to both sides, no medium begins.
+Finding sheetsInPart(const Setup& setup) {
+  // Three roundings a sheet.
+  Finding finding(20 * 0x1p-24);
+  constexpr int kSheets = 6;
+  SceneBuilder builder;
+  Material sheet = blackMaterial();
+  sheet.emission = Rgb(1.0f);
+  sheet.coverage = 0.25f;
+  const auto material = builder.add(sheet);
+  for (int i = 0; i < kSheets; ++i) builder.add(floorAt(-static_cast<float>(i), 50, material));
+  builder.sky(5);
+  const Scene scene = builder.build();
+  RenderOptions options = optionsOf(setup, {17, 11});
+  options.depth = kSheets + 1;
+  options.cutoff = 0;
+  const double through = std::pow(0.75, kSheets), wanted = 1 - through + 5 * through;
+  for (const float height : {3.0f, -8.0f}) {
+    const Camera camera{.eye = {0, height, 0}, .at = {0, -2.5f, 0}, .up = {0, 0, -1}};
+    for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
+      finding.note(std::fabs(static_cast<double>(pixel.x) / wanted - 1),
+                   [&] { return "eye at " + hexText(double{height}); });
+    }
+  }
+  return finding;
+}
+
 // exp(-sigma t) of the kernel, the product from 0 to beyond underflow, and 0 times infinity.
 Finding absorption(const Setup& setup) {
   // Highway's exp is good to 2 ulp; the rounding of the product, amplified by its size, adds 88.
@@ -387,6 +415,9 @@ constexpr Case kNestedDielectricCases[] = {
      Runs::packets, whiteRim},
     {"H49", "sheets of glass without a far side", "six of them in a white room", Runs::packets,
      openGlass},
+    {"H49a", "sheets that are there in part",
+     "six of them, from both sides; relative error against the sum over sheets", Runs::packets,
+     sheetsInPart},
     {"H50", "absorption from nothing to everything",
      "sigma t from 0 to 1e30 and infinity; relative error", Runs::targets, absorption},
 };

@@ -92,6 +92,7 @@ void Probe::run(const simd::Kernel& kernel) {
 void Probe::interpolate() {
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);
   run(simd::kInterpolateSurfels);
+  if (chunk_.has(Feature::coverage)) run(simd::kLookUpCoverage);
 }
 
 void Probe::cast(const std::vector<ProbeRay>& rays) {
@@ -116,6 +117,7 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   s.diffuseR[i] = s.diffuseG[i] = s.diffuseB[i] = 1;
   s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;
   s.alpha[i] = 1;
+  s.coverage[i] = 1;
   s.material[i] = material;
   s.flags[i] = kEntering;
   s.mediaBehind[i] = rays_->media[i] << 8 | tables().materials[material].medium;

@@ -90,6 +90,10 @@ class RandomScene {
       m.alphaMap = map(TexelFormat::data);
       m.alphaCutoff = unit();
     }
+    if (one(6)) {
+      m.coverage = unit();
+      m.coverageMap = map(TexelFormat::data);
+    }
     if (one(3)) {
       m.mirror = color();
       m.mirrorGrazing = color();
@@ -99,6 +103,7 @@ class RandomScene {
       m.ior = one(4) ? 1.0f : static_cast<float>(std::pow(10.0, numbers_.in(-1, 1)));
       if (one(2)) m.absorption = color(amount());
       m.priority = below(5) - 2;
+      m.thin = one(4);
     }
     m.castsShadow = !one(4);
     return m;

@@ -94,7 +94,7 @@ void checkScene(const Scene& scene) {
   const std::int32_t textures = static_cast<std::int32_t>(scene.textures.size());
   for (const Material& m : scene.materials) {
     for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.normalMap, m.alphaMap}) {
+         {m.diffuseMap, m.specularMap, m.roughnessMap, m.normalMap, m.alphaMap, m.coverageMap}) {
       require(map == kNoTexture || (map >= 0 && map < textures), "a texture that is not there");
     }
   }

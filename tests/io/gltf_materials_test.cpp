@@ -195,14 +195,43 @@ TEST_F(GltfMaterials, BlendingLetsTheRestThrough) {
   expectColor(p[0], Rgb(0.25f) + Rgb{0.5f, 1, 0} * 0.75f);
 }
 
-TEST_F(GltfMaterials, EvenlyTranslucentTexturesBlendByTheirMean) {
-  save("t.tga", tga(2, 1, {{255, 255, 255, 51}, {255, 255, 255, 153}}));  // 0.2, 0.6
-  useImages({"t.tga"});
-  const auto p =
-      picture({{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"BLEND\""), 1},
-               {-1, glowing("[1,0,0]"), 4}},
-              1);
-  expectColor(p[0], Rgb{0.4f + 0.6f, 0.4f, 0.4f});
+TEST_F(GltfMaterials, BlendingCountsTexelByTexel) {
+  // 0.2, 0.6; times the factor's alpha
+  save("t.tga", tga(2, 1, {{255, 255, 255, 51}, {255, 255, 255, 153}}));
+  save("even.tga", tga(2, 1, {{255, 255, 255, 102}, {255, 255, 255, 102}}));
+  const auto show = [&](const std::string& image, const std::string& alpha) {
+    useImages({image});
+    return picture(
+        {{0,
+          matte("\"baseColorFactor\":[1,1,1," + alpha + "],\"baseColorTexture\":{\"index\":0}",
+                "\"alphaMode\":\"BLEND\""),
+          1},
+         {-1, glowing("[1,0,0]"), 4}},
+        2);
+  };
+  const auto blended = [](double alpha) {
+    const auto own = static_cast<float>(alpha * lit(0.5, 0.5));
+    return Rgb{own + static_cast<float>(1 - alpha), own, own};
+  };
+  for (const auto& [factor, text] : {std::pair(1.0, "1"), std::pair(0.5, "0.5")}) {
+    const auto pixels = show("t.tga", text);
+    expectColor(pixels[0], blended(0.2 * factor));
+    expectColor(pixels[1], blended(0.6 * factor));
+    expectColor(show("even.tga", text)[1], blended(0.4 * factor));
+  }
+}
+
+TEST_F(GltfMaterials, BlendingThatIsTheSameAllOverNeedsNoMap) {
+  save("even.tga", tga(2, 1, {{255, 255, 255, 102}, {9, 9, 9, 102}}));
+  useImages({"even.tga"});
+  const Material m =
+      loadText(
+          sceneText(
+              {{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"BLEND\""), 1}}))
+          .materials[0];
+  EXPECT_EQ(m.coverageMap, kNoTexture);
+  EXPECT_EQ(m.alphaMap, kNoTexture);
+  EXPECT_NEAR(m.coverage, 0.4f, 1e-6f);
 }
 
 TEST_F(GltfMaterials, TransmissionIsADielectric) {

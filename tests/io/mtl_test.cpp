@@ -81,9 +81,10 @@ TEST_F(Mtl, IlluminationModels) {
 TEST_F(Mtl, DissolveWithoutRefraction) {
   for (const char* statement : {"d 0.25\n", "d -halo 0.25\n", "Tr 0.75\n", "d 0.25\nTr 0.1\n"}) {
     const Material m = materialOf(std::string("Kd 0.5 0.5 0.5\nNi 1.5\n") + statement);
-    EXPECT_EQ(m.transmission, Rgb(0.75f)) << statement;
-    EXPECT_EQ(m.ior, 1) << statement;
-    EXPECT_EQ(m.diffuse, Rgb(0.125f)) << statement;
+    EXPECT_EQ(m.coverage, 0.25f) << statement;
+    EXPECT_FALSE(m.hasTransmission()) << statement;
+    EXPECT_FALSE(m.castsShadow) << statement;
+    EXPECT_EQ(m.diffuse, Rgb(0.5f)) << statement;
   }
 }
 

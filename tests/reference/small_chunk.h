@@ -1,13 +1,15 @@
 // A chunk of one block of slots, for the twins of the stages.
 #pragma once
 
+#include <algorithm>
+
 #include "reference/reference.h"
 #include "reference/twin.h"
 #include "stages/chunk.h"
 
 namespace whit::test {
 
-// Rays, hits and so on of slot 0 are set one by one; all others are zero.
+// Rays, hits and so on of slot 0 are set one by one; all others are zero. Surfels are whole.
 class SmallChunk {
  public:
   explicit SmallChunk(const Scene& scene, FeatureSet features = FeatureSet::all())
@@ -26,6 +28,7 @@ class SmallChunk {
     chunk.children = *children_;
     chunk.hits = *hits_;
     chunk.surfels = *surfels_;
+    if (features.has(Feature::coverage)) std::fill_n(chunk.surfels.coverage, kBlock, 1.0f);
     chunk.unshadowed = *unshadowed_;
     chunk.shadows = *shadows_;
   }

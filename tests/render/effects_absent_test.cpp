@@ -31,7 +31,7 @@ EffectSet withDependents(Effect effect) {
     case Effect::sky:
       return set.with(Effect::skyImage);
     case Effect::transmission:
-      return set.with(Effect::absorption);
+      return set.with(Effect::absorption).with(Effect::coverage);
     case Effect::glossy:
       return set.with(Effect::glossyReflection);
     default:
@@ -88,7 +88,7 @@ struct Cost {
   FrameStats stats;
   BufferBytes buffers;
   std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
-  bool skyImage = false, flush = false;
+  bool skyImage = false, flush = false, coverage = false;
 };
 
 Cost costWithout(EffectSet effects) {
@@ -107,6 +107,7 @@ Cost costWithout(EffectSet effects) {
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
   cost.flush = !scene.flush.empty();
+  cost.coverage = scene.effects.has(Effect::coverage);
   return cost;
 }
 
@@ -120,6 +121,7 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
                                   .with(Feature::flush, cost.flush)
                                   .with(Feature::glossy, glossy)
                                   .with(Feature::transmission, transmission)
+                                  .with(Feature::coverage, cost.coverage)
                                   .with(Feature::instances, instances);
   return ColumnStore<Columns>(cost.capacity, features).bytes();
 }
@@ -200,6 +202,15 @@ TEST(AbsentEffects, WithoutInstancesNoColumnAndNoTransforms) {
   const Cost cost = costWithout(EffectSet().with(Effect::instances));
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, false));
   EXPECT_EQ(cost.instances, 1u);  // what masked lanes read
+}
+
+TEST(AbsentEffects, WithoutCoverageNoKernelAndNoColumn) {
+  const Cost whole = costWithout(EffectSet().with(Effect::coverage)),
+             part = costWithout(EffectSet());
+  EXPECT_EQ(whole.stats.callsOf(simd::kLookUpCoverage), 0u);
+  EXPECT_GT(part.stats.callsOf(simd::kLookUpCoverage), 0u);
+  EXPECT_EQ(whole.buffers.surfels, columnBytes<SurfelColumns>(whole, true, true, true));
+  EXPECT_LT(whole.buffers.surfels, part.buffers.surfels);
 }
 
 TEST(AbsentEffects, WithoutTexturesNoTexels) {

@@ -117,10 +117,10 @@ TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
       const bool traces = use.stage == Stage::findIntersections || use.stage == Stage::checkShadows;
       if (traces) names.push_back(use.kernel);
     }
-    const std::vector<std::string> singly{"intersect", "interpolateSurfels", "liftShadowOrigins",
-                                          "occluded"};
+    const std::vector<std::string> singly{"intersect", "interpolateSurfels", "lookUpCoverage",
+                                          "liftShadowOrigins", "occluded"};
     const std::vector<std::string> inPackets{
-        "packRays",          "intersect",      "unpackHits", "interpolateSurfels",
+        "packRays",          "intersect",      "unpackHits", "interpolateSurfels", "lookUpCoverage",
         "liftShadowOrigins", "packShadowRays", "occluded",   "unpackVisibility"};
     EXPECT_EQ(names, packet == 1 ? singly : inPackets);
   }

@@ -55,6 +55,9 @@ const std::vector<Rule>& rules() {
        [](auto& d) { first(d).alphaMap = addTexture(d, TexelFormat::data); },
        "1 material with an alpha mask, 2 triangles use it",
        {}},
+      {Effect::coverage, [](auto& d) { first(d).coverage = 0.5f; },
+       "1 material whose coverage is not 1, 2 triangles use it",
+       EffectSet().with(Effect::transmission)},
       {Effect::smoothNormals,
        [](auto& d) {
          d.objects[0].meshes[0].normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1e-3f, 1}};

@@ -1,0 +1,257 @@
+// Surfaces that are there in part, and sheets: in the reference against sums of what is seen
+// without them, in the vector pipeline against the reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/plan.h"
+#include "render/row_of_tiles.h"
+#include "rounding.h"
+
+namespace whit::test {
+namespace {
+
+Material glowing(float radiance) {
+  Material m = blackMaterial();
+  m.emission = Rgb(radiance);
+  return m;
+}
+
+Material covering(Material m, float coverage) {
+  m.coverage = coverage;
+  return m;
+}
+
+// A square of the plane y = `height`, as wide as the scene.
+Mesh level(float height, std::uint32_t material) {
+  return quad({-9, height, 9}, {9, height, 9}, {9, height, -9}, {-9, height, -9}, material);
+}
+
+std::int32_t addMask(SceneBuilder& builder, const std::vector<float>& values) {
+  std::vector<std::uint32_t> texels;
+  for (const float v : values) texels.push_back(encodeDataTexel(v, 0.9f, 0.1f, 1));
+  return builder.add(
+      makeTexture(TexelFormat::data, static_cast<int>(values.size()), 1, std::move(texels)));
+}
+
+// Matte, shining, glowing and mirroring at once.
+Material everything() {
+  Material m = diffuseMaterial(0.6f);
+  m.specular = Rgb(0.9f, 0.5f, 0.2f);
+  m.roughness = 0.4f;
+  m.glossyReflection = false;
+  m.emission = {0.1f, 0.2f, 0.3f};
+  m.mirror = Rgb(0.3f);
+  m.mirrorGrazing = Rgb(0.8f);
+  return m;
+}
+
+// What is seen of a sheet of everything() over a floor, under a lamp that casts no shadow.
+RgbD overAFloor(float coverage, const Vec3d& direction) {
+  SceneBuilder builder;
+  Material sheet = covering(everything(), coverage);
+  sheet.castsShadow = false;
+  builder.add(level(0, builder.add(sheet)));
+  builder.add(level(-1, builder.add(diffuseMaterial(0.7f))));
+  builder.sky(0.4f);
+  builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
+  builder.description.lights = {lightAt({1, 3, 1}, 30)};
+  return radianceAlong(builder.build(), -direction * 2.0, direction);
+}
+
+TEST(Coverage, IsAShareOfAllThatASurfaceSends) {
+  for (const double degrees : {0.0, 40.0, 80.0}) {
+    const Vec3d down = steep(degrees);
+    const RgbD whole = overAFloor(1, down), none = overAFloor(0, down);
+    EXPECT_GT(std::fabs(whole.x - none.x), 0.05);
+    for (const double c : {0.25, 0.5, 0.9}) {
+      const RgbD seen = overAFloor(static_cast<float>(c), down),
+                 wanted = whole * c + none * (1 - c);
+      EXPECT_NEAR(seen.x, wanted.x, 1e-6) << degrees << " " << c;
+      EXPECT_NEAR(seen.z, wanted.z, 1e-6) << degrees << " " << c;
+    }
+  }
+}
+
+TEST(Coverage, CountsTexelByTexel) {
+  SceneBuilder builder;
+  Material sheet = covering(glowing(1), 0.5f);
+  sheet.coverageMap = addMask(builder, {0, 0.2f, 0.6f, 1});
+  builder.add(quad({0, 0, 0}, {4, 0, 0}, {4, 0, -1}, {0, 0, -1}, builder.add(sheet)));
+  builder.add(level(-1, builder.add(glowing(3))));
+  const Scene scene = builder.build();
+  reference::Settings settings = uncut();
+  settings.options.shading.textureFilter = TextureFilter::nearest;
+  const double values[] = {0, 0.2, 0.6, 1};
+  for (int i = 0; i < 4; ++i) {
+    const double seen = radianceAlong(scene, {i + 0.5, 2, -0.5}, {0, -1, 0}, settings).x;
+    const double c = values[i] * 0.5;
+    EXPECT_NEAR(seen, c + 3 * (1 - c), 1e-6) << i;
+  }
+}
+
+// From the front and from behind, where an open sheet that bounded a medium would be taken for the
+// end of one that never began.
+TEST(Coverage, LetsThroughSheetAfterSheetFromEitherSide) {
+  for (const int sheets : {1, 2, 7}) {
+    SceneBuilder builder;
+    const auto sheet = builder.add(covering(glowing(1), 0.25f));
+    for (int i = 0; i < sheets; ++i) builder.add(level(static_cast<float>(-i), sheet));
+    builder.sky(5);
+    const Scene scene = builder.build();
+    const double through = std::pow(0.75, sheets), wanted = 1 - through + 5 * through;
+    const reference::Settings settings = uncut(9);
+    EXPECT_NEAR(radianceAlong(scene, {0, 1, 0}, steep(30), settings).x, wanted, 1e-6) << sheets;
+    EXPECT_NEAR(radianceAlong(scene, {0, -8, 0}, -steep(30), settings).x, wanted, 1e-6) << sheets;
+  }
+}
+
+TEST(Coverage, OfASheetInWaterBendsNothing) {
+  const auto picture = [](bool withSheet) {
+    SceneBuilder builder;
+    builder.add(box({-4, -4, -4}, {4, 4, 4}, builder.add(glassMaterial(1.33f))));
+    if (withSheet) {
+      builder.add(quad({-3, -3, -1}, {3, -3, -1}, {3, 3, -1}, {-3, 3, -1},
+                       builder.add(covering(glowing(0), 0.5f))));
+    }
+    Object lamp;
+    lamp.meshes = {box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(glowing(1)))};
+    builder.place(std::move(lamp), {Affine(), Affine::translation({1, 1, 0})});
+    builder.description.cameras = {{.eye = {0.1f, 0.2f, 3}, .at = {0, 0, 0}}};
+    RenderOptions o = smallOptions();
+    o.depth = 2;
+    return render(builder.build(), o).image;
+  };
+  const Image clear = picture(false), veiled = picture(true);
+  std::size_t seen = 0, different = 0;
+  for (std::size_t i = 0; i < clear.pixels.size(); ++i) {
+    if (clear.pixels[i].x != 1) continue;
+    ++seen;
+    different += std::fabs(veiled.pixels[i].x - 0.5f) > 1e-6f;
+  }
+  EXPECT_GT(seen, 100u);
+  EXPECT_LE(different, kPixelsAtEdges);
+}
+
+TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
+  SceneBuilder builder;
+  builder.add(level(0, builder.add(glowing(1))));
+  builder.add(level(-1, builder.add(glowing(9))));
+  builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+                   builder.add(covering(glowing(0), 0.5f))));
+  const Scene scene = builder.build();
+  for (const double x : {-0.7, 0.3, 0.9, 2.0}) {
+    EXPECT_EQ(radianceAlong(scene, {x, 2, 0.4}, {0, -1, 0}).x, 1) << x;
+  }
+}
+
+TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
+  for (const float factor : {1.0f, 0.9f}) {
+    SceneBuilder builder;
+    Material sheet = covering(blackMaterial(), factor);
+    sheet.coverageMap = addMask(builder, {0.1f, 0.45f, 0.6f, 1});
+    sheet.cutWhereClear();
+    builder.add(quad({0, 1, 0}, {4, 1, 0}, {4, 1, -1}, {0, 1, -1}, builder.add(sheet)));
+    builder.add(level(0, builder.add(diffuseMaterial(0.5f))));
+    builder.description.lights = {sun({0, -1, 0}, 2)};
+    const Scene scene = builder.build();
+    const bool lit[] = {true, true, false, false};
+    for (int i = 0; i < 4; ++i) {
+      const double seen = radianceAlong(scene, {i + 0.5, 0.5, -0.5}, {0, -1, 0}).x;
+      EXPECT_NEAR(seen, lit[i] ? 1 / 3.14159265358979 : 0, 1e-6) << i << " " << factor;
+    }
+  }
+}
+
+TEST(Coverage, ClearTexelsAreNoBounce) {
+  SceneBuilder builder;
+  Material sheet = glowing(1);
+  sheet.coverageMap = addMask(builder, {0});
+  sheet.cutWhereClear();
+  builder.add(level(0, builder.add(sheet)));
+  builder.sky(0.5f);
+  reference::RayCounts counts;
+  EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, uncut(), &counts).x, 0.5);
+  EXPECT_EQ(counts.refraction, 0u);
+}
+
+// Of any index: what is thin begins no medium.
+TEST(ThinSheet, TintsWhatGoesStraightOn) {
+  SceneBuilder builder;
+  Material sheet = blackMaterial();
+  sheet.transmission = {0.5f, 0.25f, 1};
+  sheet.thin = true;
+  sheet.ior = 1.7f;
+  sheet.mirror = sheet.mirrorGrazing = Rgb(0.25f);
+  builder.add(level(0, builder.add(sheet)));
+  builder.sky(0.4f);
+  const Scene scene = builder.build();
+  for (const double height : {1.0, -1.0}) {
+    const RgbD seen = radianceAlong(scene, {0, height, 0}, steep(60) * height);
+    EXPECT_NEAR(seen.x, 0.4 * (0.25 + 0.5 * 0.75), 1e-6);
+    EXPECT_NEAR(seen.y, 0.4 * (0.25 + 0.25 * 0.75), 1e-6);
+    EXPECT_NEAR(seen.z, 0.4 * (0.25 + 0.75), 1e-6);
+  }
+}
+
+// Tiles that cover by maps and numbers, mirror and shine, one over the other, and a thin one.
+Scene coveringTiles() {
+  SceneBuilder builder;
+  const std::int32_t few = addMask(builder, {0, 0.3f, 1, 0.6f});
+  std::vector<float> many;
+  for (int i = 0; i < 37; ++i) many.push_back(static_cast<float>(i) / 36);
+  const std::int32_t slope = addMask(builder, many);
+  builder.sky(0.3f);
+  return rowOfTiles(builder, [&](int i) {
+    Material m = everything();
+    m.glossyReflection = i % 2 == 0;
+    m.coverage = i == 1 ? 1.0f : 0.8f;
+    if (i != 2) m.coverageMap = i < 2 ? few : slope;
+    if (i > 3) m.cutWhereClear();
+    if (i == 5) {
+      m.transmission = Rgb(0.5f);
+      m.thin = true;
+    }
+    const std::uint32_t material = builder.add(m);
+    Mesh tile = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
+    const Mesh upper = tile;
+    tile.uvs.insert(tile.uvs.end(), upper.uvs.begin(), upper.uvs.end());
+    for (const Vec3f& p : upper.positions) tile.positions.push_back({p.x, p.y - 0.5f, p.z});
+    for (const auto& [p, q, r] : upper.triangles) tile.triangles.push_back({p + 4, q + 4, r + 4});
+    tile.materials.assign(tile.triangles.size(), material);
+    return tile;
+  });
+}
+
+RenderOptions withSamples() {
+  RenderOptions o = smallOptions();
+  o.glossy = 2;
+  return o;
+}
+
+TEST(Coverage, AgreesWithTheReferenceOnEveryTarget) {
+  const Scene scene = coveringTiles();
+  for (const TextureFilter filter :
+       {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
+    RenderOptions o = withSamples();
+    o.shading.textureFilter = filter;
+    expectTheReferenceOnEveryTarget(scene, o);
+  }
+}
+
+TEST(Coverage, KeepsItsBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(coveringTiles(), withSamples());
+}
+
+TEST(Coverage, HasAStepWhereTheSceneHasSome) {
+  Scene scene = coveringTiles();
+  EXPECT_NE(makePlan(scene, withSamples()).find("lookUpCoverage"), nullptr);
+  for (const Effect effect : {Effect::coverage, Effect::transmission}) {
+    RenderOptions o = withSamples();
+    o.disable = EffectSet().with(effect);
+    EXPECT_EQ(makePlan(scene, o).find("lookUpCoverage"), nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
