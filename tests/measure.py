@@ -43,7 +43,8 @@ SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
 KERNELS = [("generateRays",), ("packRays", "unpackHits"), ("interpolateSurfels",),
-           ("liftShadowOrigins",), ("writeEmittedAndReflectiveAmbient",),
+           ("lookUpRoughness",), ("lookUpCoverage",), ("liftShadowOrigins",),
+           ("writeEmittedAndReflectiveAmbient",),
            ("findRadianceAndShadowRays",), ("packShadowRays", "unpackVisibility"), ("addShading",),
            ("addReflections",), ("addRefractions",), ("addGlossyReflections",), ("returnImpulses",)]
 

@@ -53,6 +53,7 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   member("mirror", &Material::mirror);
   member("mirrorGrazing", &Material::mirrorGrazing);
   member("transmission", &Material::transmission);
+  member("thin", &Material::thin);
   member("ior", &Material::ior);
   member("absorption", &Material::absorption);
   member("vertexTint", &Material::vertexTint);

@@ -34,6 +34,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
                       : 0.5f;
   if (g.alphaMode == GltfMaterial::Alpha::blend) {
     m.coverage = g.alpha * means.alpha;
+    m.thin = means.alphaByMap;
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
   }
   // A mask that cuts everything, with or without a map.

@@ -21,6 +21,7 @@ const char* sceneWith(Effect effect) {
       return "landscape?triangles=20000";
     case Effect::skyImage:
     case Effect::glossyReflection:
+    case Effect::coverage:
     case Effect::emissionMaps:
     case Effect::vertexColors:
     case Effect::spotLights:
