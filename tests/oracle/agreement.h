@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "library/whit.h"
+#include "oracle/chance.h"
 #include "oracle/random_parts.h"
 #include "oracle/tracer.h"
 #include "oracle/write_scene.h"
@@ -60,6 +62,8 @@ struct Tally {
   int pixels = 0, leftOut = 0, wrong = 0;
   double worst = 0;  // of those that are not left out
   std::string firstWrong;
+  std::map<const Triangle*, Sum> sums;  // by what the pixels show
+  Sum sampled;                          // the pixels that have samples
 };
 
 class Agreement : public testing::Test {
@@ -86,9 +90,18 @@ class Agreement : public testing::Test {
       compare(kind, seen, file, "reference", kReferenceTolerance, reference);
       compare(kind, seen, file, "packets", kPacketTolerance, packets);
     }
+    expectNoBias(reference.sampled, kind.name + ", reference");
+    expectNoBias(packets.sampled, kind.name + ", packets");
     std::printf("%s: %d scenes, %d pixels; reference %.1e off, %d left out; packets %.1e, %d\n",
                 kind.name.c_str(), scenes, packets.pixels, reference.worst, reference.leftOut,
                 packets.worst, packets.leftOut);
+    const auto describeSum = [](const char* mode, const Sum& sum) {
+      if (sum.pixels() == 0) return;
+      std::printf("  %d with samples, together: %s %.2f of what is allowed, which is %.1e\n",
+                  sum.pixels(), mode, sum.worst(), sum.largestTolerance());
+    };
+    describeSum("reference", reference.sampled);
+    describeSum("packets", packets.sampled);
   }
 
  private:
@@ -97,15 +110,16 @@ class Agreement : public testing::Test {
     Tracer tracer;
     const Scene& scene;
     std::vector<Sight> sights;  // of the pixels' centers
-    double mean = 0;
+    double mean = 0, brightest = 0;
   };
 
   static Seen look(const Scene& scene, const Options& options) {
-    Seen seen{Tracer(scene, options), scene, {}, 0};
+    Seen seen{Tracer(scene, options), scene, {}};
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
         seen.sights.push_back(seen.tracer.look(x + 0.5, y + 0.5));
         seen.mean += largest(seen.sights.back().radiance);
+        seen.brightest = std::max(seen.brightest, seen.sights.back().brightest);
       }
     }
     seen.mean /= static_cast<double>(seen.sights.size());
@@ -136,6 +150,7 @@ class Agreement : public testing::Test {
     whit::api::Renderer renderer(whit::api::loadScene(file, load));
     renderer.set("mode", mode).set("cutoff", "0").set("threads", "2");
     renderer.set("depth", std::to_string(kind.options.depth));
+    renderer.set("glossy", std::to_string(kind.options.glossy));
     renderer.set("terminator", kind.options.terminator ? "on" : "off");
     renderer.set("fresnel", kind.options.schlickFresnel ? "schlick" : "exact");
     renderer.set("texture-filter", kind.options.nearestTexel ? "nearest" : "bilinear");
@@ -154,25 +169,35 @@ class Agreement : public testing::Test {
         const Color got{image.rgb()[3 * i], image.rgb()[3 * i + 1], image.rgb()[3 * i + 2]};
         const Sight& wanted = seen.sights[i];
         const double unit = seen.mean + largest(wanted.radiance);
-        const double off = differenceOf(got, wanted.radiance) / unit;
+        const double rounding = tolerance * kind.rounding * unit;
+        const double off = differenceOf(got, wanted.radiance);
         ++tally.pixels;
-        if (off <= tolerance * kind.rounding) {
-          tally.worst = std::max(tally.worst, off);
-        } else if (tally.wrong < kEnoughWrong &&
-                   decidedByAnEdge(seen, x, y, wanted, kBeside * kind.rounding,
-                                   0.5 * tolerance * kind.rounding * unit)) {
-          ++tally.leftOut;
-        } else if (tally.worst = std::max(tally.worst, off); tally.wrong++ == 0) {
-          tally.firstWrong = describe(x, y, got, wanted.radiance);
+        if (off >
+            rounding + chance(largest(wanted.variance), wanted.largestSample * seen.brightest)) {
+          if (tally.wrong < kEnoughWrong &&
+              decidedByAnEdge(seen, x, y, wanted, kBeside * kind.rounding, 0.5 * rounding)) {
+            ++tally.leftOut;
+            continue;
+          }
+          if (tally.wrong++ == 0) tally.firstWrong = describe(x, y, got, wanted.radiance);
         }
+        tally.worst = std::max(tally.worst, off / unit);
+        tally.sums[seen.tracer.nearest(x + 0.5, y + 0.5)].add(got, wanted, rounding,
+                                                              seen.brightest);
+        if (largest(wanted.variance) > 0) all.sampled.add(got, wanted, rounding, seen.brightest);
       }
     }
+    for (const auto& [triangle, sum] : tally.sums) expectNoBias(sum, mode + " of " + file);
     EXPECT_EQ(tally.wrong, 0) << "of " << tally.pixels << " pixels of " << mode << " of " << file
                               << ", the worst off by " << tally.worst << "; the first is "
                               << tally.firstWrong;
     EXPECT_LE(tally.leftOut, kLargestShareLeftOut * tally.pixels) << mode << " of " << file;
     all.pixels += tally.pixels, all.leftOut += tally.leftOut;
     all.worst = std::max(all.worst, tally.worst);
+  }
+
+  static void expectNoBias(const Sum& sum, const std::string& what) {
+    EXPECT_LE(sum.worst(), 1) << "of what chance allows, pixels of " << what << " taken together";
   }
 
   static std::string describe(int x, int y, const Color& got, const Color& wanted) {

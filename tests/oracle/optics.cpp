@@ -67,21 +67,58 @@ Vec refracted(const Vec& direction, const Vec& normal, double n1, double n2) {
   return normalized(direction * eta + normal * (eta * cosine - behind));
 }
 
+namespace {
+
+double squaredAlpha(const Material& material) { return std::pow(material.roughness, 4); }
+
+double smithLambda(const Material& material, double cosine) {
+  const double tangent2 = 1 / (cosine * cosine) - 1;
+  return (std::sqrt(1 + squaredAlpha(material) * tangent2) - 1) / 2;
+}
+
+}  // namespace
+
+double facetsFacing(const Material& material, double nh) {
+  const double a2 = squaredAlpha(material), width = nh * nh * (a2 - 1) + 1;
+  return a2 / (kPi * width * width);
+}
+
+double shareSeen(const Material& material, double nv) {
+  return 1 / (1 + smithLambda(material, nv));
+}
+
+Vec facetSeen(const Material& material, const Vec& normal, const Vec& toViewer, double u,
+              double v) {
+  const double alpha = std::sqrt(squaredAlpha(material));
+  const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
+  const Vec x = normalized(cross(other, normal)), y = cross(normal, x);
+  // Where the facets make a hemisphere: a point of the disk that the view sees of it.
+  const Vec view =
+      normalized({alpha * dot(toViewer, x), alpha * dot(toViewer, y), dot(toViewer, normal)});
+  const double aside = std::hypot(view.x, view.y);
+  const Vec right = aside > 0 ? Vec{-view.y / aside, view.x / aside, 0} : Vec{1, 0, 0};
+  const Vec up = cross(view, right);
+  const double radius = std::sqrt(u), turn = 2 * kPi * v, across = radius * std::cos(turn);
+  const double seen = (1 + view.z) / 2;
+  const double along = (1 - seen) * std::sqrt(1 - across * across) + seen * radius * std::sin(turn);
+  const double out = std::sqrt(std::max(0.0, 1 - across * across - along * along));
+  const Vec facet = right * across + up * along + view * out;
+  return normalized(x * (alpha * facet.x) + y * (alpha * facet.y) +
+                    normal * std::max(0.0, facet.z));
+}
+
+Color lobeReflectance(const Material& material, double vh) {
+  const double grazing = clamped(largest(material.specular) / 0.04);
+  return schlick(material.specular, gray(grazing), vh);
+}
+
 Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
                  const Vec& toLight) {
   const Vec half = normalized(toViewer + toLight);
   const double nl = dot(normal, toLight), nv = dot(normal, toViewer), nh = dot(normal, half);
-  const double alpha = material.roughness * material.roughness, a2 = alpha * alpha;
-  const double width = nh * nh * (a2 - 1) + 1;
-  const double distribution = a2 / (kPi * width * width);
-  const auto lambda = [&](double cosine) {
-    const double tangent2 = 1 / (cosine * cosine) - 1;
-    return (std::sqrt(1 + a2 * tangent2) - 1) / 2;
-  };
-  const double masking = 1 / (1 + lambda(nl) + lambda(nv));
-  const double grazing = clamped(largest(material.specular) / 0.04);
-  const Color reflectance = schlick(material.specular, gray(grazing), dot(toViewer, half));
-  return reflectance * (distribution * masking / (4 * nl * nv));
+  const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
+  return lobeReflectance(material, dot(toViewer, half)) *
+         (facetsFacing(material, nh) * masking / (4 * nl * nv));
 }
 
 Arrival arrivalOf(const Light& light, const Vec& point) {

@@ -24,6 +24,17 @@ Vec refracted(const Vec& direction, const Vec& normal, double n1, double n2);
 Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
                  const Vec& toLight);
 
+// Of its facets, which the viewer sees at this cosine.
+Color lobeReflectance(const Material& material, double vh);
+
+// The normals of the lobe's facets, 1/sr: D of Walter et al. 2007.
+double facetsFacing(const Material& material, double nh);
+// The share of them that a viewer at this cosine sees: Smith's G1.
+double shareSeen(const Material& material, double nv);
+// One of those that are seen, by a point of the unit square (Heitz 2018, "Sampling the GGX
+// distribution of visible normals", appendix A).
+Vec facetSeen(const Material& material, const Vec& normal, const Vec& toViewer, double u, double v);
+
 // What arrives of a light at a point that faces it, and from where.
 struct Arrival {
   Color irradiance;

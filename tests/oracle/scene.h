@@ -11,6 +11,9 @@ namespace oracle {
 
 inline constexpr int kNone = -1;
 
+// Of a member that a file may leave out.
+enum class Choice { unsaid, no, yes };
+
 struct Texture {
   int width = 0, height = 0;
   std::vector<std::array<bool, 3>> texels;  // from the top left: channels of 0 or 1, exact as sRGB
@@ -26,10 +29,18 @@ struct Material {
   double ior = 1.5;
   Color absorption;
   int priority = 0;
+  Choice glossyReflection = Choice::unsaid;
   bool castsShadow = true;
   int diffuseMap = kNone, specularMap = kNone, emissionMap = kNone;  // multiply what they name
 
   bool isDielectric() const { return largest(transmission) > 0; }
+  bool isMirror() const { return largest(mirror) > 0 || largest(mirrorGrazing) > 0; }
+  // Whether the glossy lobe reflects the scene, where anything asks for it.
+  bool reflectsGlossily() const {
+    if (!(largest(specular) > 0)) return false;
+    if (glossyReflection != Choice::unsaid) return glossyReflection == Choice::yes;
+    return !isMirror() && !isDielectric();
+  }
 };
 
 struct Mesh {
@@ -104,6 +115,7 @@ struct Scene {
 // Of a render: the options of whit of the same names.
 struct Options {
   int depth = 8;
+  int glossy = 0;
   bool terminator = false;
   bool nearestTexel = false;
   bool schlickFresnel = false;

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "oracle/integral.h"
 #include "oracle/optics.h"
 
 namespace oracle {
@@ -15,6 +16,14 @@ constexpr double kNegligible = 1e-10;
 // that the surface may have to turn back.
 constexpr double kSkimming = 0.011;
 
+// A lobe of no more than this alpha is a mirror's.
+constexpr double kSmooth = 1e-3;
+
+// Along either side of the square that an integral is over: where whit takes many samples, where it
+// takes one, and where a sample meets the next integral, of which the mean over many is right
+// however few there are.
+constexpr int kPointsASide = 12, kFewerPointsASide = 6, kFewestPointsASide = 2;
+
 }  // namespace
 
 // A point of a surface, everything turned to the side that the ray comes from.
@@ -26,14 +35,30 @@ struct Tracer::Surface {
   Material material;  // textures and vertex colors applied
 };
 
+int Tracer::pointsASide(const Branch& branch) {
+  if (branch.sampled) return kFewestPointsASide;
+  return branch.depth == 0 ? kPointsASide : kFewerPointsASide;
+}
+
+struct Tracer::Impulse {
+  Vec direction;
+  Color part;
+  Media media;
+  double height;  // sine over the plane, on its side
+};
+
 Tracer::Tracer(const Scene& scene, const Options& options)
     : scene_(scene), options_(options), geometry_(scene) {}
 
 Sight Tracer::look(double x, double y) const {
   const Ray ray = eyeRay(x, y);
-  Sight sight;
-  sight.radiance = trace(ray, 0, 1, mediaAround(ray.origin), sight.undecided);
-  return sight;
+  Random random(static_cast<std::uint32_t>(std::floor(y) * scene_.width + std::floor(x)));
+  return trace(ray, {0, 1, false, mediaAround(ray.origin)}, random);
+}
+
+const Triangle* Tracer::nearest(double x, double y) const {
+  const std::optional<Hit> hit = geometry_.nearest(eyeRay(x, y));
+  return hit ? hit->triangle : nullptr;
 }
 
 Ray Tracer::eyeRay(double x, double y) const {
@@ -113,39 +138,46 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit) const {
   return s;
 }
 
-Color Tracer::trace(const Ray& ray, int depth, double weight, const Media& media,
-                    double& undecided) const {
-  if (weight < kNegligible) return {};
-  const Color absorption = media.current().absorption;
+Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
+  if (branch.weight < kNegligible) return {};
+  const Color absorption = branch.media.current().absorption;
   const std::optional<Hit> hit = geometry_.nearest(ray);
-  if (!hit) return skyAlong(scene_.sky, ray.direction) * transmittance(absorption, INFINITY);
+  if (!hit) {
+    const Color left = transmittance(absorption, INFINITY);
+    const Color sky = skyAlong(scene_.sky, ray.direction) * left;
+    return {.radiance = sky, .brightest = largest(sky)};
+  }
   const Color left = transmittance(absorption, hit->t);
-  weight *= largest(left);
+  Branch there = branch;
+  there.weight *= largest(left);
 
   const Surface surface = surfaceAt(ray, *hit);
-  Media behind = media;
+  Media behind = branch.media;
   if (surface.material.isDielectric()) {
     const Medium medium = mediumOf(surface.material);
     surface.entering ? behind.enter(medium) : behind.leave(medium);
-    if (behind.current() == media.current()) {  // the surface is not there
-      if (depth == options_.depth) return {};
-      const Ray on{surface.position, ray.direction};
-      return trace(on, depth + 1, weight, behind, undecided) * left;
+    if (behind.current() == branch.media.current()) {  // the surface is not there
+      if (branch.depth == options_.depth) return {};
+      ++there.depth;
+      there.media = behind;
+      return trace({surface.position, ray.direction}, there, random) * left;
     }
   }
-  Color radiance =
-      surface.material.emission +
-      surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal) +
-      lightFrom(surface, weight, undecided);
-  if (depth < options_.depth) {
-    radiance += impulses(surface, depth, weight, media, behind, undecided);
+  Sight seen = lightFrom(surface);
+  seen.radiance += surface.material.emission +
+                   surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
+  if (there.depth < options_.depth) {
+    seen += impulses(surface, there, behind, random);
+    seen += glossyReflection(surface, there, random);
   }
-  return radiance * left;
+  seen = seen * left;
+  seen.brightest = std::max(seen.brightest, largest(seen.radiance));
+  return seen;
 }
 
-Color Tracer::lightFrom(const Surface& surface, double weight, double& undecided) const {
+Sight Tracer::lightFrom(const Surface& surface) const {
   const Material& material = surface.material;
-  Color sum;
+  Sight sum;
   for (const Light& light : scene_.lights) {
     const Arrival arrival = arrivalOf(light, surface.position);
     const double cosine = dot(surface.normal, arrival.toLight);
@@ -155,12 +187,12 @@ Color Tracer::lightFrom(const Surface& surface, double weight, double& undecided
     if (largest(material.specular) > 0) {
       // The lobe has no value for a viewer behind it.
       if (dot(surface.normal, surface.toViewer) < kSkimming) {
-        undecided += weight;
+        sum.undecided += 1;
       } else {
         reflected += glossyLobe(material, surface.normal, surface.toViewer, arrival.toLight);
       }
     }
-    sum += reflected * arrival.irradiance * cosine;
+    sum.radiance += reflected * arrival.irradiance * cosine;
   }
   return sum;
 }
@@ -192,40 +224,73 @@ Color underCoat(const Color& transmission, const Color& coat) {
 
 }  // namespace
 
-Color Tracer::impulses(const Surface& surface, int depth, double weight, const Media& media,
-                       const Media& behind, double& undecided) const {
+Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
+                     Random& random) const {
+  const double most = largest(impulse.part);
+  const Branch child{branch.depth + 1, branch.weight * most, branch.sampled, impulse.media};
+  Sight seen = trace({surface.position, impulse.direction}, child, random) * impulse.part;
+  if (surface.smooth && impulse.height < kSkimming) seen.undecided += most;
+  return seen;
+}
+
+Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media& behind,
+                       Random& random) const {
   const Material& material = surface.material;
-  const bool reflects = largest(material.mirror) > 0 || largest(material.mirrorGrazing) > 0;
-  if (!reflects && !material.isDielectric()) return {};
+  if (!material.isMirror() && !material.isDielectric()) return {};
   const Vec direction = -surface.toViewer;
   const double cosine = dot(surface.toViewer, surface.normal);
-  if (surface.smooth && cosine < kSkimming) {
-    undecided += weight;
-    return {};
-  }
-  Color radiance;
+  if (surface.smooth && cosine < kSkimming) return {.undecided = 1};
+  Sight sum;
   const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
   Color reflectance = coat;
   if (material.isDielectric()) {
-    const double n1 = media.current().ior, n2 = behind.current().ior;
+    const double n1 = branch.media.current().ior, n2 = behind.current().ior;
     const double interface =
         options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
     reflectance += (gray(1) - coat) * interface;
     if (interface < 1) {
-      const Ray on{surface.position, refracted(direction, surface.normal, n1, n2)};
+      const Vec on = refracted(direction, surface.normal, n1, n2);
       const Color passed = underCoat(material.transmission, coat) * (1 - interface);
-      const double part = weight * largest(passed);
-      if (surface.smooth && -dot(on.direction, surface.plane) < kSkimming) undecided += part;
-      radiance += passed * trace(on, depth + 1, part, behind, undecided);
+      sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
   }
   if (largest(reflectance) > 0) {
-    const Ray back{surface.position, mirrored(direction, surface.normal)};
-    const double part = weight * largest(reflectance);
-    if (surface.smooth && dot(back.direction, surface.plane) < kSkimming) undecided += part;
-    radiance += reflectance * trace(back, depth + 1, part, media, undecided);
+    const Vec back = mirrored(direction, surface.normal);
+    const double height = dot(back, surface.plane);
+    sum += follow(surface, branch, {back, reflectance, branch.media, height}, random);
   }
-  return radiance;
+  return sum;
+}
+
+// By the facets that are seen, as whit samples them; what they reflect has the density
+// D G1 / (4 nv).
+Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Random& random) const {
+  const Material& material = surface.material;
+  if (options_.glossy == 0 || !material.reflectsGlossily()) return {};
+  const Vec& normal = surface.normal;
+  const Vec& toViewer = surface.toViewer;
+  const double nv = dot(normal, toViewer);
+  if (surface.smooth && nv < kSkimming) return {.undecided = 1};
+  if (material.roughness * material.roughness <= kSmooth) {
+    const Vec back = mirrored(-toViewer, normal);
+    const Color part = lobeReflectance(material, nv);
+    return follow(surface, branch, {back, part, branch.media, dot(back, surface.plane)}, random);
+  }
+  Integral integral;
+  const auto addPoint = [&](double u, double v) {
+    const Vec facet = facetSeen(material, normal, toViewer, u, v);
+    const Vec toLight = mirrored(-toViewer, facet);
+    const double vh = dot(toViewer, facet), nh = dot(normal, facet), nl = dot(normal, toLight);
+    if (!(vh > 0) || !(nl > 0)) return integral.addNothing();
+    const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
+    const Color part = glossyLobe(material, normal, toViewer, toLight) * (nl / density);
+    const Branch child{branch.depth + 1, branch.weight * largest(part), true, branch.media};
+    Sight seen = trace({surface.position, toLight}, child, random);
+    if (surface.smooth && dot(toLight, surface.plane) < kSkimming) seen.undecided += 1;
+    integral.add(seen, part, 1);
+  };
+  forEvenPoints(pointsASide(branch), random, addPoint);
+  return integral.mean(branch.depth == 0 ? options_.glossy : 1);
 }
 
 }  // namespace oracle

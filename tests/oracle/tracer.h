@@ -4,17 +4,11 @@
 
 #include "oracle/geometry.h"
 #include "oracle/media.h"
+#include "oracle/random_parts.h"
 #include "oracle/scene.h"
+#include "oracle/sight.h"
 
 namespace oracle {
-
-// What a pixel shows.
-struct Sight {
-  Color radiance;
-  // How much of the pixel went through a surface whose vertex normals point elsewhere than its
-  // plane, so that a ray cannot go where they say: what then happens no formula decides.
-  double undecided = 0;
-};
 
 struct Arrival;
 
@@ -23,21 +17,35 @@ class Tracer {
   // Both outlive the tracer.
   Tracer(const Scene& scene, const Options& options);
 
-  // Through the image position (x, y), in pixels from the top left.
+  // Through the image position (x, y), in pixels from the top left. All of a pixel are sampled
+  // alike.
   Sight look(double x, double y) const;
+  // What lies there.
+  const Triangle* nearest(double x, double y) const;
 
  private:
   struct Surface;
+  struct Impulse;
+  // Where a ray is in the tree of them.
+  struct Branch {
+    int depth = 0;
+    double weight = 1;     // of the pixel
+    bool sampled = false;  // one of many of its kind
+    Media media;
+  };
 
+  static int pointsASide(const Branch& branch);
   Ray eyeRay(double x, double y) const;
   Media mediaAround(const Vec& point) const;
-  Color trace(const Ray& ray, int depth, double weight, const Media& media,
-              double& undecided) const;
+  Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
   Surface surfaceAt(const Ray& ray, const Hit& hit) const;
-  Color lightFrom(const Surface& surface, double weight, double& undecided) const;
+  Sight lightFrom(const Surface& surface) const;
   bool lit(const Surface& surface, const Arrival& arrival, const Light& light) const;
-  Color impulses(const Surface& surface, int depth, double weight, const Media& media,
-                 const Media& behind, double& undecided) const;
+  Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
+                 Random& random) const;
+  Sight follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
+               Random& random) const;
+  Sight glossyReflection(const Surface& surface, const Branch& branch, Random& random) const;
 
   const Scene& scene_;
   const Options& options_;

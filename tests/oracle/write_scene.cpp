@@ -95,6 +95,10 @@ std::string materialText(const Material& m) {
             R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
             std::to_string(m.priority);
   }
+  if (m.glossyReflection != Choice::unsaid) {
+    const bool reflects = m.glossyReflection == Choice::yes;
+    text += std::string(R"(, "glossyReflection": )") + (reflects ? "true" : "false");
+  }
   // Said only where it is not what the rest makes of it.
   if (m.castsShadow == m.isDielectric()) {
     text += std::string(R"(, "castsShadow": )") + (m.castsShadow ? "true" : "false");
