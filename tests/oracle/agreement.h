@@ -151,6 +151,7 @@ class Agreement : public testing::Test {
     renderer.set("mode", mode).set("cutoff", "0").set("threads", "2");
     renderer.set("depth", std::to_string(kind.options.depth));
     renderer.set("glossy", std::to_string(kind.options.glossy));
+    renderer.set("light-samples", std::to_string(kind.options.lightSamples));
     renderer.set("terminator", kind.options.terminator ? "on" : "off");
     renderer.set("fresnel", kind.options.schlickFresnel ? "schlick" : "exact");
     renderer.set("texture-filter", kind.options.nearestTexel ? "nearest" : "bilinear");
@@ -173,7 +174,7 @@ class Agreement : public testing::Test {
         const double off = differenceOf(got, wanted.radiance);
         ++tally.pixels;
         if (off >
-            rounding + chance(largest(wanted.variance), wanted.largestSample * seen.brightest)) {
+            rounding + chance(largest(wanted.variance), largestSample(wanted, seen.brightest))) {
           if (tally.wrong < kEnoughWrong &&
               decidedByAnEdge(seen, x, y, wanted, kBeside * kind.rounding, 0.5 * rounding)) {
             ++tally.leftOut;

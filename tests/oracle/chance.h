@@ -17,6 +17,11 @@ inline double chance(double variance, double largest) {
   return jumps + std::sqrt(jumps * jumps + 2 * risk * variance);
 }
 
+// The most that one sample brings to what is seen.
+inline double largestSample(const Sight& sight, double brightest) {
+  return std::max(sight.largestSample, sight.largestShare * brightest);
+}
+
 // Pixels together: what is wrong in each of them adds up, while their noise cancels out.
 class Sum {
  public:
@@ -27,7 +32,7 @@ class Sum {
     wanted_ += wanted.radiance;
     off_ += got - wanted.radiance;
     variance_ += wanted.variance;
-    largestSample_ = std::max(largestSample_, wanted.largestSample * brightest);
+    largestSample_ = std::max(largestSample_, oracle::largestSample(wanted, brightest));
     rounding_ += rounding;
   }
 

@@ -13,15 +13,22 @@ Color varianceOf(const Color& meanSquare, const Color& mean) {
 }  // namespace
 
 void Integral::add(const Sight& seen, const Color& part, double ratio) {
+  addSquares(seen * part, ratio);
+  brightest_ = std::max(brightest_, seen.brightest);
+  largestShare_ = std::max(largestShare_, largest(part));
+  largestShareOfSamples_ = std::max(largestShareOfSamples_, largest(part) * ratio);
+}
+
+void Integral::addLight(bool lit, const Color& part, double ratio) {
+  addSquares({.radiance = lit ? part : Color{}}, ratio);
+}
+
+void Integral::addSquares(const Sight& there, double ratio) {
   ++points_;
-  const Sight there = seen * part;
   sum_ += there.radiance;
   squares_ += there.radiance * there.radiance;
   squaresOfSamples_ += (there.radiance * there.radiance + there.variance) * ratio;
   undecided_ += there.undecided;
-  brightest_ = std::max(brightest_, seen.brightest);
-  largest_ = std::max(largest_, largest(part));
-  largestOfSamples_ = std::max(largestOfSamples_, largest(part) * ratio);
 }
 
 Sight Integral::mean(int samples) const {
@@ -31,7 +38,7 @@ Sight Integral::mean(int samples) const {
   sight.brightest = brightest_;
   sight.variance = varianceOf(squaresOfSamples_ / points_, sight.radiance) / samples +
                    varianceOf(squares_ / points_, sight.radiance) / (points_ - 1);
-  sight.largestSample = std::max(largestOfSamples_ / samples, largest_ / points_);
+  sight.largestShare = std::max(largestShareOfSamples_ / samples, largestShare_ / points_);
   return sight;
 }
 

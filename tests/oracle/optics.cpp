@@ -136,6 +136,43 @@ Arrival arrivalOf(const Light& light, const Vec& point) {
   return arrival;
 }
 
+LightSphere::LightSphere(const Light& light, const Vec& point) : light_(light) {
+  const Vec way = light.position - point;
+  distance_ = length(way);
+  axis_ = way / distance_;
+  widest_ = std::asin(light.radius / distance_);
+}
+
+LightSphere::Part LightSphere::partAt(double u, double v) const {
+  const Vec other = std::abs(axis_.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
+  const Vec x = normalized(cross(other, axis_)), y = cross(axis_, x);
+  const double angle = widest_ * u, turn = 2 * kPi * v, radius = light_.radius;
+  const Vec aside = x * std::cos(turn) + y * std::sin(turn);
+  const Vec toLight = axis_ * std::cos(angle) + aside * std::sin(angle);
+  const double beside = distance_ * std::sin(angle);  // of the way, at the sphere's center
+  const double inside = std::sqrt(std::max(0.0, radius * radius - beside * beside));
+  const Color radiance = light_.intensity / (kPi * radius * radius);
+  const double part = 2 * kPi * widest_ * std::sin(angle), cone = 2 * kPi * (1 - std::cos(widest_));
+  const double falloff = light_.kind == Light::Kind::spot ? spotFalloff(light_, toLight) : 1;
+  const double way = distance_ * std::cos(angle) - inside;
+  return {{radiance * (part * falloff), toLight, way}, cone / part};
+}
+
+double LightSphere::largestSample(const Material& material, const Vec& normal,
+                                  const Vec& toViewer) const {
+  const double lowest = std::acos(std::clamp(dot(normal, axis_), -1.0, 1.0)) - widest_;
+  const double cosine = std::cos(std::max(0.0, lowest)), nv = dot(normal, toViewer);
+  if (!(cosine > 0)) return 0;
+  double reflected = largest(material.diffuse) / kPi * cosine;
+  if (largest(material.specular) > 0 && nv > 0) {
+    // The light is masked from itself and from the viewer at least as much as by either alone.
+    const double seen = std::min(shareSeen(material, nv), shareSeen(material, cosine));
+    reflected += facetsFacing(material, 1) * seen / (4 * nv);
+  }
+  const double cone = 2 * kPi * (1 - std::cos(widest_));
+  return reflected * cone * largest(light_.intensity) / (kPi * light_.radius * light_.radius);
+}
+
 Color skyAlong(const Sky& sky, const Vec& direction) {
   if (sky.kind == Sky::Kind::gradient) {  // linear in the sine of the elevation
     const Color& pole = direction.y > 0 ? sky.zenith : sky.ground;

@@ -43,6 +43,30 @@ struct Arrival {
 };
 Arrival arrivalOf(const Light& light, const Vec& point);
 
+// A light with a radius as a sphere that shines evenly: a point outside sees a cone of light.
+class LightSphere {
+ public:
+  LightSphere(const Light& light, const Vec& point);
+
+  // What arrives from a part of the cone, times how often that part goes into the cone. By points
+  // of the unit square, evenly in the angle to the cone's axis, unlike whit's samples: these are
+  // spread evenly over solid angle.
+  struct Part {
+    Arrival arrival;
+    double ratio;  // of the density of such parts to that of whit's
+  };
+  Part partAt(double u, double v) const;
+
+  // No sample of whit's brings more than this by the surface's diffuse reflection and its lobe; and
+  // no part more than twice as much.
+  double largestSample(const Material& material, const Vec& normal, const Vec& toViewer) const;
+
+ private:
+  const Light& light_;
+  double distance_ = 0, widest_ = 0;  // angle to the axis
+  Vec axis_;
+};
+
 Color skyAlong(const Sky& sky, const Vec& direction);
 // Ambient radiance on a surface of this normal.
 Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal);

@@ -84,5 +84,77 @@ TEST_F(Sampled, LobesAsSmoothAsAMirror) {
                    {.depth = 4, .glossy = 16}});
 }
 
+// A highlight narrower than the light would be met by few samples, and by none of the oracle's.
+Material rough(SceneMaker& maker) {
+  Material material = maker.glossy();
+  material.roughness = maker.random.between(0.55, 0.9);
+  return material;
+}
+
+// Spheres of light, of which some reach into what they light.
+void softShadows(SceneMaker& maker) {
+  litRoom(maker);
+  maker.scene.lights.clear();
+  for (int i = 0; i < 4; ++i) {
+    maker.add(maker.solid(), maker.random.chance(0.5) ? rough(maker) : maker.matte(),
+              maker.standing(i, 4));
+  }
+  for (int i = 0; i < 2; ++i) {
+    Light light = maker.lamp();
+    light.radius = maker.random.between(0.2, 1.2);
+    if (i == 1) {
+      light.position = maker.random.inBox({-2, 0.7, 1}, {2, 1.6, 2});
+      light.intensity = maker.random.color(1, 4);
+    }
+    maker.scene.lights.push_back(light);
+  }
+}
+
+void softSpots(SceneMaker& maker) {
+  softShadows(maker);
+  for (Light& light : maker.scene.lights) {
+    light.kind = Light::Kind::spot;
+    light.direction = asFloat(maker.random.inBox({-1, 0, -1}, {1, 1, 1}) - light.position);
+    light.innerConeAngle = maker.random.between(0, 15);
+    light.outerConeAngle = maker.random.between(20, 50);
+  }
+  Light sun;
+  sun.kind = Light::Kind::directional;
+  sun.direction = maker.random.inBox({-1, -2, -1}, {1, -0.5, 0.2});
+  sun.intensity = maker.random.color(0.2, 0.6);
+  maker.scene.lights.push_back(sun);
+}
+
+TEST_F(Sampled, SoftShadows) {
+  expectAgreement({"--light-samples 64", softShadows, {.lightSamples = 64}});
+  expectAgreement({"--light-samples 3", softShadows, {.lightSamples = 3}});
+}
+
+TEST_F(Sampled, SoftShadowsOfSpotLights) {
+  expectAgreement({"--light-samples 16 of spots", softSpots, {.lightSamples = 16}});
+}
+
+TEST_F(Sampled, SoftShadowsFromAboveTheFacets) {
+  expectAgreement({"--light-samples 16 --terminator on",
+                   [](SceneMaker& maker) {
+                     softShadows(maker);
+                     maker.add(ball(8, 5), maker.matte(), maker.random.placement({0, 1.3, 0}, 2));
+                   },
+                   {.lightSamples = 16, .terminator = true}});
+}
+
+TEST_F(Sampled, SoftShadowsInMirrorsGlassAndGlossyFloors) {
+  expectAgreement({"--light-samples 8 --glossy 16",
+                   [](SceneMaker& maker) {
+                     softShadows(maker);
+                     maker.scene.width = 30, maker.scene.height = 20;  // slow
+                     maker.floor(rough(maker));
+                     maker.scene.bodies.back().transform.translate.y = 0.05;
+                     maker.add(box(), maker.mirror(), maker.random.placement({-1, 1.2, -2}, 1.5));
+                     maker.add(box(), maker.glass(1.4), maker.random.placement({1, 1, 1.2}, 0.9));
+                   },
+                   {.depth = 3, .glossy = 16, .lightSamples = 8}});
+}
+
 }  // namespace
 }  // namespace oracle

@@ -115,7 +115,7 @@ struct Scene {
 // Of a render: the options of whit of the same names.
 struct Options {
   int depth = 8;
-  int glossy = 0;
+  int glossy = 0, lightSamples = 1;
   bool terminator = false;
   bool nearestTexel = false;
   bool schlickFresnel = false;

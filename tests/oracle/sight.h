@@ -12,20 +12,25 @@ struct Sight {
   double undecided = 0;
   double brightest = 0;  // of all rays that were followed
   // Of what whit takes samples `radiance` is the expectation. How far whit's mean may be from it:
-  // the variance of both sides' points, and the most that one of them counts for.
+  // the variance of both sides' points; the most that one of them can bring, where that is known,
+  // and the most that one ray counts for.
   Color variance{};
-  double largestSample = 0;
+  double largestSample = 0, largestShare = 0;
 };
 
 inline Sight operator+(const Sight& a, const Sight& b) {
-  return {a.radiance + b.radiance, a.undecided + b.undecided, std::max(a.brightest, b.brightest),
-          a.variance + b.variance, std::max(a.largestSample, b.largestSample)};
+  return {a.radiance + b.radiance,
+          a.undecided + b.undecided,
+          std::max(a.brightest, b.brightest),
+          a.variance + b.variance,
+          std::max(a.largestSample, b.largestSample),
+          std::max(a.largestShare, b.largestShare)};
 }
 inline Sight& operator+=(Sight& a, const Sight& b) { return a = a + b; }
 inline Sight operator*(const Sight& a, const Color& part) {
   const double most = largest(part);
-  return {a.radiance * part, a.undecided * most, a.brightest, a.variance * part * part,
-          a.largestSample * most};
+  return {a.radiance * part,        a.undecided * most,     a.brightest,
+          a.variance * part * part, a.largestSample * most, a.largestShare * most};
 }
 
 }  // namespace oracle

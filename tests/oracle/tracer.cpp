@@ -163,7 +163,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
       return trace({surface.position, ray.direction}, there, random) * left;
     }
   }
-  Sight seen = lightFrom(surface);
+  Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission +
                    surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
   if (there.depth < options_.depth) {
@@ -175,39 +175,71 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   return seen;
 }
 
-Sight Tracer::lightFrom(const Surface& surface) const {
-  const Material& material = surface.material;
+// What the surface sends on of the light, if nothing is between.
+Sight Tracer::reflectedFrom(const Surface& surface, const Arrival& arrival) {
+  const double cosine = dot(surface.normal, arrival.toLight);
+  if (!(cosine > 0) || !(largest(arrival.irradiance) > 0)) return {};
+  Sight sight;
+  Color reflected = surface.material.diffuse / std::numbers::pi;
+  if (largest(surface.material.specular) > 0) {
+    // The lobe has no value for a viewer behind it.
+    if (dot(surface.normal, surface.toViewer) < kSkimming) {
+      sight.undecided = 1;
+    } else {
+      reflected += glossyLobe(surface.material, surface.normal, surface.toViewer, arrival.toLight);
+    }
+  }
+  sight.radiance = reflected * arrival.irradiance * cosine;
+  return sight;
+}
+
+Sight Tracer::lightFrom(const Surface& surface, const Branch& branch, Random& random) const {
   Sight sum;
   for (const Light& light : scene_.lights) {
-    const Arrival arrival = arrivalOf(light, surface.position);
-    const double cosine = dot(surface.normal, arrival.toLight);
-    if (!(cosine > 0) || !(largest(arrival.irradiance) > 0)) continue;
-    if (!lit(surface, arrival, light)) continue;
-    Color reflected = material.diffuse / std::numbers::pi;
-    if (largest(material.specular) > 0) {
-      // The lobe has no value for a viewer behind it.
-      if (dot(surface.normal, surface.toViewer) < kSkimming) {
-        sum.undecided += 1;
-      } else {
-        reflected += glossyLobe(material, surface.normal, surface.toViewer, arrival.toLight);
-      }
+    const bool extended = light.kind != Light::Kind::directional && light.radius > 0;
+    if (options_.lightSamples > 1 && extended &&
+        length(surface.position - light.position) > light.radius) {
+      sum += lightFromSphere(surface, light, branch, random);
+      continue;
     }
-    sum.radiance += reflected * arrival.irradiance * cosine;
+    const Arrival arrival = arrivalOf(light, surface.position);
+    const Sight reflected = reflectedFrom(surface, arrival);
+    if (largest(reflected.radiance) > 0 && lit(surface, arrival)) sum += reflected;
   }
   return sum;
 }
 
+Sight Tracer::lightFromSphere(const Surface& surface, const Light& light, const Branch& branch,
+                              Random& random) const {
+  const LightSphere sphere(light, surface.position);
+  Integral integral;
+  double undecided = 0;
+  const auto addPart = [&](double u, double v) {
+    const auto [arrival, ratio] = sphere.partAt(u, v);
+    const Sight reflected = reflectedFrom(surface, arrival);
+    if (!(largest(reflected.radiance) > 0)) return integral.addNothing();
+    undecided = std::max(undecided, reflected.undecided);
+    integral.addLight(lit(surface, arrival), reflected.radiance, ratio);
+  };
+  forEvenPoints(pointsASide(branch), random, addPart);
+  Sight sight = integral.mean(options_.lightSamples);
+  sight.undecided = undecided;
+  const double most = sphere.largestSample(surface.material, surface.normal, surface.toViewer);
+  sight.largestSample = std::max(most / options_.lightSamples, 2 * most / integral.points());
+  return sight;
+}
+
 // Light comes neither from behind the triangle nor through anything that casts shadows.
-bool Tracer::lit(const Surface& surface, const Arrival& arrival, const Light& light) const {
+bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
   const bool lifted = options_.terminator && length(surface.lift) > 0;
   if (!lifted) {
     if (!(dot(surface.plane, arrival.toLight) > 0)) return false;
     return !geometry_.blocked({surface.position, arrival.toLight}, arrival.distance);
   }
   const Vec start = surface.position + surface.lift;
-  const bool directional = light.kind == Light::Kind::directional;
-  const Vec way = directional ? arrival.toLight : light.position - start;
-  return !geometry_.blocked({start, normalized(way)}, directional ? INFINITY : length(way));
+  if (arrival.distance == INFINITY) return !geometry_.blocked({start, arrival.toLight}, INFINITY);
+  const Vec way = surface.position + arrival.toLight * arrival.distance - start;
+  return !geometry_.blocked({start, normalized(way)}, length(way));
 }
 
 namespace {

@@ -39,8 +39,11 @@ class Tracer {
   Media mediaAround(const Vec& point) const;
   Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
   Surface surfaceAt(const Ray& ray, const Hit& hit) const;
-  Sight lightFrom(const Surface& surface) const;
-  bool lit(const Surface& surface, const Arrival& arrival, const Light& light) const;
+  static Sight reflectedFrom(const Surface& surface, const Arrival& arrival);
+  Sight lightFrom(const Surface& surface, const Branch& branch, Random& random) const;
+  Sight lightFromSphere(const Surface& surface, const Light& light, const Branch& branch,
+                        Random& random) const;
+  bool lit(const Surface& surface, const Arrival& arrival) const;
   Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
                  Random& random) const;
   Sight follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
