@@ -154,8 +154,13 @@ class Agreement : public testing::Test {
     renderer.set("light-samples", std::to_string(kind.options.lightSamples));
     renderer.set("terminator", kind.options.terminator ? "on" : "off");
     renderer.set("fresnel", kind.options.schlickFresnel ? "schlick" : "exact");
-    renderer.set("texture-filter", kind.options.nearestTexel ? "nearest" : "bilinear");
+    renderer.set("texture-filter", nameOf(kind.options.filter));
     return renderer.render();
+  }
+
+  static std::string nameOf(Filter filter) {
+    if (filter == Filter::trilinear) return "trilinear";
+    return filter == Filter::nearest ? "nearest" : "bilinear";
   }
 
   static void compare(const Kind& kind, const Seen& seen, const std::string& file,

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "oracle/bilinear.h"
+
 namespace oracle {
 
 namespace {
@@ -9,19 +11,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 double clamped(double value) { return std::clamp(value, 0.0, 1.0); }
-
-Color mix(const Color& a, const Color& b, double t) { return a * (1 - t) + b * t; }
-
-int wrapped(int i, int count) { return ((i % count) + count) % count; }
-
-// texel(x, y) at (x, y), in texels whose centers lie at half-integers.
-template <typename Texel>
-Color bilinear(double x, double y, const Texel& texel) {
-  const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-  const int i = static_cast<int>(left), j = static_cast<int>(top);
-  const double s = x - 0.5 - left, t = y - 0.5 - top;
-  return mix(mix(texel(i, j), texel(i + 1, j), s), mix(texel(i, j + 1), texel(i + 1, j + 1), s), t);
-}
 
 // Between the cones as glTF's KHR_lights_punctual has it.
 double spotFalloff(const Light& light, const Vec& toLight) {
@@ -200,17 +189,6 @@ Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal) {
   const Color above = mix(sky.horizon, sky.zenith, kMeanCosine),
               below = mix(sky.horizon, sky.ground, kMeanCosine);
   return mix(below, above, up) * (ambient.fromSky * sky.scale);
-}
-
-Color textureAt(const Texture& texture, double u, double v, bool nearest) {
-  const auto texel = [&](int x, int y) {
-    const auto& [r, g, b] = texture.texels[static_cast<std::size_t>(
-        wrapped(y, texture.height) * texture.width + wrapped(x, texture.width))];
-    return Color{r ? 1.0 : 0.0, g ? 1.0 : 0.0, b ? 1.0 : 0.0};
-  };
-  const double x = u * texture.width, y = (1 - v) * texture.height;
-  if (!nearest) return bilinear(x, y, texel);
-  return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
 }
 
 Color transmittance(const Color& absorption, double distance) {

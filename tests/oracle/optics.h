@@ -71,9 +71,6 @@ Color skyAlong(const Sky& sky, const Vec& direction);
 // Ambient radiance on a surface of this normal.
 Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal);
 
-// The texture's color, u to the right and v upwards, repeated.
-Color textureAt(const Texture& texture, double u, double v, bool nearest);
-
 // What a way of this length leaves of light (Beer and Lambert).
 Color transmittance(const Color& absorption, double distance);
 

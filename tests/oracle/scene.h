@@ -16,7 +16,8 @@ enum class Choice { unsaid, no, yes };
 
 struct Texture {
   int width = 0, height = 0;
-  std::vector<std::array<bool, 3>> texels;  // from the top left: channels of 0 or 1, exact as sRGB
+  // From the top left, 0 to 255; of colors 0 or 255, which are exact as sRGB.
+  std::vector<std::array<int, 3>> texels;
 };
 
 struct Material {
@@ -112,12 +113,14 @@ struct Scene {
   std::vector<Body> bodies;
 };
 
+enum class Filter { nearest, bilinear, trilinear };
+
 // Of a render: the options of whit of the same names.
 struct Options {
   int depth = 8;
   int glossy = 0, lightSamples = 1;
   bool terminator = false;
-  bool nearestTexel = false;
+  Filter filter = Filter::bilinear;
   bool schlickFresnel = false;
 };
 

@@ -226,25 +226,33 @@ TEST_F(Surfaces, ShadowRaysFromAboveTheFacets) {
   expectAgreement({"--terminator off", facetedBall});
 }
 
+void addTexture(SceneMaker& maker, int width, int height) {
+  Texture texture;
+  texture.width = width, texture.height = height;
+  for (int k = 0; k < width * height; ++k) {
+    const auto channel = [&] { return maker.random.chance(0.5) ? 255 : 0; };
+    texture.texels.push_back({channel(), channel(), channel()});
+  }
+  maker.scene.textures.push_back(texture);
+}
+
+// Repeated, turned and from below 0.
+Mesh turnedPane(double repeats) {
+  Mesh mesh = pane();
+  for (auto& [u, v] : mesh.uvs) {
+    const double across = u, up = v;
+    u = asFloat(repeats * (1.7 * across + 0.6 * up - 0.9));
+    v = asFloat(repeats * (1.2 * up - 0.5 * across - 0.3));
+  }
+  return mesh;
+}
+
 void textured(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.clear();
-  for (int i = 0; i < 2; ++i) {
-    Texture texture;
-    texture.width = 5 + 3 * i, texture.height = 4;
-    for (int k = 0; k < texture.width * texture.height; ++k) {
-      const auto channel = [&] { return maker.random.chance(0.5); };
-      texture.texels.push_back({channel(), channel(), channel()});
-    }
-    maker.scene.textures.push_back(texture);
-  }
+  for (int i = 0; i < 2; ++i) addTexture(maker, 5 + 3 * i, 4);
   for (int i = 0; i < 4; ++i) {
-    Mesh mesh = pane();
-    for (auto& [u, v] : mesh.uvs) {  // repeated, turned and from below 0
-      const double across = u, up = v;
-      u = asFloat(1.7 * across + 0.6 * up - 0.9);
-      v = asFloat(1.2 * up - 0.5 * across - 0.3);
-    }
+    const Mesh mesh = turnedPane(1);
     Material material = maker.glossy();
     material.diffuseMap = i % 2;
     if (i == 1) material.specularMap = 0;
@@ -262,7 +270,48 @@ void textured(SceneMaker& maker) {
 
 TEST_F(Surfaces, TexturesOfNearestAndMixedTexels) {
   expectAgreement({"bilinear textures", textured});
-  expectAgreement({"textures of nearest texels", textured, {.nearestTexel = true}});
+  expectAgreement({"textures of nearest texels", textured, {.filter = Filter::nearest}});
+}
+
+// From less than a texel a pixel to more than all of them.
+void texturedAtAnyDistance(SceneMaker& maker) {
+  maker.room();
+  maker.scene.bodies.clear();
+  addTexture(maker, 32, 16);
+  addTexture(maker, 13, 7);
+  const auto image = [&] {
+    Material material = maker.glossy();
+    material.diffuseMap = maker.random.below(2);
+    if (maker.random.chance(0.4)) material.specularMap = maker.random.below(2);
+    if (maker.random.chance(0.3)) material.emission = maker.random.color(0.2, 1);
+    if (largest(material.emission) > 0) material.emissionMap = maker.random.below(2);
+    return material;
+  };
+  Transform below;
+  below.scale = {30, 1, 30};
+  below.degrees = maker.random.between(0, 90);
+  maker.add(turnedPane(maker.random.between(2, 20)), image(), below);
+  const int instance = maker.addObject(turnedPane(maker.random.between(0.2, 4)), image());
+  for (int i = 0; i < 3; ++i) {
+    Transform standing = maker.standing(i, 5);
+    standing.scale = asFloat(standing.scale * maker.random.color(0.6, 1.5));
+    if (i == 1) standing.scale.x = -standing.scale.x;
+    maker.place(instance, standing);
+  }
+  maker.add(box(), maker.mirror(), maker.standing(3, 5));
+  maker.add(box(), maker.glass(1.4), maker.standing(4, 5));
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, MixedMipMaps) {
+  const Options options{.depth = 6, .filter = Filter::trilinear};
+  expectAgreement({"trilinear textures", texturedAtAnyDistance, options});
+  expectAgreement({"trilinear textures, parallel rays",
+                   [](SceneMaker& maker) {
+                     texturedAtAnyDistance(maker);
+                     maker.scene.camera.orthographicHeight = maker.random.between(2, 8);
+                   },
+                   options});
 }
 
 // Turned, scaled, stretched where flat, and mirrored.

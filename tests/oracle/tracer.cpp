@@ -48,12 +48,15 @@ struct Tracer::Impulse {
 };
 
 Tracer::Tracer(const Scene& scene, const Options& options)
-    : scene_(scene), options_(options), geometry_(scene) {}
+    : scene_(scene), options_(options), geometry_(scene) {
+  for (const Texture& texture : scene.textures) textures_.emplace_back(texture);
+}
 
 Sight Tracer::look(double x, double y) const {
   const Ray ray = eyeRay(x, y);
   Random random(static_cast<std::uint32_t>(std::floor(y) * scene_.width + std::floor(x)));
-  return trace(ray, {0, 1, false, mediaAround(ray.origin)}, random);
+  const double width = scene_.camera.orthographicHeight > 0 ? pixelSize() : 0;
+  return trace(ray, {0, 1, false, width, mediaAround(ray.origin)}, random);
 }
 
 const Triangle* Tracer::nearest(double x, double y) const {
@@ -61,14 +64,25 @@ const Triangle* Tracer::nearest(double x, double y) const {
   return hit ? hit->triangle : nullptr;
 }
 
+double Tracer::pixelSize() const {
+  const Camera& camera = scene_.camera;
+  const double height = camera.orthographicHeight > 0
+                            ? camera.orthographicHeight
+                            : 2 * std::tan(camera.fov * std::numbers::pi / 360);
+  return height / scene_.height;
+}
+
+// Cones about the rays of an eye grow with all of the way, past mirrors and through glass as well.
+double Tracer::widthAfter(double width, double way) const {
+  return scene_.camera.orthographicHeight > 0 ? width : width + way * pixelSize();
+}
+
 Ray Tracer::eyeRay(double x, double y) const {
   const Camera& camera = scene_.camera;
   const Vec forward = normalized(camera.at - camera.eye);
   const Vec right = normalized(cross(forward, camera.up)), up = cross(right, forward);
   const bool parallel = camera.orthographicHeight > 0;
-  const double height =
-      parallel ? camera.orthographicHeight : 2 * std::tan(camera.fov * std::numbers::pi / 360);
-  const double pixel = height / scene_.height;
+  const double pixel = pixelSize();
   const Vec aside =
       right * ((x - scene_.width / 2.0) * pixel) + up * ((scene_.height / 2.0 - y) * pixel);
   if (parallel) return {camera.eye + aside, forward};
@@ -100,7 +114,22 @@ Media Tracer::mediaAround(const Vec& point) const {
   return media;
 }
 
-Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit) const {
+namespace {
+
+// How much of texture space, of which a repeat is 1, a cone of this width covers: its section by
+// the plane is longer than wide, and counts as if it were as wide as long (Akenine-Moeller et al.
+// 2019, "Texture level of detail strategies for real-time ray tracing", section 20.3.4).
+double footprintOf(const Triangle& triangle, double width, double cosine) {
+  const auto& [a, b, c] = triangle.corners;
+  const double inTexture = std::abs((b.uv[0] - a.uv[0]) * (c.uv[1] - a.uv[1]) -
+                                    (c.uv[0] - a.uv[0]) * (b.uv[1] - a.uv[1]));
+  const double inWorld = length(cross(b.position - a.position, c.position - a.position));
+  return inTexture / inWorld * std::pow(width / cosine, 2);
+}
+
+}  // namespace
+
+Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) const {
   const Triangle& triangle = *hit.triangle;
   Surface s;
   s.position = ray.origin + ray.direction * hit.t;
@@ -127,10 +156,12 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit) const {
   }
   if (s.smooth) s.normal = normalized(normal) * side;
   s.material.diffuse = s.material.diffuse * color;
+  const double footprint = footprintOf(triangle, width, -dot(ray.direction, s.plane));
   const auto textured = [&](int map, Color& what) {
     if (map == kNone) return;
     const Texture& texture = scene_.textures[static_cast<std::size_t>(map)];
-    what = what * textureAt(texture, u, v, options_.nearestTexel);
+    what = what * textures_[static_cast<std::size_t>(map)].at(
+                      u, v, options_.filter, footprint * texture.width * texture.height);
   };
   textured(s.material.diffuseMap, s.material.diffuse);
   textured(s.material.specularMap, s.material.specular);
@@ -150,8 +181,9 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   const Color left = transmittance(absorption, hit->t);
   Branch there = branch;
   there.weight *= largest(left);
+  there.width = widthAfter(branch.width, hit->t);
 
-  const Surface surface = surfaceAt(ray, *hit);
+  const Surface surface = surfaceAt(ray, *hit, there.width);
   Media behind = branch.media;
   if (surface.material.isDielectric()) {
     const Medium medium = mediumOf(surface.material);
@@ -259,7 +291,8 @@ Color underCoat(const Color& transmission, const Color& coat) {
 Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
                      Random& random) const {
   const double most = largest(impulse.part);
-  const Branch child{branch.depth + 1, branch.weight * most, branch.sampled, impulse.media};
+  const Branch child{branch.depth + 1, branch.weight * most, branch.sampled, branch.width,
+                     impulse.media};
   Sight seen = trace({surface.position, impulse.direction}, child, random) * impulse.part;
   if (surface.smooth && impulse.height < kSkimming) seen.undecided += most;
   return seen;
@@ -316,7 +349,8 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
     if (!(vh > 0) || !(nl > 0)) return integral.addNothing();
     const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
     const Color part = glossyLobe(material, normal, toViewer, toLight) * (nl / density);
-    const Branch child{branch.depth + 1, branch.weight * largest(part), true, branch.media};
+    const Branch child{branch.depth + 1, branch.weight * largest(part), true, branch.width,
+                       branch.media};
     Sight seen = trace({surface.position, toLight}, child, random);
     if (surface.smooth && dot(toLight, surface.plane) < kSkimming) seen.undecided += 1;
     integral.add(seen, part, 1);

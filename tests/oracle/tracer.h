@@ -4,6 +4,7 @@
 
 #include "oracle/geometry.h"
 #include "oracle/media.h"
+#include "oracle/mip_chain.h"
 #include "oracle/random_parts.h"
 #include "oracle/scene.h"
 #include "oracle/sight.h"
@@ -31,6 +32,7 @@ class Tracer {
     int depth = 0;
     double weight = 1;     // of the pixel
     bool sampled = false;  // one of many of its kind
+    double width = 0;      // of the cone about the ray, where it starts
     Media media;
   };
 
@@ -38,7 +40,9 @@ class Tracer {
   Ray eyeRay(double x, double y) const;
   Media mediaAround(const Vec& point) const;
   Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
-  Surface surfaceAt(const Ray& ray, const Hit& hit) const;
+  double pixelSize() const;  // one away from the eye, or everywhere if rays are parallel
+  double widthAfter(double width, double way) const;
+  Surface surfaceAt(const Ray& ray, const Hit& hit, double width) const;
   static Sight reflectedFrom(const Surface& surface, const Arrival& arrival);
   Sight lightFrom(const Surface& surface, const Branch& branch, Random& random) const;
   Sight lightFromSphere(const Surface& surface, const Light& light, const Branch& branch,
@@ -53,6 +57,7 @@ class Tracer {
   const Scene& scene_;
   const Options& options_;
   Geometry geometry_;
+  std::vector<MipChain> textures_;
 };
 
 }  // namespace oracle

@@ -156,7 +156,7 @@ std::string tga(const Texture& texture) {
   file[16] = 24;
   file[17] = 0x20;
   for (const auto& [r, g, b] : texture.texels) {
-    for (const bool channel : {b, g, r}) file += static_cast<char>(channel ? 255 : 0);
+    for (const int channel : {b, g, r}) file += static_cast<char>(channel);
   }
   return file;
 }
