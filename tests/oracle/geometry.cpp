@@ -11,6 +11,10 @@ namespace {
 // no scene has gaps as narrow as this.
 constexpr double kSelf = 1e-9;
 
+// Triangles that are no farther behind another one than this, in parts of 1 and the way, lie in one
+// place: in scenes that have such, their corners are whole numbers of some power of two.
+constexpr double kSamePlace = 1e-9;
+
 Vec turned(const Vec& v, const Transform& transform) {
   const Vec k = normalized(transform.axis);
   const double angle = transform.degrees * std::numbers::pi / 180;
@@ -64,6 +68,12 @@ std::optional<Hit> meet(const Ray& ray, const Triangle& triangle) {
   return Hit{dot(e2, q) / determinant, &triangle, {1 - u - v, u, v}};
 }
 
+bool comesFirst(const Triangle& a, const Triangle& b) {
+  if (a.opaque != b.opaque) return a.opaque;
+  if (!a.opaque && a.priority != b.priority) return a.priority > b.priority;
+  return a.order > b.order;
+}
+
 bool passes(const Ray& ray, const Vec& center, double radius) {
   const Vec from = center - ray.origin;
   const double along = dot(from, ray.direction);
@@ -73,12 +83,18 @@ bool passes(const Ray& ray, const Vec& center, double radius) {
 }  // namespace
 
 Geometry::Geometry(const Scene& scene) {
+  int order = 0;
   for (const Body& body : scene.bodies) {
     const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
     Part part;
     for (const auto& indices : mesh.triangles) {
-      part.triangles.push_back(placedTriangle(mesh, indices, object.material, body.transform));
+      Triangle triangle = placedTriangle(mesh, indices, object.material, body.transform);
+      const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+      triangle.opaque = !material.isDielectric();
+      triangle.priority = material.priority;
+      triangle.order = order++;
+      part.triangles.push_back(triangle);
     }
     for (const Vec& p : mesh.positions) part.center += placed(p, body.transform);
     part.center = part.center / static_cast<double>(mesh.positions.size());
@@ -104,13 +120,26 @@ void Geometry::visit(const Ray& ray, const Visit& visit) const {
   }
 }
 
-std::optional<Hit> Geometry::nearest(const Ray& ray) const {
-  std::optional<Hit> best;
+std::optional<Meeting> Geometry::nearest(const Ray& ray) const {
+  std::vector<Hit> hits;  // in the nearest place
+  double end = INFINITY;
   visit(ray, [&](const Part&, const Hit& hit) {
-    if (!best || hit.t < best->t) best = hit;
+    const double same = kSamePlace * (1 + hit.t);
+    if (hit.t > end + same) return true;
+    if (hit.t < end - same) hits.clear(), end = hit.t;
+    hits.push_back(hit);
     return true;
   });
-  return best;
+  if (hits.empty()) return std::nullopt;
+  Meeting meeting{hits[0], {}};
+  for (const Hit& hit : hits) {
+    if (comesFirst(*hit.triangle, *meeting.hit.triangle)) meeting.hit = hit;
+  }
+  if (meeting.hit.triangle->opaque) return meeting;
+  for (const Hit& hit : hits) {
+    if (hit.triangle != meeting.hit.triangle) meeting.alsoCrossed.push_back(hit.triangle);
+  }
+  return meeting;
 }
 
 bool Geometry::blocked(const Ray& ray, double end) const {

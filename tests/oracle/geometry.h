@@ -20,6 +20,9 @@ struct Triangle {
   Vec outward;  // unit, of its plane
   bool smooth = false;
   int material = 0;
+  bool opaque = true;
+  int priority = 0;  // of a dielectric
+  int order = 0;     // in the scene
 };
 
 struct Ray {
@@ -32,11 +35,18 @@ struct Hit {
   std::array<double, 3> weights{};  // of the corners
 };
 
+// What a ray meets: of the triangles that lie in one place the opaque one, of opaque ones the last
+// in the scene; of dielectrics alone the one of the highest priority, of these the last.
+struct Meeting {
+  Hit hit;
+  std::vector<const Triangle*> alsoCrossed;  // of dielectrics alone, the others
+};
+
 class Geometry {
  public:
   explicit Geometry(const Scene& scene);
 
-  std::optional<Hit> nearest(const Ray& ray) const;
+  std::optional<Meeting> nearest(const Ray& ray) const;
   // Whether something that casts shadows lies at 0 < t < end.
   bool blocked(const Ray& ray, double end) const;
   // All hits at 0 < t, nearest first.

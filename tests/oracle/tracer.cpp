@@ -60,8 +60,8 @@ Sight Tracer::look(double x, double y) const {
 }
 
 const Triangle* Tracer::nearest(double x, double y) const {
-  const std::optional<Hit> hit = geometry_.nearest(eyeRay(x, y));
-  return hit ? hit->triangle : nullptr;
+  const std::optional<Meeting> meeting = geometry_.nearest(eyeRay(x, y));
+  return meeting ? meeting->hit.triangle : nullptr;
 }
 
 double Tracer::pixelSize() const {
@@ -169,25 +169,30 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   return s;
 }
 
+void Tracer::pass(Media& media, const Ray& ray, const Triangle& triangle) const {
+  const Medium medium = mediumOf(scene_.materials[static_cast<std::size_t>(triangle.material)]);
+  dot(ray.direction, triangle.outward) < 0 ? media.enter(medium) : media.leave(medium);
+}
+
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
   if (branch.weight < kNegligible) return {};
   const Color absorption = branch.media.current().absorption;
-  const std::optional<Hit> hit = geometry_.nearest(ray);
-  if (!hit) {
+  const std::optional<Meeting> meeting = geometry_.nearest(ray);
+  if (!meeting) {
     const Color left = transmittance(absorption, INFINITY);
     const Color sky = skyAlong(scene_.sky, ray.direction) * left;
     return {.radiance = sky, .brightest = largest(sky)};
   }
-  const Color left = transmittance(absorption, hit->t);
+  const Color left = transmittance(absorption, meeting->hit.t);
   Branch there = branch;
   there.weight *= largest(left);
-  there.width = widthAfter(branch.width, hit->t);
+  there.width = widthAfter(branch.width, meeting->hit.t);
 
-  const Surface surface = surfaceAt(ray, *hit, there.width);
+  const Surface surface = surfaceAt(ray, meeting->hit, there.width);
   Media behind = branch.media;
   if (surface.material.isDielectric()) {
-    const Medium medium = mediumOf(surface.material);
-    surface.entering ? behind.enter(medium) : behind.leave(medium);
+    pass(behind, ray, *meeting->hit.triangle);
+    for (const Triangle* other : meeting->alsoCrossed) pass(behind, ray, *other);
     if (behind.current() == branch.media.current()) {  // the surface is not there
       if (branch.depth == options_.depth) return {};
       ++there.depth;

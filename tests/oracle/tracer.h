@@ -39,6 +39,7 @@ class Tracer {
   static int pointsASide(const Branch& branch);
   Ray eyeRay(double x, double y) const;
   Media mediaAround(const Vec& point) const;
+  void pass(Media& media, const Ray& ray, const Triangle& triangle) const;
   Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
   double pixelSize() const;  // one away from the eye, or everywhere if rays are parallel
   double widthAfter(double width, double way) const;
