@@ -82,7 +82,8 @@ bool passes(const Ray& ray, const Vec& center, double radius) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene) {
+Geometry::Geometry(const Scene& scene, const std::vector<MipChain>& textures)
+    : textures_(textures) {
   int order = 0;
   for (const Body& body : scene.bodies) {
     const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
@@ -94,6 +95,8 @@ Geometry::Geometry(const Scene& scene) {
       triangle.opaque = !material.isDielectric();
       triangle.priority = material.priority;
       triangle.order = order++;
+      triangle.alphaMap = material.alphaMap;
+      triangle.alphaCutoff = material.alphaCutoff;
       part.triangles.push_back(triangle);
     }
     for (const Vec& p : mesh.positions) part.center += placed(p, body.transform);
@@ -107,6 +110,16 @@ Geometry::Geometry(const Scene& scene) {
   }
 }
 
+bool Geometry::isCutAway(const Hit& hit) const {
+  double u = 0, v = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& uv = hit.triangle->corners[i].uv;
+    u += uv[0] * hit.weights[i], v += uv[1] * hit.weights[i];
+  }
+  const MipChain& mask = textures_[static_cast<std::size_t>(hit.triangle->alphaMap)];
+  return mask.at(u, v, Filter::bilinear, 1).x < hit.triangle->alphaCutoff;
+}
+
 // visit(part, hit) for every hit in front, until it answers false.
 template <typename Visit>
 void Geometry::visit(const Ray& ray, const Visit& visit) const {
@@ -115,6 +128,7 @@ void Geometry::visit(const Ray& ray, const Visit& visit) const {
     for (const Triangle& triangle : part.triangles) {
       const std::optional<Hit> hit = meet(ray, triangle);
       if (!hit || !(hit->t * length(ray.direction) > kSelf * (1 + length(ray.origin)))) continue;
+      if (triangle.alphaMap != kNone && isCutAway(*hit)) continue;
       if (!visit(part, *hit)) return;
     }
   }

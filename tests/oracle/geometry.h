@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/mip_chain.h"
 #include "oracle/scene.h"
 
 namespace oracle {
@@ -23,6 +24,8 @@ struct Triangle {
   bool opaque = true;
   int priority = 0;  // of a dielectric
   int order = 0;     // in the scene
+  int alphaMap = kNone;
+  double alphaCutoff = 0.5;
 };
 
 struct Ray {
@@ -44,7 +47,8 @@ struct Meeting {
 
 class Geometry {
  public:
-  explicit Geometry(const Scene& scene);
+  // The textures, of masks, outlive it.
+  Geometry(const Scene& scene, const std::vector<MipChain>& textures);
 
   std::optional<Meeting> nearest(const Ray& ray) const;
   // Whether something that casts shadows lies at 0 < t < end.
@@ -63,7 +67,10 @@ class Geometry {
   template <typename Visit>
   void visit(const Ray& ray, const Visit& visit) const;
 
+  bool isCutAway(const Hit& hit) const;
+
   std::vector<Part> parts_;
+  const std::vector<MipChain>& textures_;
 };
 
 }  // namespace oracle

@@ -20,13 +20,15 @@ Stretch stretchOf(int i, int size, int half) {
   return {i * each, (i + 1) * each};
 }
 
-// whit keeps colors as the square root of light in 10 bits.
-Color asCodes(const Color& light) {
-  const auto channel = [](double value) {
+// whit keeps colors as the square root of light in 10 bits, data in 8.
+Color asCodes(const Color& mean, bool isData) {
+  const auto channel = [&](double value) {
+    // The mean of four codes is a number of quarters: exactly, since halves go to the even code.
+    if (isData) return std::nearbyint(std::round(value * 255 * 4) / 4) / 255;
     const double code = std::nearbyint(std::sqrt(value) * 1023) / 1023;
     return code * code;
   };
-  return {channel(light.x), channel(light.y), channel(light.z)};
+  return {channel(mean.x), channel(mean.y), channel(mean.z)};
 }
 
 }  // namespace
@@ -37,11 +39,12 @@ MipChain::MipChain(const Texture& texture) {
     whole.texels.push_back(Color{double(r), double(g), double(b)} / 255);
   }
   levels_.push_back(whole);
-  while (levels_.back().texels.size() > 1) levels_.push_back(halved(levels_.back()));
+  while (levels_.back().texels.size() > 1)
+    levels_.push_back(halved(levels_.back(), texture.isData));
 }
 
 // The mean of what a texel covers, also where that cuts through others.
-MipChain::Level MipChain::halved(const Level& level) {
+MipChain::Level MipChain::halved(const Level& level, bool isData) {
   Level half{std::max(1, level.width / 2), std::max(1, level.height / 2), {}};
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
@@ -56,7 +59,7 @@ MipChain::Level MipChain::halved(const Level& level) {
           area += covered;
         }
       }
-      half.texels.push_back(asCodes(sum / area));
+      half.texels.push_back(asCodes(sum / area, isData));
     }
   }
   return half;

@@ -23,7 +23,7 @@ class MipChain {
     Color texel(int x, int y) const;
     Color mixed(double u, double v) const;
   };
-  static Level halved(const Level& level);
+  static Level halved(const Level& level, bool isData);
   const Level& level(int number) const;
 
   std::vector<Level> levels_;  // down to one texel

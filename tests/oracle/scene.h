@@ -18,6 +18,7 @@ struct Texture {
   int width = 0, height = 0;
   // From the top left, 0 to 255; of colors 0 or 255, which are exact as sRGB.
   std::vector<std::array<int, 3>> texels;
+  bool isData = false;  // normals, of powers of two a side, and masks
 };
 
 struct Material {
@@ -33,6 +34,10 @@ struct Material {
   Choice glossyReflection = Choice::unsaid;
   bool castsShadow = true;
   int diffuseMap = kNone, specularMap = kNone, emissionMap = kNone;  // multiply what they name
+
+  int normalMap = kNone;  // of tangent space, y along v
+  int alphaMap = kNone;   // its first channel, mixed: cut out below the cutoff
+  double alphaCutoff = 0.5;
 
   bool isDielectric() const { return largest(transmission) > 0; }
   bool isMirror() const { return largest(mirror) > 0 || largest(mirrorGrazing) > 0; }

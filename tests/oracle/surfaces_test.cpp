@@ -273,6 +273,98 @@ TEST_F(Surfaces, TexturesOfNearestAndMixedTexels) {
   expectAgreement({"textures of nearest texels", textured, {.filter = Filter::nearest}});
 }
 
+int addData(SceneMaker& maker, const Color& low, const Color& high) {
+  Texture texture;
+  texture.width = 8, texture.height = 4, texture.isData = true;
+  for (int k = 0; k < texture.width * texture.height; ++k) {
+    const Vec texel = maker.random.inBox(low, high);
+    texture.texels.push_back(
+        {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
+  }
+  maker.scene.textures.push_back(texture);
+  return static_cast<int>(maker.scene.textures.size()) - 1;
+}
+
+Mesh mappedBall(SceneMaker& maker) {
+  Mesh mesh = ball(16, 10);
+  for (const Vec& p : mesh.positions) {
+    mesh.uvs.push_back({asFloat(2 * p.x + 0.7 * p.y), asFloat(1.5 * p.z - p.y)});
+  }
+  if (maker.random.chance(0.5)) {  // the other handedness
+    for (auto& uv : mesh.uvs) uv[0] = -uv[0];
+  }
+  return mesh;
+}
+
+void normalMapped(SceneMaker& maker) {
+  maker.room();
+  maker.scene.bodies.clear();
+  const int map = addData(maker, {80, 80, 200}, {176, 176, 255.99});
+  const auto bumpy = [&](Material material) {
+    material.normalMap = map;
+    return material;
+  };
+  Transform below;
+  below.scale = {9, 1, 9};
+  below.degrees = maker.random.between(0, 90);
+  maker.add(turnedPane(2), bumpy(maker.matte()), below);
+  maker.add(mappedBall(maker), bumpy(maker.matte()), maker.standing(0, 4));
+  Transform facing = maker.standing(1, 4);  // a lobe has no value for a viewer behind it
+  facing.axis = {1, 0, 0};
+  facing.degrees = maker.random.between(50, 80);
+  maker.add(turnedPane(1), bumpy(maker.glossy()), facing);
+  const int twice = maker.addObject(turnedPane(0.7), bumpy(maker.matte()));
+  for (int i = 2; i < 4; ++i) {
+    Transform standing = maker.standing(i, 4);
+    standing.scale = asFloat(standing.scale * maker.random.color(0.6, 1.5));
+    if (i == 3) standing.scale.x = -standing.scale.x;
+    maker.place(twice, standing);
+  }
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, NormalMaps) {
+  expectAgreement({"normal maps", normalMapped});
+  expectAgreement({"normal maps of nearest texels", normalMapped, {.filter = Filter::nearest}});
+  expectAgreement({"trilinear normal maps", normalMapped, {.filter = Filter::trilinear}});
+}
+
+// With parts that are cut out as a whole, parts that are not, and some that are torn.
+int addMask(SceneMaker& maker) {
+  constexpr int kPart = 8, kParts = 3;
+  Texture texture;
+  texture.width = texture.height = kPart * kParts, texture.isData = true;
+  std::array<int, kParts * kParts> lowest{};
+  for (int& low : lowest) low = 75 * maker.random.below(3);
+  for (int y = 0; y < texture.height; ++y) {
+    for (int x = 0; x < texture.width; ++x) {
+      const int low = lowest[static_cast<std::size_t>(y / kPart * kParts + x / kPart)];
+      texture.texels.push_back({low + maker.random.below(105), 0, 0});
+    }
+  }
+  maker.scene.textures.push_back(texture);
+  return static_cast<int>(maker.scene.textures.size()) - 1;
+}
+
+// In shadows too, and seen in mirrors.
+void masked(SceneMaker& maker) {
+  maker.room();
+  maker.floor(maker.mirror());
+  maker.scene.bodies.back().transform.translate.y = 0.05;
+  for (int i = 0; i < 4; ++i) {
+    Material material = maker.glossy();
+    material.alphaMap = addMask(maker);
+    if (i == 1) material.alphaCutoff = maker.random.between(0.3, 0.7);
+    maker.add(turnedPane(0.7), material, maker.standing(i, 4));
+  }
+  addLamps(maker, 2);
+}
+
+TEST_F(Surfaces, AlphaMasks) {
+  expectAgreement({"alpha masks", masked});
+  expectAgreement({"alpha masks, nearest texels", masked, {.filter = Filter::nearest}});
+}
+
 // From less than a texel a pixel to more than all of them.
 void texturedAtAnyDistance(SceneMaker& maker) {
   maker.room();

@@ -48,9 +48,10 @@ struct Tracer::Impulse {
 };
 
 Tracer::Tracer(const Scene& scene, const Options& options)
-    : scene_(scene), options_(options), geometry_(scene) {
-  for (const Texture& texture : scene.textures) textures_.emplace_back(texture);
-}
+    : scene_(scene),
+      options_(options),
+      textures_(scene.textures.begin(), scene.textures.end()),
+      geometry_(scene, textures_) {}
 
 Sight Tracer::look(double x, double y) const {
   const Ray ray = eyeRay(x, y);
@@ -127,6 +128,21 @@ double footprintOf(const Triangle& triangle, double width, double cosine) {
   return inTexture / inWorld * std::pow(width / cosine, 2);
 }
 
+// A normal map's: x along growing u, y along growing v, both turned into the plane of `normal`,
+// which like the result is on the outside.
+Vec mappedNormal(const Triangle& triangle, const Color& texel, const Vec& normal) {
+  const auto& [a, b, c] = triangle.corners;
+  const Vec e1 = b.position - a.position, e2 = c.position - a.position;
+  const double u1 = b.uv[0] - a.uv[0], u2 = c.uv[0] - a.uv[0];
+  const double v1 = b.uv[1] - a.uv[1], v2 = c.uv[1] - a.uv[1];
+  const double area = u1 * v2 - u2 * v1;
+  const Vec alongU = (e1 * v2 - e2 * v1) / area, alongV = (e2 * u1 - e1 * u2) / area;
+  const Vec x = normalized(alongU - normal * dot(alongU, normal));
+  Vec y = cross(normal, x);
+  if (dot(y, alongV) < 0) y = -y;
+  return normalized(x * (2 * texel.x - 1) + y * (2 * texel.y - 1) + normal * (2 * texel.z - 1));
+}
+
 }  // namespace
 
 Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) const {
@@ -157,15 +173,21 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   if (s.smooth) s.normal = normalized(normal) * side;
   s.material.diffuse = s.material.diffuse * color;
   const double footprint = footprintOf(triangle, width, -dot(ray.direction, s.plane));
-  const auto textured = [&](int map, Color& what) {
-    if (map == kNone) return;
+  const auto texel = [&](int map) {
     const Texture& texture = scene_.textures[static_cast<std::size_t>(map)];
-    what = what * textures_[static_cast<std::size_t>(map)].at(
-                      u, v, options_.filter, footprint * texture.width * texture.height);
+    const double texels = footprint * texture.width * texture.height;
+    return textures_[static_cast<std::size_t>(map)].at(u, v, options_.filter, texels);
+  };
+  const auto textured = [&](int map, Color& what) {
+    if (map != kNone) what = what * texel(map);
   };
   textured(s.material.diffuseMap, s.material.diffuse);
   textured(s.material.specularMap, s.material.specular);
   textured(s.material.emissionMap, s.material.emission);
+  if (s.material.normalMap != kNone) {
+    s.normal = mappedNormal(triangle, texel(s.material.normalMap), s.normal * side) * side;
+    s.smooth = true;
+  }
   return s;
 }
 

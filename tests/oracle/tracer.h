@@ -57,8 +57,8 @@ class Tracer {
 
   const Scene& scene_;
   const Options& options_;
-  Geometry geometry_;
   std::vector<MipChain> textures_;
+  Geometry geometry_;
 };
 
 }  // namespace oracle

@@ -90,6 +90,9 @@ std::string materialText(const Material& m) {
   map("diffuseMap", m.diffuseMap);
   map("specularMap", m.specularMap);
   map("emissionMap", m.emissionMap);
+  map("normalMap", m.normalMap);
+  map("alphaMap", m.alphaMap);
+  if (m.alphaMap != kNone) text += R"(, "alphaCutoff": )" + number(m.alphaCutoff);
   if (m.isDielectric()) {
     text += R"(, "transmission": )" + list(m.transmission) + R"(, "ior": )" + number(m.ior) +
             R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
