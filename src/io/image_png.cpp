@@ -85,11 +85,12 @@ class PngReader {
   // libpng reserves memory for a chunk of text by the length that it claims, before any is read.
   void checkChunkLengths() {
     constexpr std::size_t kBesideData = 12;  // length, name and checksum
-    for (std::size_t at = kSignatureBytes; at + kBesideData <= file_.size();) {
+    for (std::size_t at = kSignatureBytes; at < file_.size();) {
+      at_ = at;
+      if (file_.size() - at < kBesideData) refuse("the file is cut short");
       std::size_t length = 0;
       for (std::size_t i = 0; i < 4; ++i) length = length << 8 | file_[at + i];
       const bool last = std::memcmp(&file_[at + 4], "IEND", 4) == 0;
-      at_ = at;
       if (length > file_.size() - at - kBesideData) refuse("the file is cut short");
       if (last) break;
       at += kBesideData + length;
