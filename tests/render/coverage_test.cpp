@@ -11,31 +11,31 @@
 namespace whit::test {
 namespace {
 
-Material glowing(float radiance) {
+Material radiating(float radiance) {
   Material m = blackMaterial();
   m.emission = Rgb(radiance);
   return m;
 }
 
-Material covering(Material m, float coverage) {
+Material inPart(Material m, float coverage) {
   m.coverage = coverage;
   return m;
 }
 
 // A square of the plane y = `height`, as wide as the scene.
-Mesh level(float height, std::uint32_t material) {
+Mesh levelAt(float height, std::uint32_t material) {
   return quad({-9, height, 9}, {9, height, 9}, {9, height, -9}, {-9, height, -9}, material);
 }
 
-std::int32_t addMask(SceneBuilder& builder, const std::vector<float>& values) {
+std::int32_t addCoverageMap(SceneBuilder& builder, const std::vector<float>& values) {
   std::vector<std::uint32_t> texels;
   for (const float v : values) texels.push_back(encodeDataTexel(v, 0.9f, 0.1f, 1));
   return builder.add(
       makeTexture(TexelFormat::data, static_cast<int>(values.size()), 1, std::move(texels)));
 }
 
-// Matte, shining, glowing and mirroring at once.
-Material everything() {
+// Matte, shining, radiating and mirroring at once.
+Material allAtOnce() {
   Material m = diffuseMaterial(0.6f);
   m.specular = Rgb(0.9f, 0.5f, 0.2f);
   m.roughness = 0.4f;
@@ -46,13 +46,13 @@ Material everything() {
   return m;
 }
 
-// What is seen of a sheet of everything() over a floor, under a lamp that casts no shadow.
-RgbD overAFloor(float coverage, const Vec3d& direction) {
+// What is seen of a sheet of allAtOnce() over a floor, under a lamp that casts no shadow.
+RgbD sheetOverAFloor(float coverage, const Vec3d& direction) {
   SceneBuilder builder;
-  Material sheet = covering(everything(), coverage);
+  Material sheet = inPart(allAtOnce(), coverage);
   sheet.castsShadow = false;
-  builder.add(level(0, builder.add(sheet)));
-  builder.add(level(-1, builder.add(diffuseMaterial(0.7f))));
+  builder.add(levelAt(0, builder.add(sheet)));
+  builder.add(levelAt(-1, builder.add(diffuseMaterial(0.7f))));
   builder.sky(0.4f);
   builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
   builder.description.lights = {lightAt({1, 3, 1}, 30)};
@@ -62,10 +62,10 @@ RgbD overAFloor(float coverage, const Vec3d& direction) {
 TEST(Coverage, IsAShareOfAllThatASurfaceSends) {
   for (const double degrees : {0.0, 40.0, 80.0}) {
     const Vec3d down = steep(degrees);
-    const RgbD whole = overAFloor(1, down), none = overAFloor(0, down);
+    const RgbD whole = sheetOverAFloor(1, down), none = sheetOverAFloor(0, down);
     EXPECT_GT(std::fabs(whole.x - none.x), 0.05);
     for (const double c : {0.25, 0.5, 0.9}) {
-      const RgbD seen = overAFloor(static_cast<float>(c), down),
+      const RgbD seen = sheetOverAFloor(static_cast<float>(c), down),
                  wanted = whole * c + none * (1 - c);
       EXPECT_NEAR(seen.x, wanted.x, 1e-6) << degrees << " " << c;
       EXPECT_NEAR(seen.z, wanted.z, 1e-6) << degrees << " " << c;
@@ -75,10 +75,10 @@ TEST(Coverage, IsAShareOfAllThatASurfaceSends) {
 
 TEST(Coverage, CountsTexelByTexel) {
   SceneBuilder builder;
-  Material sheet = covering(glowing(1), 0.5f);
-  sheet.coverageMap = addMask(builder, {0, 0.2f, 0.6f, 1});
+  Material sheet = inPart(radiating(1), 0.5f);
+  sheet.coverageMap = addCoverageMap(builder, {0, 0.2f, 0.6f, 1});
   builder.add(quad({0, 0, 0}, {4, 0, 0}, {4, 0, -1}, {0, 0, -1}, builder.add(sheet)));
-  builder.add(level(-1, builder.add(glowing(3))));
+  builder.add(levelAt(-1, builder.add(radiating(3))));
   const Scene scene = builder.build();
   reference::Settings settings = uncut();
   settings.options.shading.textureFilter = TextureFilter::nearest;
@@ -95,8 +95,8 @@ TEST(Coverage, CountsTexelByTexel) {
 TEST(Coverage, LetsThroughSheetAfterSheetFromEitherSide) {
   for (const int sheets : {1, 2, 7}) {
     SceneBuilder builder;
-    const auto sheet = builder.add(covering(glowing(1), 0.25f));
-    for (int i = 0; i < sheets; ++i) builder.add(level(static_cast<float>(-i), sheet));
+    const auto sheet = builder.add(inPart(radiating(1), 0.25f));
+    for (int i = 0; i < sheets; ++i) builder.add(levelAt(static_cast<float>(-i), sheet));
     builder.sky(5);
     const Scene scene = builder.build();
     const double through = std::pow(0.75, sheets), wanted = 1 - through + 5 * through;
@@ -112,10 +112,10 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
     builder.add(box({-4, -4, -4}, {4, 4, 4}, builder.add(glassMaterial(1.33f))));
     if (withSheet) {
       builder.add(quad({-3, -3, -1}, {3, -3, -1}, {3, 3, -1}, {-3, 3, -1},
-                       builder.add(covering(glowing(0), 0.5f))));
+                       builder.add(inPart(radiating(0), 0.5f))));
     }
     Object lamp;
-    lamp.meshes = {box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(glowing(1)))};
+    lamp.meshes = {box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(radiating(1)))};
     builder.place(std::move(lamp), {Affine(), Affine::translation({1, 1, 0})});
     builder.description.cameras = {{.eye = {0.1f, 0.2f, 3}, .at = {0, 0, 0}}};
     RenderOptions o = smallOptions();
@@ -135,10 +135,10 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
 
 TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
   SceneBuilder builder;
-  builder.add(level(0, builder.add(glowing(1))));
-  builder.add(level(-1, builder.add(glowing(9))));
+  builder.add(levelAt(0, builder.add(radiating(1))));
+  builder.add(levelAt(-1, builder.add(radiating(9))));
   builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
-                   builder.add(covering(glowing(0), 0.5f))));
+                   builder.add(inPart(radiating(0), 0.5f))));
   const Scene scene = builder.build();
   for (const double x : {-0.7, 0.3, 0.9, 2.0}) {
     EXPECT_EQ(radianceAlong(scene, {x, 2, 0.4}, {0, -1, 0}).x, 1) << x;
@@ -148,11 +148,11 @@ TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
 TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
   for (const float factor : {1.0f, 0.9f}) {
     SceneBuilder builder;
-    Material sheet = covering(blackMaterial(), factor);
-    sheet.coverageMap = addMask(builder, {0.1f, 0.45f, 0.6f, 1});
+    Material sheet = inPart(blackMaterial(), factor);
+    sheet.coverageMap = addCoverageMap(builder, {0.1f, 0.45f, 0.6f, 1});
     sheet.cutWhereClear();
     builder.add(quad({0, 1, 0}, {4, 1, 0}, {4, 1, -1}, {0, 1, -1}, builder.add(sheet)));
-    builder.add(level(0, builder.add(diffuseMaterial(0.5f))));
+    builder.add(levelAt(0, builder.add(diffuseMaterial(0.5f))));
     builder.description.lights = {sun({0, -1, 0}, 2)};
     const Scene scene = builder.build();
     const bool lit[] = {true, true, false, false};
@@ -165,10 +165,10 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
 
 TEST(Coverage, ClearTexelsAreNoBounce) {
   SceneBuilder builder;
-  Material sheet = glowing(1);
-  sheet.coverageMap = addMask(builder, {0});
+  Material sheet = radiating(1);
+  sheet.coverageMap = addCoverageMap(builder, {0});
   sheet.cutWhereClear();
-  builder.add(level(0, builder.add(sheet)));
+  builder.add(levelAt(0, builder.add(sheet)));
   builder.sky(0.5f);
   reference::RayCounts counts;
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, uncut(), &counts).x, 0.5);
@@ -183,7 +183,7 @@ TEST(ThinSheet, TintsWhatGoesStraightOn) {
   sheet.thin = true;
   sheet.ior = 1.7f;
   sheet.mirror = sheet.mirrorGrazing = Rgb(0.25f);
-  builder.add(level(0, builder.add(sheet)));
+  builder.add(levelAt(0, builder.add(sheet)));
   builder.sky(0.4f);
   const Scene scene = builder.build();
   for (const double height : {1.0, -1.0}) {
@@ -195,15 +195,15 @@ TEST(ThinSheet, TintsWhatGoesStraightOn) {
 }
 
 // Tiles that cover by maps and numbers, mirror and shine, one over the other, and a thin one.
-Scene coveringTiles() {
+Scene tilesInPart() {
   SceneBuilder builder;
-  const std::int32_t few = addMask(builder, {0, 0.3f, 1, 0.6f});
+  const std::int32_t few = addCoverageMap(builder, {0, 0.3f, 1, 0.6f});
   std::vector<float> many;
   for (int i = 0; i < 37; ++i) many.push_back(static_cast<float>(i) / 36);
-  const std::int32_t slope = addMask(builder, many);
+  const std::int32_t slope = addCoverageMap(builder, many);
   builder.sky(0.3f);
   return rowOfTiles(builder, [&](int i) {
-    Material m = everything();
+    Material m = allAtOnce();
     m.glossyReflection = i % 2 == 0;
     m.coverage = i == 1 ? 1.0f : 0.8f;
     if (i != 2) m.coverageMap = i < 2 ? few : slope;
@@ -223,31 +223,31 @@ Scene coveringTiles() {
   });
 }
 
-RenderOptions withSamples() {
+RenderOptions sampledOptions() {
   RenderOptions o = smallOptions();
   o.glossy = 2;
   return o;
 }
 
 TEST(Coverage, AgreesWithTheReferenceOnEveryTarget) {
-  const Scene scene = coveringTiles();
+  const Scene scene = tilesInPart();
   for (const TextureFilter filter :
        {TextureFilter::nearest, TextureFilter::bilinear, TextureFilter::trilinear}) {
-    RenderOptions o = withSamples();
+    RenderOptions o = sampledOptions();
     o.shading.textureFilter = filter;
     expectTheReferenceOnEveryTarget(scene, o);
   }
 }
 
 TEST(Coverage, KeepsItsBitsWhateverTheQueues) {
-  expectBitsWhateverTheQueues(coveringTiles(), withSamples());
+  expectBitsWhateverTheQueues(tilesInPart(), sampledOptions());
 }
 
 TEST(Coverage, HasAStepWhereTheSceneHasSome) {
-  Scene scene = coveringTiles();
-  EXPECT_NE(makePlan(scene, withSamples()).find("lookUpCoverage"), nullptr);
+  Scene scene = tilesInPart();
+  EXPECT_NE(makePlan(scene, sampledOptions()).find("lookUpCoverage"), nullptr);
   for (const Effect effect : {Effect::coverage, Effect::transmission}) {
-    RenderOptions o = withSamples();
+    RenderOptions o = sampledOptions();
     o.disable = EffectSet().with(effect);
     EXPECT_EQ(makePlan(scene, o).find("lookUpCoverage"), nullptr);
   }
