@@ -272,20 +272,24 @@ HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size
   hn::Store(hn::IfThenElse(queued, hn::Mul(roughness, roughness), alpha), d, job.surfels.alpha + i);
 }
 
-// The scalar twin is findColors in src/reference/find_intersections.cpp.
-void LookUpRoughness(Chunk& c) noexcept {
+// apply(job, queue, slot, i) for each vector, when what mapOf(materials) names has been looked up.
+template <typename MapOf, typename Apply>
+HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
   const size_t lanes = hn::Lanes(FloatTag()), n = c.n;
   const SurfelJob job = SurfelJobOf(c);
   MapQueue queue;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    for (size_t i = begin; i < end; i += lanes) {
-      QueueDataMap(
-          job, i, i - begin,
-          [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().roughnessMap; }, queue);
-    }
-    for (size_t i = begin; i < end; i += lanes) ApplyRoughness(job, queue, i - begin, i);
+    for (size_t i = begin; i < end; i += lanes) QueueDataMap(job, i, i - begin, mapOf, queue);
+    for (size_t i = begin; i < end; i += lanes) apply(job, queue, i - begin, i);
   }
+}
+
+// The scalar twin is findColors in src/reference/find_intersections.cpp.
+void LookUpRoughness(Chunk& c) noexcept {
+  LookUpDataMap(
+      c, [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().roughnessMap; },
+      ApplyRoughness);
 }
 
 StepFunction FindLookUpRoughness(size_t /*index*/) { return LookUpRoughness; }
@@ -312,22 +316,13 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
 // The scalar twin is findColors in src/reference/find_intersections.cpp.
 void LookUpCoverage(Chunk& c) noexcept {
   const FloatTag d;
-  const size_t lanes = hn::Lanes(d), n = c.n;
-  const SurfelJob job = SurfelJobOf(c);
   if ((c.materialFlags & kMaterialIsPartlyThere) == 0) {
-    for (size_t i = 0; i < n; i += lanes) hn::Store(hn::Set(d, 1.0f), d, c.surfels.coverage + i);
+    const VF whole = hn::Set(d, 1.0f);
+    for (size_t i = 0; i < c.n; i += hn::Lanes(d)) hn::Store(whole, d, c.surfels.coverage + i);
     return;
   }
-  MapQueue queue;
-  for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
-    const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    for (size_t i = begin; i < end; i += lanes) {
-      QueueDataMap(
-          job, i, i - begin,
-          [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().coverageMap; }, queue);
-    }
-    for (size_t i = begin; i < end; i += lanes) StoreCoverage(job, queue, i - begin, i);
-  }
+  LookUpDataMap(
+      c, [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().coverageMap; }, StoreCoverage);
 }
 
 StepFunction FindLookUpCoverage(size_t /*index*/) { return LookUpCoverage; }
