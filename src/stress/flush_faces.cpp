@@ -9,12 +9,6 @@ namespace whit::stress {
 
 namespace {
 
-Material glowing(float radiance) {
-  Material m = blackMaterial();
-  m.emission = Rgb(radiance);
-  return m;
-}
-
 // Two corners on a grid of whole numbers, one unit or more apart on each axis.
 std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
   std::array<Vec3f, 2> corners;
@@ -35,7 +29,7 @@ Scene blocksOnGrid(std::uint64_t seed) {
   const std::array<std::uint32_t, 6> all{
       builder.add(diffuseMaterial(0.6f)),  builder.add(mirrorMaterial(0.7f)),
       builder.add(glassMaterial(1.5f, 1)), builder.add(glassMaterial(1.33f)),
-      builder.add(diffuseMaterial(0.2f)),  builder.add(glowing(0.4f))};
+      builder.add(diffuseMaterial(0.2f)),  builder.add(emittingMaterial(0.4f))};
   const auto any = [&] { return all[static_cast<std::size_t>(numbers.in(0, 6))]; };
   Object object;
   for (int i = 0; i < 8; ++i) {
@@ -119,8 +113,8 @@ Finding glassOnTheFloor(const Setup& setup) {
   Finding finding(0);
   for (const float height : {0.0f, 0.1f, 33.3f}) {
     SceneBuilder builder;
-    builder.add(floorAt(height - 0.5f, 8, builder.add(glowing(100))));
-    builder.add(floorAt(height, 8, builder.add(glowing(0.5f))));
+    builder.add(floorAt(height - 0.5f, 8, builder.add(emittingMaterial(100))));
+    builder.add(floorAt(height, 8, builder.add(emittingMaterial(0.5f))));
     builder.add(box({-1, height, -1}, {1, height + 1, 1}, builder.add(glassMaterial(1.5f))));
     const Scene scene = builder.build();
     Camera camera;
@@ -143,7 +137,7 @@ Finding slabOnSlab(const Setup& setup) {
     SceneBuilder builder;
     addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f, 1)), 50);
     addSlab(builder, 0, -1, builder.add(glassMaterial(below)), 50);
-    builder.add(floorAt(-2, 50, builder.add(glowing(1))));
+    builder.add(floorAt(-2, 50, builder.add(emittingMaterial(1))));
     Camera camera;
     camera.eye = {0, 3, 0};
     camera.at = {0, 0, 0};
@@ -169,7 +163,8 @@ Finding whichIsSeen(const Setup& setup) {
   Finding finding(0);
   for (const bool glassFirst : {false, true}) {
     SceneBuilder builder;
-    const auto lower = builder.add(glowing(0.25f)), upper = builder.add(glowing(0.75f));
+    const auto lower = builder.add(emittingMaterial(0.25f)),
+               upper = builder.add(emittingMaterial(0.75f));
     const auto glass = builder.add(glassMaterial(1.5f, 9));
     if (glassFirst) builder.add(floorAt(0, 2, glass));
     builder.add(floorAt(0, 3, lower));
@@ -190,7 +185,8 @@ Finding decalInACorner(const Setup& setup) {
   Finding finding(0);
   for (const float side : {1.0f, 4.0f}) {
     SceneBuilder builder;
-    const auto floor = builder.add(glowing(0.25f)), decal = builder.add(glowing(0.75f));
+    const auto floor = builder.add(emittingMaterial(0.25f)),
+               decal = builder.add(emittingMaterial(0.75f));
     builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
     builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
     Camera camera = lookingDown();

@@ -161,12 +161,6 @@ Finding eyeInGlass(const Setup& setup) {
 // A dozen roundings of the way and of the exponential, whose argument is below 10.
 constexpr double kBeerBound = 64 * 0x1p-24;
 
-Material glowingMaterial() {
-  Material m = blackMaterial();
-  m.emission = {1, 1, 1};
-  return m;
-}
-
 // Absorbs, and does not refract.
 Material tintedMaterial() {
   Material m = glassMaterial(1);
@@ -207,7 +201,7 @@ Finding waterBeforeTheEye(const Setup& setup) {
   constexpr float kWall = 2;
   for (const float water : {1.5f, 3.0f}) {
     SceneBuilder builder;
-    builder.add(box(Vec3f(-kWall), Vec3f(kWall), builder.add(glowingMaterial())));
+    builder.add(box(Vec3f(-kWall), Vec3f(kWall), builder.add(emittingMaterial(1))));
     builder.add(box(Vec3f(-water), Vec3f(water), builder.add(tintedMaterial())));
     Camera camera;
     camera.eye = {0, 0, 0};
@@ -224,7 +218,7 @@ Finding waterBeforeTheEye(const Setup& setup) {
 Finding parallelRaysInWater(const Setup& setup) {
   Finding finding(kBeerBound);
   SceneBuilder builder;
-  builder.add(box(Vec3f(-2), Vec3f(2), builder.add(glowingMaterial())));
+  builder.add(box(Vec3f(-2), Vec3f(2), builder.add(emittingMaterial(1))));
   builder.add(box({-4, -8, -4}, {4, 0, 4}, builder.add(tintedMaterial())));
   Camera camera;
   camera.eye = {0, 0, 1};
@@ -241,7 +235,7 @@ Finding eyeOnTheWater(const Setup& setup) {
   Finding finding(kBeerBound);
   for (const float level : {0.0f, 0.1f, 40.3f}) {
     SceneBuilder builder;
-    builder.add(box({-2, level - 2, -2}, {2, level + 2, 2}, builder.add(glowingMaterial())));
+    builder.add(box({-2, level - 2, -2}, {2, level + 2, 2}, builder.add(emittingMaterial(1))));
     builder.add(box({-4, level - 8, -4}, {4, level, 4}, builder.add(tintedMaterial())));
     const Scene scene = builder.build();
     Camera camera;
@@ -273,7 +267,7 @@ Finding sheetsInWater(const Setup& setup) {
   for (int i = 0; i < 600; ++i) {
     builder.add(floorAt(0.5f + 0.001f * static_cast<float>(i), 8, black));
   }
-  builder.add(floorAt(-1, 8, builder.add(glowingMaterial())));
+  builder.add(floorAt(-1, 8, builder.add(emittingMaterial(1))));
   builder.add(box(Vec3f(-9), Vec3f(9), builder.add(tintedMaterial())));
   Camera camera;
   camera.eye = {0, 0, 0};
@@ -332,8 +326,7 @@ Finding sheetsInPart(const Setup& setup) {
   Finding finding(20 * 0x1p-24);
   constexpr int kSheets = 6;
   SceneBuilder builder;
-  Material sheet = blackMaterial();
-  sheet.emission = Rgb(1.0f);
+  Material sheet = emittingMaterial(1);
   sheet.coverage = 0.25f;
   const auto material = builder.add(sheet);
   for (int i = 0; i < kSheets; ++i) builder.add(floorAt(-static_cast<float>(i), 50, material));

@@ -27,6 +27,11 @@ inline Material mirrorMaterial(float reflectance) {
   m.mirror = m.mirrorGrazing = Rgb(reflectance);
   return m;
 }
+inline Material emittingMaterial(float radiance) {
+  Material m = blackMaterial();
+  m.emission = Rgb(radiance);
+  return m;
+}
 inline Material glassMaterial(float ior, int priority = 0) {
   Material m = blackMaterial();
   m.transmission = Rgb(1.0f);

@@ -11,12 +11,6 @@
 namespace whit::test {
 namespace {
 
-Material radiating(float radiance) {
-  Material m = blackMaterial();
-  m.emission = Rgb(radiance);
-  return m;
-}
-
 Material inPart(Material m, float coverage) {
   m.coverage = coverage;
   return m;
@@ -75,10 +69,10 @@ TEST(Coverage, IsAShareOfAllThatASurfaceSends) {
 
 TEST(Coverage, CountsTexelByTexel) {
   SceneBuilder builder;
-  Material sheet = inPart(radiating(1), 0.5f);
+  Material sheet = inPart(emittingMaterial(1), 0.5f);
   sheet.coverageMap = addCoverageMap(builder, {0, 0.2f, 0.6f, 1});
   builder.add(quad({0, 0, 0}, {4, 0, 0}, {4, 0, -1}, {0, 0, -1}, builder.add(sheet)));
-  builder.add(levelAt(-1, builder.add(radiating(3))));
+  builder.add(levelAt(-1, builder.add(emittingMaterial(3))));
   const Scene scene = builder.build();
   reference::Settings settings = uncut();
   settings.options.shading.textureFilter = TextureFilter::nearest;
@@ -95,7 +89,7 @@ TEST(Coverage, CountsTexelByTexel) {
 TEST(Coverage, LetsThroughSheetAfterSheetFromEitherSide) {
   for (const int sheets : {1, 2, 7}) {
     SceneBuilder builder;
-    const auto sheet = builder.add(inPart(radiating(1), 0.25f));
+    const auto sheet = builder.add(inPart(emittingMaterial(1), 0.25f));
     for (int i = 0; i < sheets; ++i) builder.add(levelAt(static_cast<float>(-i), sheet));
     builder.sky(5);
     const Scene scene = builder.build();
@@ -112,10 +106,11 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
     builder.add(box({-4, -4, -4}, {4, 4, 4}, builder.add(glassMaterial(1.33f))));
     if (withSheet) {
       builder.add(quad({-3, -3, -1}, {3, -3, -1}, {3, 3, -1}, {-3, 3, -1},
-                       builder.add(inPart(radiating(0), 0.5f))));
+                       builder.add(inPart(emittingMaterial(0), 0.5f))));
     }
     Object lamp;
-    lamp.meshes = {box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(radiating(1)))};
+    lamp.meshes = {
+        box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(emittingMaterial(1)))};
     builder.place(std::move(lamp), {Affine(), Affine::translation({1, 1, 0})});
     builder.description.cameras = {{.eye = {0.1f, 0.2f, 3}, .at = {0, 0, 0}}};
     RenderOptions o = smallOptions();
@@ -135,10 +130,10 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
 
 TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
   SceneBuilder builder;
-  builder.add(levelAt(0, builder.add(radiating(1))));
-  builder.add(levelAt(-1, builder.add(radiating(9))));
+  builder.add(levelAt(0, builder.add(emittingMaterial(1))));
+  builder.add(levelAt(-1, builder.add(emittingMaterial(9))));
   builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
-                   builder.add(inPart(radiating(0), 0.5f))));
+                   builder.add(inPart(emittingMaterial(0), 0.5f))));
   const Scene scene = builder.build();
   for (const double x : {-0.7, 0.3, 0.9, 2.0}) {
     EXPECT_EQ(radianceAlong(scene, {x, 2, 0.4}, {0, -1, 0}).x, 1) << x;
@@ -165,7 +160,7 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
 
 TEST(Coverage, ClearTexelsAreNoBounce) {
   SceneBuilder builder;
-  Material sheet = radiating(1);
+  Material sheet = emittingMaterial(1);
   sheet.coverageMap = addCoverageMap(builder, {0});
   sheet.cutWhereClear();
   builder.add(levelAt(0, builder.add(sheet)));

@@ -13,12 +13,6 @@ Material singleSided(Material m) {
   return m;
 }
 
-Material glowing(float radiance) {
-  Material m = diffuseMaterial(0);
-  m.emission = Rgb(radiance);
-  return m;
-}
-
 Mesh tile(std::uint32_t material) {
   return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
 }
@@ -36,7 +30,7 @@ std::uint32_t filtered(const Scene& scene) {
 
 TEST(SingleSided, AreSeenFromTheFrontAndPassedFromBehind) {
   SceneBuilder builder;
-  builder.add(tile(builder.add(singleSided(glowing(2)))));
+  builder.add(tile(builder.add(singleSided(emittingMaterial(2)))));
   builder.sky(0.5f);
   const Scene scene = builder.build();
   EXPECT_NEAR(radianceAlong(scene, {0.5, 1, -0.25}, {0, -1, 0}).x, 2, kRounding);
@@ -47,7 +41,7 @@ TEST(SingleSided, AreSeenFromTheFrontAndPassedFromBehind) {
 TEST(SingleSided, KeepTheirFrontInInstancesThatMirror) {
   SceneBuilder builder;
   Object object;
-  object.meshes = {tile(builder.add(singleSided(glowing(2))))};
+  object.meshes = {tile(builder.add(singleSided(emittingMaterial(2))))};
   Affine mirrored = Affine::translation({3, 0, 0});
   mirrored.y = {0, -1, 0};
   Affine sideways = Affine::translation({6, 0, 0});
@@ -108,9 +102,9 @@ TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
 // Back to back in one place they are two surfaces.
 TEST(SingleSided, AreKeptBackToBack) {
   SceneBuilder builder;
-  Mesh back = tile(builder.add(singleSided(glowing(3))));
+  Mesh back = tile(builder.add(singleSided(emittingMaterial(3))));
   for (auto& t : back.triangles) std::swap(t[1], t[2]);
-  builder.add(tile(builder.add(singleSided(glowing(2)))));
+  builder.add(tile(builder.add(singleSided(emittingMaterial(2)))));
   builder.add(back);
   const Scene scene = builder.build();
   EXPECT_EQ(scene.triangles.size(), 4u);
