@@ -215,6 +215,7 @@ void MaterialReader::override(JsonObject& object, Material& material, GivenMembe
   read(object, material);
   for (const auto& [name, value] : object.value().members()) given.insert(name);
   if (object.has("mirror")) given.insert("mirrorGrazing");
+  if (object.has("coverageMap")) given.insert({"alphaMap", "alphaCutoff"});
   for (const char* passing : {"transmission", "coverage"}) {
     if (object.has(passing)) given.insert("castsShadow");
   }
