@@ -143,8 +143,9 @@ void EmbreeScene::setFilters(MaskedGeometry& filtered, RTCGeometry geometry) {
   } else if (filtered.anyMask) {
     rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha<&Mask::cutoff>);
   }
-  if (filtered.anyMask)
+  if (filtered.anyMask) {
     rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha<&Mask::shadowCutoff>);
+  }
 }
 
 void EmbreeScene::addInstances(const Scene& scene) {

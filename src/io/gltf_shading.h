@@ -39,8 +39,7 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
 // - unlit colors are emitted, and nothing else is.
 // - single-sided surfaces are passed from behind by all rays but those of shadows, unless they
-// bound
-//   a volume.
+//   bound a volume.
 // - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
 //   no mirror; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);

@@ -101,7 +101,7 @@ void Gatherer::materials() {
 }
 
 void Gatherer::impulses() {
-  byMaterial(Effect::transmission, "with transmission",
+  byMaterial(Effect::transmission, "that light passes",
              [](const Material& m) { return m.passesLight(); });
   byMaterial(Effect::absorption, "with absorption",
              [](const Material& m) { return m.hasAbsorption(); });

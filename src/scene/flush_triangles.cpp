@@ -198,8 +198,8 @@ void FlushTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Vi
 // would reach into several times as many: those that lie one on the other share one cell.
 void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
-  constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
-  constexpr std::uint32_t kFewPartners = 32;
+  constexpr std::size_t kReach = 8;           // cells that a partner reaches into, in the mean
+  constexpr std::uint32_t kFewPartners = 32;  // a fine mask is not worth its start
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;

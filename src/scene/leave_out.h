@@ -14,9 +14,9 @@ namespace whit {
 // texels go too when no material is left that uses them; alpha masks, so that masked surfaces
 // become solid; vertex normals; lobes, emission, lights; the sky, or of a sky image only the image,
 // in whose place comes a gradient; mirrors, transmission (glass becomes opaque), absorption,
-// coverage (what is there in part becomes whole); all
-// uses of an object but the first. Without shadows nothing casts any. Without mirror dielectrics
-// get the refractive index of the vacuum, because others reflect.
+// coverage (what is there in part becomes whole); all uses of an object but the first. Without
+// shadows nothing casts any. Without mirror dielectrics get the refractive index of the vacuum,
+// because others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
 // What the matte scene starts with: primary and shadow rays, lights that shine all around.

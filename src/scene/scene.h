@@ -98,7 +98,7 @@ struct Medium {
 
 struct EffectReason {
   bool on = false;
-  std::string because;  // "3 materials have a mirror", "no mesh uses a material with transmission"
+  std::string because;  // "3 materials have a mirror", "no mesh uses a material that light passes"
 };
 
 class Scene {

@@ -142,7 +142,7 @@ const std::vector<Rule>& rules() {
          first(d).transmission = Rgb(1.0f);
          first(d).ior = 1;
        },
-       "1 material with transmission, 2 triangles use it",
+       "1 material that light passes, 2 triangles use it",
        {}},
       {Effect::absorption,
        [](auto& d) {
@@ -169,7 +169,7 @@ TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
     EXPECT_FALSE(r.because.empty());
   }
   EXPECT_EQ(reason(scene, Effect::transmission).because,
-            "no mesh uses a material with transmission");
+            "no mesh uses a material that light passes");
   EXPECT_EQ(reason(scene, Effect::shadows).because, "the scene has no light");
   EXPECT_EQ(reason(scene, Effect::skyImage).because, "the sky is black");
 }
