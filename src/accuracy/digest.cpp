@@ -98,7 +98,7 @@ void add(Digester& d, const Medium& medium) {
   add(d, ior), add(d, absorption), add(d, priority);
 }
 void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, toWorld] = instance;
+  const auto& [geometry, written, toWorld] = instance;
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
@@ -160,6 +160,7 @@ std::string digestOf(const Scene& scene) {
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);
+  addTable(d, flush.ranks());  // all else of it follows from the tables
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

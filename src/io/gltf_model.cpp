@@ -104,7 +104,7 @@ Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& m
                document_.budget(), layout.body(known->second));
       empty = empty && layout.body(known->second).parts.empty();
     }
-    all.children.push_back({known->second, placed.toScene});
+    all.children.push_back({known->second, placed.toScene, 0});
   }
   if (empty) {
     warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"

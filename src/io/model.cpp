@@ -51,7 +51,7 @@ void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>&
     budget.charge(1, bytesOf(mesh), file);
     auto copy = std::make_shared<Mesh>(mesh);
     for (std::uint32_t& material : copy->materials) material = materials[material];
-    to.parts.push_back({std::move(copy), Affine()});
+    to.parts.push_back({std::move(copy), Affine(), !mesh.order.empty() && &mesh != &meshes[0]});
   }
 }
 

@@ -196,6 +196,8 @@ class MeshBuilder {
     mesh_.triangles.push_back(corners);
     mesh_.materials.push_back(material);
   }
+  // Of the last triangle.
+  void number(std::uint32_t inFile) { mesh_.order.push_back(inFile); }
 
   bool empty() const { return mesh_.triangles.empty(); }
   Mesh finish() {
@@ -221,7 +223,7 @@ class FaceReader {
   FaceReader(ObjText& text, ObjContents contents, Warnings& warnings)
       : text_(text), contents_(std::move(contents)), warnings_(warnings) {}
 
-  std::vector<Mesh> run() {
+  std::vector<Mesh> run(MemoryBudget& budget) {
     std::array<std::size_t, 2> corners{};
     std::vector<std::uint8_t> kind(contents_.faces.size());
     constexpr std::uint8_t kDropped = 2;
@@ -229,13 +231,16 @@ class FaceReader {
       kind[i] = check(contents_.faces[i]) ? hasNormals(contents_.faces[i]) : kDropped;
       if (kind[i] != kDropped) corners[kind[i]] += contents_.faces[i].cornerCount;
     }
+    isMixed_ = corners[0] > 0 && corners[1] > 0;
+    if (isMixed_) budget.charge(corners[0] + corners[1], sizeof(std::uint32_t), text_.file());
+    std::array builders{MeshBuilder(contents_, false, corners[0]),
+                        MeshBuilder(contents_, true, corners[1])};
+    for (std::size_t i = 0; i < contents_.faces.size(); ++i) {
+      if (kind[i] != kDropped) build(contents_.faces[i], builders[kind[i]]);
+    }
     std::vector<Mesh> meshes;
     for (const std::size_t withNormals : {1u, 0u}) {
-      if (corners[withNormals] == 0) continue;
-      MeshBuilder builder(contents_, withNormals == 1, corners[withNormals]);
-      for (std::size_t i = 0; i < contents_.faces.size(); ++i) {
-        if (kind[i] == withNormals) build(contents_.faces[i], builder);
-      }
+      MeshBuilder& builder = builders[withNormals];
       if (!builder.empty()) meshes.push_back(builder.finish());
     }
     return meshes;
@@ -281,9 +286,8 @@ class FaceReader {
   void build(const ObjFace& face, MeshBuilder& builder) {
     const ObjCorner* corners = cornersOf(face);
     if (face.cornerCount == 3) {
-      builder.triangle(
-          {builder.vertex(corners[0]), builder.vertex(corners[1]), builder.vertex(corners[2])},
-          face.material);
+      add({builder.vertex(corners[0]), builder.vertex(corners[1]), builder.vertex(corners[2])},
+          face.material, builder);
       return;
     }
     points_.clear();
@@ -295,13 +299,21 @@ class FaceReader {
     }
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline", face);
     for (const auto& t : triangles_) {
-      builder.triangle({numbers_[t[0]], numbers_[t[1]], numbers_[t[2]]}, face.material);
+      add({numbers_[t[0]], numbers_[t[1]], numbers_[t[2]]}, face.material, builder);
     }
+  }
+
+  void add(const std::array<std::uint32_t, 3>& corners, std::uint32_t material,
+           MeshBuilder& builder) {
+    builder.triangle(corners, material);
+    if (isMixed_) builder.number(triangleCount_++);
   }
 
   ObjText& text_;
   ObjContents contents_;
   Warnings& warnings_;
+  bool isMixed_ = false;  // of faces with normals and without
+  std::uint32_t triangleCount_ = 0;
   std::vector<Vec3d> points_;
   std::vector<std::uint32_t> numbers_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -327,7 +339,7 @@ void chargeFor(const ObjText& text, MemoryBudget& budget) {
 
 std::vector<Mesh> readObjGeometry(ObjText& text, MemoryBudget& budget, Warnings& warnings) {
   chargeFor(text, budget);
-  return FaceReader(text, parseObj(text), warnings).run();
+  return FaceReader(text, parseObj(text), warnings).run(budget);
 }
 
 }  // namespace whit

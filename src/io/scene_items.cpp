@@ -195,7 +195,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   } else if (const auto model = item.find("model")) {
     content = readModel(item, *model);
   } else if (const auto use = item.find("use")) {
-    content.children.push_back({object(*use), Affine()});
+    content.children.push_back({object(*use), Affine(), 0});
   } else if (const auto group = item.find("group")) {
     readItems(*group, content);
   } else {
@@ -240,7 +240,7 @@ Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
   const std::uint32_t body = layout_.add(name.text());
   layout_.body(body) = std::move(content);
   Body placed;
-  for (const Affine& placement : shape.placements) placed.children.push_back({body, placement});
+  for (const Affine& placement : shape.placements) placed.children.push_back({body, placement, 0});
   return placed;
 }
 

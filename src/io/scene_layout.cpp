@@ -53,7 +53,7 @@ std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
          mesh.colors.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
-         mesh.materials.size() * sizeof(std::uint32_t);
+         (mesh.materials.size() + mesh.order.size()) * sizeof(std::uint32_t);
 }
 
 std::uint32_t SceneLayout::add(const std::string& name) {
@@ -65,10 +65,12 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
   budget_.charge(from.parts.size() * sizeof(BodyPart) + from.children.size() * sizeof(Placement),
                  placements.size(), "repeated items");
   for (const Affine& placement : placements) {
-    for (const BodyPart& part : from.parts)
-      to.parts.push_back({part.mesh, placement * part.toBody});
+    const std::size_t before = to.parts.size();
+    for (const BodyPart& part : from.parts) {
+      to.parts.push_back({part.mesh, placement * part.toBody, part.mingles});
+    }
     for (const Placement& child : from.children) {
-      to.children.push_back({child.body, placement * child.toParent});
+      to.children.push_back({child.body, placement * child.toParent, before + child.partsBefore});
     }
   }
 }
@@ -86,7 +88,26 @@ void SceneLayout::moveTo(SceneDescription& scene) {
     }
   }
   budget_.charge(instances, sizeof(Instance), "instances");
-  place(0, Affine(), scene);
+  sizes_.assign(bodies_.size(), 0);
+  for (const std::uint32_t body : order) {
+    sizes_[body] = bodies_[body].parts.size();
+    for (const Placement& child : bodies_[body].children) sizes_[body] += sizes_[child.body];
+  }
+  place(0, Affine(), 0, scene);
+}
+
+// Counted from the body's own; one that mingles with the part before shares its rank.
+std::vector<std::uint64_t> SceneLayout::ranksOfParts(const Body& body) const {
+  std::vector<std::uint64_t> ranks(body.parts.size());
+  std::uint64_t withinChildren = 0;
+  auto child = body.children.begin();
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    for (; child != body.children.end() && child->partsBefore <= i; ++child) {
+      withinChildren += sizes_[child->body];
+    }
+    ranks[i] = body.parts[i].mingles ? ranks[i - 1] : withinChildren + i;
+  }
+  return ranks;
 }
 
 // The last user of a mesh gets it, others a copy.
@@ -97,33 +118,48 @@ Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
   return *mesh;
 }
 
-void SceneLayout::placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene) {
-  for (BodyPart& part : body.parts) {
+void SceneLayout::placeOnce(Body& body, const Affine& toWorld, std::uint64_t rank,
+                            SceneDescription& scene) {
+  const std::vector<std::uint64_t> ranks = ranksOfParts(body);
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    BodyPart& part = body.parts[i];
     Mesh mesh = take(part, body.name);
-    scene.instances.push_back(
-        {static_cast<std::uint32_t>(scene.objects.size()), toWorld * part.toBody});
-    scene.objects.push_back({mesh.name, {}});
+    if (!part.mingles) {
+      scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
+                                 toWorld * part.toBody, rank + ranks[i]});
+      scene.objects.push_back({mesh.name, {}});
+    }
     scene.objects.back().meshes.push_back(std::move(mesh));
   }
 }
 
-void SceneLayout::place(std::uint32_t index, const Affine& toWorld, SceneDescription& scene) {
+void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
+  Body& body = bodies_[index];
+  objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
+  const std::vector<std::uint64_t> ranks = ranksOfParts(body);
+  Object object{body.name, {}};
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    Mesh mesh = take(body.parts[i], body.name);
+    if (!(body.parts[i].toBody == Affine())) transform(mesh, body.parts[i].toBody);
+    mesh.rank = ranks[i];
+    object.meshes.push_back(std::move(mesh));
+  }
+  scene.objects.push_back(std::move(object));
+}
+
+void SceneLayout::place(std::uint32_t index, const Affine& toWorld, std::uint64_t rank,
+                        SceneDescription& scene) {
   Body& body = bodies_[index];
   if (counts_[index] == 1) {
-    placeOnce(body, toWorld, scene);
+    placeOnce(body, toWorld, rank, scene);
   } else if (!body.parts.empty()) {
-    if (objects_[index] == kNoObject) {
-      objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
-      Object object{body.name, {}};
-      for (BodyPart& part : body.parts) {
-        object.meshes.push_back(take(part, body.name));
-        if (!(part.toBody == Affine())) transform(object.meshes.back(), part.toBody);
-      }
-      scene.objects.push_back(std::move(object));
-    }
-    scene.instances.push_back({objects_[index], toWorld});
+    if (objects_[index] == kNoObject) addObject(index, scene);
+    scene.instances.push_back({objects_[index], toWorld, rank});
   }
-  for (const Placement& child : body.children) place(child.body, toWorld * child.toParent, scene);
+  for (const Placement& child : body.children) {
+    place(child.body, toWorld * child.toParent, rank + child.partsBefore, scene);
+    rank += sizes_[child.body];
+  }
 }
 
 }  // namespace whit

@@ -22,11 +22,13 @@ std::uint64_t bytesOf(const Mesh& mesh);
 struct BodyPart {
   std::shared_ptr<Mesh> mesh;  // shared by copies of the part
   Affine toBody;
+  bool mingles = false;  // its triangles come among those of the part before, see Mesh::order
 };
 
 struct Placement {
   std::uint32_t body = 0;
   Affine toParent;
+  std::size_t partsBefore = 0;  // of the parent's parts so many come before it
 };
 
 struct Body {
@@ -35,6 +37,7 @@ struct Body {
   std::vector<Placement> children;
 };
 
+// Parts and children come in the order in which the file has them, see Placement::partsBefore.
 // Body 0 is the scene; a body may hold only bodies that were added before it is placed (no
 // circles).
 class SceneLayout {
@@ -49,17 +52,22 @@ class SceneLayout {
   // Fills in objects and instances. A body that is placed once adds its meshes to the world one by
   // one, each with its own map, so that vertices are rounded once; one that is placed more often
   // becomes an object with an instance for each place. Leaves the layout without its meshes.
+  // Ranks follow the file: a part or child after the other, a child's own where it stands.
   // Throws Error(limit) where bodies are nested deeper than kNestingLimit.
   void moveTo(SceneDescription& scene);
 
  private:
-  void place(std::uint32_t body, const Affine& toWorld, SceneDescription& scene);
-  void placeOnce(Body& body, const Affine& toWorld, SceneDescription& scene);
+  std::vector<std::uint64_t> ranksOfParts(const Body& body) const;
+  void place(std::uint32_t index, const Affine& toWorld, std::uint64_t rank,
+             SceneDescription& scene);
+  void placeOnce(Body& body, const Affine& toWorld, std::uint64_t rank, SceneDescription& scene);
+  void addObject(std::uint32_t index, SceneDescription& scene);
   Mesh take(BodyPart& part, const std::string& body);
 
   MemoryBudget& budget_;
   std::deque<Body> bodies_;  // a deque: references stay valid
   std::vector<std::uint64_t> counts_;
+  std::vector<std::uint64_t> sizes_;    // parts of bodies and of all within them
   std::vector<std::uint32_t> objects_;  // of bodies placed more than once
 };
 

@@ -45,9 +45,8 @@ bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
 
 // Of neighbors the first.
 void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return orderOf(idOf(a.candidate)) < orderOf(idOf(b.candidate));
-  });
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.rank < b.rank; });
   std::vector<Place> surfaces;
   for (const Place& place : places) {
     const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const Place& other) {
@@ -87,7 +86,7 @@ bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
   if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
   const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
   if (priorityA != priorityB) return priorityA > priorityB;
-  return orderOf(idOf(a.candidate)) > orderOf(idOf(b.candidate));
+  return a.rank > b.rank;
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
                             const Candidate& met) {
   std::vector<Place> places;
   if (!scene.flush.any(met.triangle)) return places;
-  const auto add = [&](const PlacedTriangleId& id) {
+  const auto add = [&](const PlacedTriangleId& id, std::uint32_t rank) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
     if (!hit) return;
@@ -104,7 +103,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     // What was met is there, though edge on the rounding of either may say otherwise.
     const bool isMet = id == idOf(met);
     if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
-    Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false};
+    Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false, true, rank};
     if (effects.has(Effect::transmission)) {
       const std::uint32_t material = scene.triangles[id.triangle].material;
       place.medium = scene.mediumOfMaterial[material];
@@ -115,7 +114,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
   };
   scene.flush.forEachPartnerAt(idOf(met), met.u, met.v, add);
   if (places.empty()) return places;
-  add(idOf(met));
+  add(idOf(met), scene.flush.rankOf(idOf(met)));
   keepNearest(scene, ray, places);
   mergeNeighbors(scene, places);
   return places;

@@ -19,6 +19,7 @@ struct Place {
   std::uint32_t medium = 0;  // of dielectrics
   bool entering = false;     // its outside is hit
   bool opaque = true;
+  std::uint32_t rank = 0;  // in the order of the scene
 };
 
 // All surfaces that the ray pierces there, that of `met` included, holes of alpha masks left out;
@@ -35,8 +36,8 @@ struct Settled {
 };
 
 // Light meets the opaque surface; of dielectrics alone the one of highest priority, and with it all
-// the others are crossed; of equals the last in the scene, as paint lies on what was painted
-// before.
+// the others are crossed; of equals the last in the scene as it was written, as paint lies on what
+// was painted before.
 Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met);
 
 }  // namespace whit::reference

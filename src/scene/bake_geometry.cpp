@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "scene/bake_triangles.h"
@@ -17,7 +18,20 @@ struct Source {
   Mesh* mesh = nullptr;
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
+  SceneOrder::PlacedMesh place;
   TriangleClassification classified;
+
+  // Of a triangle, in the order in which they were written.
+  std::uint32_t numberOf(std::size_t triangle) const {
+    const std::vector<std::uint32_t>& order = mesh->order;
+    return place.firstTriangle +
+           (order.empty() ? static_cast<std::uint32_t>(triangle) : order[triangle]);
+  }
+  // Whether triangles of both come among each other.
+  bool mingles(const Source& other) const {
+    return !mesh->order.empty() && !other.mesh->order.empty() && place.rank == other.place.rank &&
+           place.instance == other.place.instance;
+  }
 };
 
 class Baker {
@@ -27,7 +41,7 @@ class Baker {
     for (const Material& m : scene.materials) uses_.push_back(useOf(m, scene.textures));
   }
 
-  void run() {
+  SceneOrder run() {
     plan();
     for (std::size_t g = 0; g < sources_.size(); ++g) {
       place(g);
@@ -38,11 +52,14 @@ class Baker {
     reserveTables();
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
     boundInstances(scene_, boxes_, warnings_);
+    return std::move(order_);
   }
 
  private:
   void plan();
+  void numberTriangles(std::size_t g);
   void place(std::size_t g);
+  std::vector<std::uint32_t> fromTheLast(std::size_t g) const;
   void dropCoincident(std::size_t g);
   void countClasses(std::size_t g);
   void dropEmptyGeometries();
@@ -57,7 +74,9 @@ class Baker {
   std::vector<MaterialUse> uses_;             // one a material
   std::vector<std::vector<Source>> sources_;  // one list a geometry
   std::vector<Box> boxes_;                    // one a geometry, in its own space
+  SceneOrder order_;
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
+  bool isSearched_ = false;  // for flush triangles
 };
 
 // Which mesh goes where: those of objects used once into geometry 0, others into one of their own.
@@ -72,21 +91,40 @@ void Baker::plan() {
     if (uses[i] == 0) objects[i] = {};
   }
   sources_.resize(geometries);
+  order_.meshes.resize(geometries);
   scene_.geometries.resize(geometries);
-  for (const Instance& instance : description_.instances) {
+  for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
+    const Instance& instance = description_.instances[i];
     const std::uint32_t g = geometryOf[instance.object];
     const bool inWorld = g == 0;
-    if (!inWorld) scene_.instances.push_back({g, instance.toWorld});
+    order_.instances.push_back(instance.rank);
+    if (!inWorld) scene_.instances.push_back({g, i, instance.toWorld});
     if (!inWorld && !sources_[g].empty()) continue;
     for (Mesh& mesh : objects[instance.object].meshes) {
       Source source;
       source.mesh = &mesh;
-      if (inWorld) source.toGeometry = instance.toWorld;
+      source.place.rank = mesh.rank;
+      if (inWorld) {
+        source.toGeometry = instance.toWorld;
+        source.place.instance = i;
+        source.place.rank += instance.rank;
+      }
       sources_[g].push_back(std::move(source));
       withNormals_ = withNormals_ || !mesh.normals.empty();
       withColors_ = withColors_ || !mesh.colors.empty();
       withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
     }
+  }
+}
+
+void Baker::numberTriangles(std::size_t g) {
+  std::vector<Source>& sources = sources_[g];
+  std::uint32_t end = 0;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const bool mingles = s > 0 && sources[s].mingles(sources[s - 1]);
+    sources[s].place.firstTriangle = mingles ? sources[s - 1].place.firstTriangle : end;
+    end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
+    order_.meshes[g].push_back(sources[s].place);
   }
 }
 
@@ -100,6 +138,7 @@ void Baker::place(std::size_t g) {
   }
   if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
   if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+  numberTriangles(g);
   geometry.position.reserve(vertices + 1);
   for (Source& source : sources_[g]) {
     transform(*source.mesh, source.toGeometry);
@@ -112,16 +151,27 @@ void Baker::place(std::size_t g) {
   }
 }
 
-// Of triangles in the same place the first stays. Not of glass: two faces there are two boundaries.
+// A geometry's sources by the order of the scene, the last first.
+std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
+  std::vector<std::uint32_t> numbers(sources_[g].size());
+  std::iota(numbers.rbegin(), numbers.rend(), 0u);
+  std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return sources_[g][a].place.rank > sources_[g][b].place.rank;
+  });
+  return numbers;
+}
+
+// Of triangles in the same place the last in the scene stays, which is the one that would be met.
+// Not of glass: two faces there are two boundaries.
 void Baker::dropCoincident(std::size_t g) {
   const std::vector<Vec3f>& position = scene_.geometries[g].position;
   struct Place {
     std::uint32_t source, triangle;
   };
-  std::vector<Place> places;
-  for (std::uint32_t s = 0; s < sources_[g].size(); ++s) {
+  std::vector<Place> places;  // from the last on
+  for (const std::uint32_t s : fromTheLast(g)) {
     const Source& source = sources_[g][s];
-    for (std::uint32_t i = 0; i < source.mesh->triangles.size(); ++i) {
+    for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
       if (source.classified.has(i, kDroppedClass)) continue;
       if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
       places.push_back({s, i});
@@ -166,6 +216,7 @@ void Baker::dropEmptyGeometries() {
     if (kept != g) {
       scene_.geometries[kept] = std::move(scene_.geometries[g]);
       sources_[kept] = std::move(sources_[g]);
+      order_.meshes[kept] = std::move(order_.meshes[g]);
     }
     newNumber[g] = kept++;
   }
@@ -184,6 +235,8 @@ void Baker::reserveTables() {
   if (withNormals_) scene_.normals.reserve(total);
   if (withColors_) scene_.colors.reserve(total);
   if (withSecondUvs_) scene_.secondUvs.reserve(total);
+  isSearched_ = total <= kMostSearched;
+  if (isSearched_) order_.triangles.reserve(total);
   boxes_.resize(scene_.geometries.size());
 }
 
@@ -220,6 +273,7 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
       box.add(geometry.position[corner]);
     }
     geometry.index.push_back(corners);
+    if (isSearched_) order_.triangles.push_back(source.numberOf(i));
     std::uint64_t uvs = 0, normals = 0, colors = 0;
     const MaterialUse& use = uses_[mesh.material(i)];
     scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
@@ -239,9 +293,9 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
 
 }  // namespace
 
-void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
-                  Progress* progress) {
-  Baker(description, scene, warnings, progress).run();
+SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                        Progress* progress) {
+  return Baker(description, scene, warnings, progress).run();
 }
 
 }  // namespace whit

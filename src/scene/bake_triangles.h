@@ -102,8 +102,8 @@ struct PlacedTriangle {
 };
 
 // Numbers, ascending, of triangles that have the three corners, in whatever order, and the material
-// of an earlier one. `triangle(i)` is asked for each i below `count`, more than once. Takes 8 bytes
-// a triangle while it runs.
+// of one with a lower number. `triangle(i)` is asked for each i below `count`, more than once.
+// Takes 8 bytes a triangle while it runs.
 std::vector<std::uint64_t> findCoincident(
     std::uint64_t count, const std::function<PlacedTriangle(std::uint64_t)>& triangle);
 

@@ -70,7 +70,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.ambient = d.ambient;
   scene.materials = std::move(d.materials);
   scene.textures = std::move(d.textures);
-  bakeGeometry(d, scene, warnings, progress);
+  const SceneOrder order = bakeGeometry(d, scene, warnings, progress);
   if (!hasSmoothNormals(scene)) scene.normals = {};
   if (!hasVertexColors(scene)) scene.colors = {};
   numberMedia(scene);
@@ -80,6 +80,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   }
   gatherEffects(scene);
   scene.flush = findFlushTriangles(scene, usableThreads());
+  scene.flush.rankBy(scene, order);
   return scene;
 }
 

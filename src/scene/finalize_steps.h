@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scene/scene_order.h"
 
 namespace whit {
 
@@ -13,9 +14,10 @@ namespace whit {
 void validate(SceneDescription& description, Warnings& warnings);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
-// fills in bounds and instancedTriangles. scene.materials and textures must be in place.
-void bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
-                  Progress* progress);
+// fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes
+// that are not searched for flush triangles the order comes back empty.
+SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                        Progress* progress);
 
 // Makes materials double-sided whose back faces nobody can pass or see: of what transmits light,
 // and of closed surfaces without holes alone, as seen from outside.

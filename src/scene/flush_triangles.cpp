@@ -11,6 +11,7 @@
 #include "scene/facet.h"
 #include "scene/facet_pairs.h"
 #include "scene/facet_space.h"
+#include "scene/scene_order.h"
 
 namespace whit {
 
@@ -255,10 +256,23 @@ FlushTriangles::FlushTriangles(std::uint64_t triangles,
     const PlacedTriangleId id = placedTriangle(order);
     any_[id.triangle / 64] |= std::uint64_t{1} << id.triangle % 64;
     Slot& slot = slots_[slotOf(id)];
-    if (slot.count == 0) slot = {id, 0, partners_.size()};
+    if (slot.count == 0) slot = {id, 0, 0, partners_.size()};
     ++slot.count;
     partners_.push_back(placedTriangle(partner));
   }
+  ranks_.resize(partners_.size());
+}
+
+void FlushTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
+  std::vector<std::pair<WrittenPlace, std::size_t>> all;  // of slots
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
+  }
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    slots_[all[i].second].rank = static_cast<std::uint32_t>(i);
+  }
+  for (std::size_t i = 0; i < partners_.size(); ++i) ranks_[i] = rankOf(partners_[i]);
 }
 
 // That of the triangle, or the free one where it would be.
@@ -278,7 +292,7 @@ std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id
 std::uint64_t FlushTriangles::bytes() const {
   if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
-         partners_.size() * (sizeof(PlacedTriangleId) + sizeof(CoveredPart)) +
+         partners_.size() * (sizeof(PlacedTriangleId) + sizeof(ranks_[0]) + sizeof(CoveredPart)) +
          cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t) +
          contested_.size() * sizeof(contested_[0]);
 }

@@ -14,6 +14,7 @@
 namespace whit {
 
 class Scene;
+struct SceneOrder;
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
 
@@ -57,8 +58,17 @@ class FlushTriangles {
     return slot.count != 0 && isContested(slot, u, v);
   }
 
-  // visit(partner) for those that may lie at the point of this one that has the weights u and v of
-  // corners 1 and 2. None where none overlaps it there.
+  // Among each other, the first in the scene first; all 0 before this.
+  void rankBy(const Scene& scene, const SceneOrder& order);
+
+  // Of a triangle that is flush.
+  std::uint32_t rankOf(PlacedTriangleId id) const { return slots_[slotOf(id)].rank; }
+
+  // Of the partners of all, one after the other.
+  std::span<const std::uint32_t> ranks() const { return ranks_; }
+
+  // visit(partner, rank) for those that may lie at the point of this one that has the weights u and
+  // v of corners 1 and 2. None where none overlaps it there.
   template <typename Visitor>
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
@@ -72,7 +82,7 @@ class FlushTriangles {
     const auto overlapping = own.first(cell.overlapping);
     if (std::none_of(overlapping.begin(), overlapping.end(), holds)) return;
     for (const std::size_t i : own) {
-      if (holds(i)) visit(partners_[i]);
+      if (holds(i)) visit(partners_[i], ranks_[i]);
     }
   }
 
@@ -83,7 +93,8 @@ class FlushTriangles {
 
   struct Slot {
     PlacedTriangleId id;
-    std::uint32_t count = 0;    // 0: the slot is free
+    std::uint32_t count = 0;  // 0: the slot is free
+    std::uint32_t rank = 0;
     std::uint64_t first = 0;    // in partners_
     std::size_t firstCell = 0;  // in cells_
     std::size_t side = 1;       // of a square of so many cells a side
@@ -110,6 +121,7 @@ class FlushTriangles {
   std::vector<std::uint64_t> any_;  // a bit a triangle
   std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
+  std::vector<std::uint32_t> ranks_;  // of partners_
   std::vector<CoveredPart> covered_;  // by each of them of the one whose partner it is
   // Partners by place: of each cell that some partner overlaps, all that reach into it, those that
   // overlap first.

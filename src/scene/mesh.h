@@ -23,6 +23,12 @@ struct Mesh {
   std::vector<std::uint32_t> materials;
   Affine fromModel;  // what transform() has applied so far
 
+  // Where it stands in the order of the scene, counted from Instance::rank.
+  std::uint64_t rank = 0;
+  // Empty: its triangles come one after the other. Or a number for each, all different, by which
+  // they and those of the neighbors of its rank, in its object, come among each other.
+  std::vector<std::uint32_t> order;
+
   std::uint32_t material(std::size_t triangle) const {
     return materials.size() == 1 ? materials[0] : materials[triangle];
   }
@@ -35,9 +41,13 @@ struct Object {
   std::vector<Mesh> meshes;
 };
 
+// Of opaque faces in one place light meets the last in the order of the scene: by the sum of this
+// rank and the mesh's, then by the instances in their order, an object's meshes in theirs, and the
+// triangles in theirs.
 struct Instance {
   std::uint32_t object = 0;
   Affine toWorld;
+  std::uint64_t rank = 0;
 };
 
 // Applies `map` to positions and normals (rounded once), flips the winding if it mirrors. Normals

@@ -86,6 +86,7 @@ struct Geometry {
 
 struct InstanceRecord {
   std::uint32_t geometry = 0;  // index into Scene::geometries, never 0
+  std::uint32_t written = 0;   // index into SceneDescription::instances
   Affine toWorld;
 };
 

@@ -180,6 +180,49 @@ Finding whichIsSeen(const Setup& setup) {
   return finding;
 }
 
+// Ways in which a square may be stored apart from others: in the world, carried by an instance,
+// with what casts no shadow, with what has holes.
+constexpr int kWaysOfStoring = 4;
+
+void addStored(int way, float half, float radiance, SceneBuilder& builder) {
+  Material material = emittingMaterial(radiance);
+  std::vector<Affine> places{Affine()};
+  if (way == 1) places.push_back(Affine::translation({100, 0, 0}));
+  if (way == 2) material.castsShadow = false;
+  if (way == 3) {
+    material.alphaMap = builder.add(makeTexture(TexelFormat::data, 1, 1, {0xffffffffu}));
+  }
+  builder.place({"square", {floorAt(0, half, builder.add(material))}}, places);
+}
+
+// Whatever the order in which they are stored, of two squares in one place the later is seen, to
+// its edges.
+Finding laterHoweverStored(const Setup& setup) {
+  Finding finding(0);
+  for (int early = 0; early < kWaysOfStoring; ++early) {
+    for (int late = 0; late < kWaysOfStoring; ++late) {
+      SceneBuilder builder;
+      addStored(early, 1.7f, 0.25f, builder);
+      addStored(late, 1.3f, 0.75f, builder);
+      Camera camera = lookingDown();
+      camera.orthographicHeight = 3;
+      const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const double pixel = 3.0 / image.height, wx = (x + 0.5 - image.width / 2.0) * pixel,
+                       wz = (y + 0.5 - image.height / 2.0) * pixel;
+          if (std::fabs(wx) > 1.3 || std::fabs(wz) > 1.3) continue;
+          finding.count(image.at(x, y).x != 0.75f, [&] {
+            return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", pixel " +
+                   std::to_string(x) + "," + std::to_string(y);
+          });
+        }
+      }
+    }
+  }
+  return finding;
+}
+
 // A decal in the corner of a floor, with one corner or an edge in common: it covers what it covers.
 Finding decalInACorner(const Setup& setup) {
   Finding finding(0);
@@ -224,6 +267,9 @@ constexpr Case kFlushFaceCases[] = {
     {"H83a", "a decal in the corner of a floor covers what it covers",
      "two triangles of one plane with one corner or an edge in common", Runs::packets,
      decalInACorner},
+    {"H83b", "the later of two faces is seen, however they are stored",
+     "in the world, as an instance, without a shadow, with holes: all pairs", Runs::packets,
+     laterHoweverStored},
 };
 
 }  // namespace

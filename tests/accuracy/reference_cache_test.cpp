@@ -70,6 +70,20 @@ TEST(SceneDigest, EveryTableMatters) {
   for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_NE(digestAfter(changes[i]), before) << i;
 }
 
+// Which of two faces in one place comes first is in no other table.
+TEST(SceneDigest, TheOrderOfFlushFacesMatters) {
+  const auto withRanks = [](std::uint64_t first, std::uint64_t second) {
+    return digestAfter([&](SceneDescription& d) {
+      d.objects[0].meshes.push_back(d.objects[0].meshes[0]);
+      for (Vec3f& p : d.objects[0].meshes[1].positions) p.x += 0.25f;
+      d.objects[0].meshes[0].rank = first;
+      d.objects[0].meshes[1].rank = second;
+    });
+  };
+  EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
+  EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
+}
+
 TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   RenderOptions options;
   const std::string before = digestOf(options);
