@@ -106,6 +106,63 @@ void instancedBlocks(SceneMaker& maker) {
   for (int i = 0; i < 8; ++i) maker.place(objects[static_cast<std::size_t>(i % 4)], block(maker));
 }
 
+int addHoles(SceneMaker& maker) {
+  Texture mask;
+  mask.width = mask.height = 4, mask.isData = true;
+  for (int i = 0; i < mask.width * mask.height; ++i) {
+    mask.texels.push_back({maker.random.chance(0.4) ? 0 : 255, 0, 0});
+  }
+  maker.scene.textures.push_back(mask);
+  return static_cast<int>(maker.scene.textures.size()) - 1;
+}
+
+// Of every class by which whit sorts what it stores.
+Material ofAnyClass(SceneMaker& maker, bool mapped) {
+  Material material = anyOpaque(maker);
+  if (maker.random.chance(0.4)) material.castsShadow = false;
+  if (mapped && maker.random.chance(0.4)) material.alphaMap = addHoles(maker);
+  return material;
+}
+
+// A block with panes on its top, which the same panes of other blocks may cover.
+int addDecorated(SceneMaker& maker, int paneObject) {
+  const int block = maker.addObject(box(), ofAnyClass(maker, false));
+  Object& object = maker.scene.objects[static_cast<std::size_t>(block)];
+  for (std::vector<Body>* list : {&object.before, &object.after}) {
+    Transform onTop;
+    onTop.scale = {0.5, 1, 0.5};
+    onTop.translate = {0.25 * maker.random.below(3) - 0.25, 0.5, 0.25};
+    list->push_back({paneObject, onTop, maker.random.chance(0.3)});
+  }
+  return block;
+}
+
+// Objects that are used never, once or several times, some with others within, and what is written
+// in place, all of any class.
+void blocksInAnyOrder(SceneMaker& maker) {
+  gridRoom(maker);
+  const int panes[] = {maker.addObject(pane(), ofAnyClass(maker, true)),
+                       maker.addObject(pane(), ofAnyClass(maker, true)),
+                       maker.addObject(pane(), ofAnyClass(maker, true))};
+  const int blocks[] = {maker.addObject(box(), ofAnyClass(maker, false)),
+                        maker.addObject(box(), maker.glass(maker.random.between(1.2, 1.9), 1)),
+                        addDecorated(maker, panes[0]), addDecorated(maker, panes[1])};
+  for (int i = 0; i < 14; ++i) {
+    Transform transform = block(maker);
+    if (i % 2 == 0) {
+      maker.place(blocks[maker.random.below(4)], transform, maker.random.chance(0.3));
+      continue;
+    }
+    transform.scale = {transform.scale.x * 2, 1, transform.scale.z * 2};
+    transform.translate.y = 0.5 * maker.random.below(2);
+    maker.place(panes[maker.random.below(3)], transform, maker.random.chance(0.3));
+  }
+}
+
+TEST_F(Flush, OrderOfTheFile) {
+  expectAgreement({"flush in any order", blocksInAnyOrder, {.depth = 10}});
+}
+
 TEST_F(Flush, Instances) { expectAgreement({"flush instances", instancedBlocks, {.depth = 10}}); }
 
 }  // namespace

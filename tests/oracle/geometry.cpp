@@ -22,32 +22,46 @@ Vec turned(const Vec& v, const Transform& transform) {
   return v * c + cross(k, v) * s + k * (dot(k, v) * (1 - c));  // Rodrigues
 }
 
-Vec placed(const Vec& point, const Transform& transform) {
-  return turned(point * transform.scale, transform) + transform.translate;
+// By the last of the transforms first.
+Vec placed(Vec point, std::span<const Transform> transforms) {
+  for (std::size_t i = transforms.size(); i-- > 0;) {
+    point = turned(point * transforms[i].scale, transforms[i]) + transforms[i].translate;
+  }
+  return point;
 }
 
 // Normals go with the inverse transpose, which keeps them outside of what is mirrored.
-Vec placedNormal(const Vec& n, const Transform& transform) {
-  const Vec& s = transform.scale;
-  return normalized(turned({n.x / s.x, n.y / s.y, n.z / s.z}, transform));
+Vec placedNormal(Vec n, std::span<const Transform> transforms) {
+  for (std::size_t i = transforms.size(); i-- > 0;) {
+    const Vec& s = transforms[i].scale;
+    n = normalized(turned({n.x / s.x, n.y / s.y, n.z / s.z}, transforms[i]));
+  }
+  return n;
+}
+
+bool areMirroring(std::span<const Transform> transforms) {
+  bool mirroring = false;
+  for (const auto& [scale, axis, degrees, translate] : transforms) {
+    mirroring = mirroring != (scale.x * scale.y * scale.z < 0);
+  }
+  return mirroring;
 }
 
 Triangle placedTriangle(const Mesh& mesh, const std::array<int, 3>& indices, int material,
-                        const Transform& transform) {
+                        std::span<const Transform> transforms) {
   Triangle triangle;
   triangle.material = material;
   triangle.smooth = !mesh.normals.empty();
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = static_cast<std::size_t>(indices[i]);
     Corner& corner = triangle.corners[i];
-    corner.position = placed(mesh.positions[index], transform);
-    if (triangle.smooth) corner.normal = placedNormal(mesh.normals[index], transform);
+    corner.position = placed(mesh.positions[index], transforms);
+    if (triangle.smooth) corner.normal = placedNormal(mesh.normals[index], transforms);
     corner.color = mesh.colors.empty() ? gray(1) : mesh.colors[index];
     if (!mesh.uvs.empty()) corner.uv = mesh.uvs[index];
   }
   const auto& [a, b, c] = triangle.corners;
-  const Vec& s = transform.scale;
-  const double mirrored = s.x * s.y * s.z < 0 ? -1 : 1;
+  const double mirrored = areMirroring(transforms) ? -1 : 1;
   triangle.outward = normalized(cross(b.position - a.position, c.position - a.position)) * mirrored;
   return triangle;
 }
@@ -84,30 +98,44 @@ bool passes(const Ray& ray, const Vec& center, double radius) {
 
 Geometry::Geometry(const Scene& scene, const std::vector<MipChain>& textures)
     : textures_(textures) {
-  int order = 0;
-  for (const Body& body : scene.bodies) {
+  std::vector<Transform> transforms;
+  addList(scene, scene.bodies, transforms);
+}
+
+void Geometry::addList(const Scene& scene, std::span<const Body> bodies,
+                       std::vector<Transform>& transforms) {
+  for (const Body& body : bodies) {
     const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-    Part part;
-    for (const auto& indices : mesh.triangles) {
-      Triangle triangle = placedTriangle(mesh, indices, object.material, body.transform);
-      const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
-      triangle.opaque = !material.isDielectric();
-      triangle.priority = material.priority;
-      triangle.order = order++;
-      triangle.alphaMap = material.alphaMap;
-      triangle.alphaCutoff = material.alphaCutoff;
-      part.triangles.push_back(triangle);
-    }
-    for (const Vec& p : mesh.positions) part.center += placed(p, body.transform);
-    part.center = part.center / static_cast<double>(mesh.positions.size());
-    for (const Vec& p : mesh.positions) {
-      part.radius = std::max(part.radius, length(placed(p, body.transform) - part.center));
-    }
-    part.radius *= 1 + kSelf;
-    part.castsShadow = scene.materials[static_cast<std::size_t>(object.material)].castsShadow;
-    parts_.push_back(std::move(part));
+    transforms.push_back(body.transform);
+    addList(scene, object.before, transforms);
+    addShape(scene, object, transforms);
+    addList(scene, object.after, transforms);
+    transforms.pop_back();
   }
+}
+
+void Geometry::addShape(const Scene& scene, const Object& object,
+                        std::span<const Transform> transforms) {
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+  const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+  Part part;
+  for (const auto& indices : mesh.triangles) {
+    Triangle triangle = placedTriangle(mesh, indices, object.material, transforms);
+    triangle.opaque = !material.isDielectric();
+    triangle.priority = material.priority;
+    triangle.order = triangles_++;
+    triangle.alphaMap = material.alphaMap;
+    triangle.alphaCutoff = material.alphaCutoff;
+    part.triangles.push_back(triangle);
+  }
+  for (const Vec& p : mesh.positions) part.center += placed(p, transforms);
+  part.center = part.center / static_cast<double>(mesh.positions.size());
+  for (const Vec& p : mesh.positions) {
+    part.radius = std::max(part.radius, length(placed(p, transforms) - part.center));
+  }
+  part.radius *= 1 + kSelf;
+  part.castsShadow = material.castsShadow;
+  parts_.push_back(std::move(part));
 }
 
 bool Geometry::isCutAway(const Hit& hit) const {

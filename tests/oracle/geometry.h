@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "oracle/mip_chain.h"
@@ -23,7 +24,7 @@ struct Triangle {
   int material = 0;
   bool opaque = true;
   int priority = 0;  // of a dielectric
-  int order = 0;     // in the scene
+  int order = 0;     // in the file
   int alphaMap = kNone;
   double alphaCutoff = 0.5;
 };
@@ -39,7 +40,7 @@ struct Hit {
 };
 
 // What a ray meets: of the triangles that lie in one place the opaque one, of opaque ones the last
-// in the scene; of dielectrics alone the one of the highest priority, of these the last.
+// in the file; of dielectrics alone the one of the highest priority, of these the last.
 struct Meeting {
   Hit hit;
   std::vector<const Triangle*> alsoCrossed;  // of dielectrics alone, the others
@@ -67,9 +68,14 @@ class Geometry {
   template <typename Visit>
   void visit(const Ray& ray, const Visit& visit) const;
 
+  // What a list of the file holds, moved by the last of the transforms first.
+  void addList(const Scene& scene, std::span<const Body> bodies,
+               std::vector<Transform>& transforms);
+  void addShape(const Scene& scene, const Object& object, std::span<const Transform> transforms);
   bool isCutAway(const Hit& hit) const;
 
   std::vector<Part> parts_;
+  int triangles_ = 0;
   const std::vector<MipChain>& textures_;
 };
 

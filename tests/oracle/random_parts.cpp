@@ -25,7 +25,7 @@ int SceneMaker::add(const Material& material) {
 
 int SceneMaker::addObject(Mesh mesh, const Material& material) {
   const int number = add(std::move(mesh));
-  scene.objects.push_back({number, add(material)});
+  scene.objects.push_back({number, add(material), {}, {}});
   return static_cast<int>(scene.objects.size()) - 1;
 }
 

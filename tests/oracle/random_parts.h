@@ -42,8 +42,8 @@ class SceneMaker {
   int add(Mesh mesh);
   int add(const Material& material);
   int addObject(Mesh mesh, const Material& material);
-  void place(int object, const Transform& transform) {
-    scene.bodies.push_back({object, transform});
+  void place(int object, const Transform& transform, bool inPlace = false) {
+    scene.bodies.push_back({object, transform, inPlace});
   }
   void add(Mesh mesh, const Material& material, const Transform& transform) {
     place(addObject(std::move(mesh), material), transform);

@@ -57,11 +57,6 @@ struct Mesh {
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-// A mesh of one material. Where several bodies show one object, whit makes instances of it.
-struct Object {
-  int mesh = 0, material = 0;
-};
-
 // Scaled first, then turned about the axis, then moved.
 struct Transform {
   Vec scale{1, 1, 1};
@@ -73,6 +68,14 @@ struct Transform {
 struct Body {
   int object = 0;
   Transform transform;
+  bool inPlace = false;  // what the object holds is written where the body stands
+};
+
+// A mesh of one material, among uses of other objects. Where several bodies show one object, whit
+// makes instances of it, but for those that are written in place.
+struct Object {
+  int mesh = 0, material = 0;
+  std::vector<Body> before, after;
 };
 
 struct Light {

@@ -164,6 +164,25 @@ std::string tga(const Texture& texture) {
   return file;
 }
 
+std::string itemText(const Scene& scene, const Body& body);
+
+// The items of an object's list.
+std::string contentText(const Scene& scene, const Object& object) {
+  std::string text;
+  for (const Body& body : object.before) text += itemText(scene, body) + ", ";
+  text += R"({"model": "mesh)" + std::to_string(object.mesh) + R"(.ply", "materials": {"*": )" +
+          materialText(scene.materials[static_cast<std::size_t>(object.material)]) + "}}";
+  for (const Body& body : object.after) text += ", " + itemText(scene, body);
+  return text;
+}
+
+std::string itemText(const Scene& scene, const Body& body) {
+  const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
+  const std::string what = body.inPlace ? R"({"group": [)" + contentText(scene, object) + "]"
+                                        : R"({"use": "object)" + std::to_string(body.object) + '"';
+  return what + R"(, "transform": )" + transformText(body.transform) + "}";
+}
+
 std::string sceneText(const Scene& scene) {
   std::ostringstream out;
   out << "{\n  \"whit\": 1,\n  \"size\": [" << scene.width << ", " << scene.height << "],\n"
@@ -178,17 +197,12 @@ std::string sceneText(const Scene& scene) {
                 })
       << "},\n  \"objects\": {"
       << joined(scene.objects,
-                [&](const Object& o, const std::string& i) {
-                  const Material& m = scene.materials[static_cast<std::size_t>(o.material)];
-                  return "\"object" + i + R"(": [{"model": "mesh)" + std::to_string(o.mesh) +
-                         R"(.ply", "materials": {"*": )" + materialText(m) + "}}]";
+                [&](const Object& object, const std::string& i) {
+                  return "\"object" + i + "\": [" + contentText(scene, object) + "]";
                 })
       << "},\n  \"scene\": ["
       << joined(scene.bodies,
-                [](const Body& body, const std::string&) {
-                  return R"({"use": "object)" + std::to_string(body.object) +
-                         R"(", "transform": )" + transformText(body.transform) + "}";
-                })
+                [&](const Body& body, const std::string&) { return itemText(scene, body); })
       << "]\n}\n";
   return out.str();
 }
