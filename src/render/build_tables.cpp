@@ -15,9 +15,10 @@ void copy3(const Rgb& from, float* to) {
   to[2] = from.z;
 }
 
-std::uint32_t flagsOf(const Material& m, EffectSet effects) {
+// `onOthers`: a sheet may lie on a dielectric's face, which reflects through it.
+std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   const bool transmits = m.passesLight() && effects.has(Effect::transmission);
-  const bool reflects = m.hasMirror() || (transmits && m.boundsMedium());
+  const bool reflects = m.hasMirror() || (transmits && (onOthers || m.boundsMedium()));
   std::uint32_t flags = 0;
   if (effects.has(Effect::mirror) && reflects) flags |= kMaterialReflects;
   if (transmits) flags |= kMaterialTransmits;
@@ -33,7 +34,7 @@ std::uint32_t flagsOf(const Material& m, EffectSet effects) {
   return flags;
 }
 
-MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effects) {
+MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, EffectSet effects) {
   MaterialRecord r{};
   const bool textured = effects.has(Effect::textures);
   copy3(m.diffuse, r.diffuse);
@@ -49,7 +50,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, EffectSet effec
   r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
-  r.flags = flagsOf(m, effects);
+  r.flags = flagsOf(m, onOthers, effects);
   r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
   if (effects.has(Effect::mirror)) {
     copy3(m.mirror, r.mirror);
@@ -68,15 +69,16 @@ bool isRadiance(const Scene& scene, std::int32_t map) {
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   tables.materials.clear();
   tables.radianceMaps = false;
+  const bool onOthers = scene.media.size() > 1 && !scene.flush.empty();
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    MaterialRecord r = recordOf(scene.materials[i], scene.mediumOfMaterial[i], effects);
+    MaterialRecord r = recordOf(scene.materials[i], scene.mediumOfMaterial[i], onOthers, effects);
     if (isRadiance(scene, r.emissionMap)) {
       r.flags |= kMaterialEmissionIsRadiance;
       tables.radianceMaps = true;
     }
     tables.materials.push_back(r);
   }
-  if (tables.materials.empty()) tables.materials.push_back(recordOf(Material{}, 0, effects));
+  if (tables.materials.empty()) tables.materials.push_back(recordOf(Material{}, 0, false, effects));
 }
 
 void addMedia(const Scene& scene, ShadingTables& tables) {

@@ -128,6 +128,29 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
   EXPECT_LE(different, kPixelsAtEdges);
 }
 
+// The glass reflects through what is not there, and past its critical angle all of that.
+TEST(Coverage, OfASheetOnGlassLeavesItsReflection) {
+  for (const bool within : {false, true}) {
+    SceneBuilder builder;
+    builder.add(box({-2, -1, -2}, {2, 0, 2}, builder.add(glassMaterial(1.5f))));
+    builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+                     builder.add(inPart(blackMaterial(), 0.25f))));
+    builder.sky(2);
+    const float y = within ? -0.5f : 0.5f;
+    builder.description.cameras = {{.eye = {0.1f, y, 1.2f}, .at = {0.05f, 0, 0}, .fov = 20}};
+    const Scene scene = builder.build();
+    const RenderOptions o = smallOptions();
+    const Image image = render(scene, o).image;
+    const Rgb& pixel = image.at(image.width / 2, image.height / 2);
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o);
+    renderer.renderReference(chooseCamera(scene, o), film);
+    const Rgb wanted = film.image.at(image.width / 2, image.height / 2);
+    EXPECT_GT(wanted.x, 0.1f) << within;
+    EXPECT_NEAR(pixel.x, wanted.x, 1e-5f) << within;
+  }
+}
+
 TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
   SceneBuilder builder;
   builder.add(levelAt(0, builder.add(emittingMaterial(1))));
