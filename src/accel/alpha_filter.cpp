@@ -7,10 +7,13 @@ namespace whit {
 
 AlphaMaps makeAlphaMaps(const Scene& scene) {
   AlphaMaps maps(scene.textures.size());
-  for (const Material& material : scene.materials) {
-    if (material.alphaMap == kNoTexture) continue;
-    const auto texture = static_cast<std::size_t>(material.alphaMap);
+  const auto add = [&](std::int32_t map) {
+    const auto texture = static_cast<std::size_t>(map);
     if (!maps[texture]) maps[texture] = std::make_unique<AlphaMap>(scene.textures[texture]);
+  };
+  for (const Material& material : scene.materials) {
+    if (material.alphaMap != kNoTexture) add(material.alphaMap);
+    if (material.isCutBesidesCoverage()) add(material.coverageMap);
   }
   return maps;
 }
@@ -25,6 +28,9 @@ MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::u
     masks[m].map = maps[static_cast<std::size_t>(material.alphaMap)].get();
     masks[m].cutoff = material.alphaCutoff;
     masks[m].shadowCutoff = material.shadowCutoff();
+    if (!material.isCutBesidesCoverage()) continue;
+    masks[m].coverage = maps[static_cast<std::size_t>(material.coverageMap)].get();
+    masks[m].coverageCutoff = material.coverageCutoff();
   }
   triangles.reserve(end - first);
   for (std::uint32_t i = first; i < end; ++i) {

@@ -25,6 +25,9 @@ struct alignas(32) MaskedTriangle {
 struct Mask {
   const AlphaMap* map = nullptr;
   float cutoff = 0, shadowCutoff = 0;
+  // For shadows besides, where the map above says nothing of coverage.
+  const AlphaMap* coverage = nullptr;
+  float coverageCutoff = 0;
   bool doubleSided = true;
 };
 
@@ -44,7 +47,8 @@ inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitiv
   return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
 }
 
-// False where the alpha mask, cut at that member of it, cuts the triangle's point (u, v).
+// False where the alpha mask, cut at that member of it, cuts the triangle's point (u, v); for
+// shadows also where less than half of it is there.
 template <float Mask::*kCutoff>
 bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
                 float v) noexcept {
@@ -54,7 +58,11 @@ bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u
   const float w = 1.0f - u - v;
   const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
   const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
-  return mask.map->isOpaqueAt(s, r, mask.*kCutoff);
+  if (!mask.map->isOpaqueAt(s, r, mask.*kCutoff)) return false;
+  if constexpr (kCutoff == &Mask::shadowCutoff) {
+    return !mask.coverage || mask.coverage->isOpaqueAt(s, r, mask.coverageCutoff);
+  }
+  return true;
 }
 
 }  // namespace whit

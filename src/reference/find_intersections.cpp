@@ -269,9 +269,14 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
   const Material& material = scene.materials[record.material];
   if (material.alphaMap == kNoTexture) return false;
   const TexturePoint at = texturePoint(record.uv, hit);
-  const Texture& mask = scene.textures[static_cast<std::size_t>(material.alphaMap)];
-  return sampleData(mask, at.u, at.v).r <
-         double{forShadows ? material.shadowCutoff() : material.alphaCutoff};
+  const auto isBelow = [&](std::int32_t map, float cutoff) {
+    const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
+    return sampleData(mask, at.u, at.v).r < double{cutoff};
+  };
+  if (!forShadows) return isBelow(material.alphaMap, material.alphaCutoff);
+  return isBelow(material.alphaMap, material.shadowCutoff()) ||
+         (material.isCutBesidesCoverage() &&
+          isBelow(material.coverageMap, material.coverageCutoff()));
 }
 
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,

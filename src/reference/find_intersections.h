@@ -60,7 +60,7 @@ struct TexturePoint {
 TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
 // Whether an alpha mask has cut a hole where the ray meets the triangle; `forShadows`: one that
-// light falls through (Material::shadowCutoff).
+// light falls through (Material::shadowCutoff, coverageCutoff).
 bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
              bool forShadows = false);
 

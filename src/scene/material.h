@@ -100,6 +100,11 @@ struct Material {
   float shadowCutoff() const {
     return isCutByCoverage() ? std::clamp(0.5f / coverage, alphaCutoff, 1.0f) : alphaCutoff;
   }
+  // Of one that is cut by another map, shadows are cast where its coverage is half as well.
+  bool isCutBesidesCoverage() const {
+    return coverageMap != kNoTexture && alphaMap != kNoTexture && alphaMap != coverageMap;
+  }
+  float coverageCutoff() const { return std::min(0.5f / coverage, 1.0f); }
   // Rays pass clear texels without a bounce.
   void cutWhereClear() {
     alphaMap = coverageMap;

@@ -163,20 +163,33 @@ TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
   }
 }
 
+// By its own map, and where another one has cut holes besides.
 TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
   for (const float factor : {1.0f, 0.9f}) {
-    SceneBuilder builder;
-    Material sheet = inPart(blackMaterial(), factor);
-    sheet.coverageMap = addCoverageMap(builder, {0.1f, 0.45f, 0.6f, 1});
-    sheet.cutWhereClear();
-    builder.add(quad({0, 1, 0}, {4, 1, 0}, {4, 1, -1}, {0, 1, -1}, builder.add(sheet)));
-    builder.add(levelAt(0, builder.add(diffuseMaterial(0.5f))));
-    builder.description.lights = {sun({0, -1, 0}, 2)};
-    const Scene scene = builder.build();
-    const bool lit[] = {true, true, false, false};
-    for (int i = 0; i < 4; ++i) {
-      const double seen = radianceAlong(scene, {i + 0.5, 0.5, -0.5}, {0, -1, 0}).x;
-      EXPECT_NEAR(seen, lit[i] ? 1 / 3.14159265358979 : 0, 1e-6) << i << " " << factor;
+    for (const bool cut : {false, true}) {
+      SceneBuilder builder;
+      Material sheet = inPart(blackMaterial(), factor);
+      sheet.coverageMap = addCoverageMap(builder, {0.1f, 0.45f, 0.6f, 1});
+      sheet.cutWhereClear();
+      if (cut) sheet.alphaMap = addCoverageMap(builder, {1, 1, 0.8f, 0.4f});
+      if (cut) sheet.alphaCutoff = 0.5f;
+      builder.add(quad({0, 1, 0}, {4, 1, 0}, {4, 1, -1}, {0, 1, -1}, builder.add(sheet)));
+      builder.add(levelAt(0, builder.add(diffuseMaterial(0.5f))));
+      builder.description.lights = {sun({0, -1, 0}, 2)};
+      builder.description.cameras = {
+          {.eye = {2, 0.5f, -0.5f}, .at = {2, 0, -0.5f}, .up = {0, 0, -1}}};
+      builder.description.cameras[0].orthographicHeight = 1;
+      const Scene scene = builder.build();
+      RenderOptions o = smallOptions();
+      o.size = ImageSize{4, 1};
+      const Image image = render(scene, o).image;
+      const bool lit[] = {true, true, false, cut};
+      for (int i = 0; i < 4; ++i) {
+        const double seen = radianceAlong(scene, {i + 0.5, 0.5, -0.5}, {0, -1, 0}).x;
+        const double wanted = lit[i] ? 1 / 3.14159265358979 : 0;
+        EXPECT_NEAR(seen, wanted, 1e-6) << i << " " << factor << cut;
+        EXPECT_NEAR(double{image.at(i, 0).x}, wanted, 1e-6) << i << " " << factor << cut;
+      }
     }
   }
 }
