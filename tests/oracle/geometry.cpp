@@ -15,6 +15,9 @@ constexpr double kSelf = 1e-9;
 // place: in scenes that have such, their corners are whole numbers of some power of two.
 constexpr double kSamePlace = 1e-9;
 
+// Where so little is there rays pass, as through a hole.
+constexpr double kClear = 1.0 / 1024;
+
 Vec turned(const Vec& v, const Transform& transform) {
   const Vec k = normalized(transform.axis);
   const double angle = transform.degrees * std::numbers::pi / 180;
@@ -84,7 +87,8 @@ std::optional<Hit> meet(const Ray& ray, const Triangle& triangle) {
 
 bool comesFirst(const Triangle& a, const Triangle& b) {
   if (a.opaque != b.opaque) return a.opaque;
-  if (!a.opaque && a.priority != b.priority) return a.priority > b.priority;
+  if (a.sheet != b.sheet) return a.sheet;
+  if (!a.opaque && !a.sheet && a.priority != b.priority) return a.priority > b.priority;
   return a.order > b.order;
 }
 
@@ -121,11 +125,14 @@ void Geometry::addShape(const Scene& scene, const Object& object,
   Part part;
   for (const auto& indices : mesh.triangles) {
     Triangle triangle = placedTriangle(mesh, indices, object.material, transforms);
-    triangle.opaque = !material.isDielectric();
+    triangle.opaque = !material.passesLight();
+    triangle.sheet = material.passesLight() && !material.isDielectric();
     triangle.priority = material.priority;
     triangle.order = triangles_++;
     triangle.alphaMap = material.alphaMap;
     triangle.alphaCutoff = material.alphaCutoff;
+    triangle.coverageMap = material.coverageMap;
+    triangle.coverage = material.coverage;
     part.triangles.push_back(triangle);
   }
   for (const Vec& p : mesh.positions) part.center += placed(p, transforms);
@@ -138,14 +145,26 @@ void Geometry::addShape(const Scene& scene, const Object& object,
   parts_.push_back(std::move(part));
 }
 
-bool Geometry::isCutAway(const Hit& hit) const {
+Color Geometry::texel(int map, const Hit& hit) const {
   double u = 0, v = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& uv = hit.triangle->corners[i].uv;
     u += uv[0] * hit.weights[i], v += uv[1] * hit.weights[i];
   }
-  const MipChain& mask = textures_[static_cast<std::size_t>(hit.triangle->alphaMap)];
-  return mask.at(u, v, Filter::bilinear, 1).x < hit.triangle->alphaCutoff;
+  return textures_[static_cast<std::size_t>(map)].at(u, v, Filter::bilinear, 1);
+}
+
+bool Geometry::isCutAway(const Hit& hit) const {
+  const Triangle& triangle = *hit.triangle;
+  if (triangle.alphaMap != kNone) return texel(triangle.alphaMap, hit).x < triangle.alphaCutoff;
+  return triangle.coverageMap != kNone && texel(triangle.coverageMap, hit).x < kClear;
+}
+
+// All or nothing, where a map says how much is there.
+bool Geometry::castsShadow(const Hit& hit) const {
+  const Triangle& triangle = *hit.triangle;
+  if (triangle.coverageMap == kNone) return true;
+  return triangle.coverage * texel(triangle.coverageMap, hit).x >= 0.5;
 }
 
 // visit(part, hit) for every hit in front, until it answers false.
@@ -156,7 +175,7 @@ void Geometry::visit(const Ray& ray, const Visit& visit) const {
     for (const Triangle& triangle : part.triangles) {
       const std::optional<Hit> hit = meet(ray, triangle);
       if (!hit || !(hit->t * length(ray.direction) > kSelf * (1 + length(ray.origin)))) continue;
-      if (triangle.alphaMap != kNone && isCutAway(*hit)) continue;
+      if (isCutAway(*hit)) continue;
       if (!visit(part, *hit)) return;
     }
   }
@@ -179,7 +198,8 @@ std::optional<Meeting> Geometry::nearest(const Ray& ray) const {
   }
   if (meeting.hit.triangle->opaque) return meeting;
   for (const Hit& hit : hits) {
-    if (hit.triangle != meeting.hit.triangle) meeting.alsoCrossed.push_back(hit.triangle);
+    if (hit.triangle == meeting.hit.triangle || hit.triangle->sheet) continue;
+    meeting.alsoCrossed.push_back(hit.triangle);
   }
   return meeting;
 }
@@ -187,7 +207,7 @@ std::optional<Meeting> Geometry::nearest(const Ray& ray) const {
 bool Geometry::blocked(const Ray& ray, double end) const {
   bool found = false;
   visit(ray, [&](const Part& part, const Hit& hit) {
-    found = part.castsShadow && hit.t < end;
+    found = part.castsShadow && hit.t < end && castsShadow(hit);
     return !found;
   });
   return found;

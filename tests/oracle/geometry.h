@@ -22,11 +22,11 @@ struct Triangle {
   Vec outward;  // unit, of its plane
   bool smooth = false;
   int material = 0;
-  bool opaque = true;
-  int priority = 0;  // of a dielectric
-  int order = 0;     // in the file
-  int alphaMap = kNone;
-  double alphaCutoff = 0.5;
+  bool opaque = true, sheet = false;  // neither: a dielectric
+  int priority = 0;                   // of a dielectric
+  int order = 0;                      // in the file
+  int alphaMap = kNone, coverageMap = kNone;
+  double alphaCutoff = 0.5, coverage = 1;
 };
 
 struct Ray {
@@ -39,11 +39,12 @@ struct Hit {
   std::array<double, 3> weights{};  // of the corners
 };
 
-// What a ray meets: of the triangles that lie in one place the opaque one, of opaque ones the last
-// in the file; of dielectrics alone the one of the highest priority, of these the last.
+// What a ray meets: of the triangles that lie in one place the opaque one, else the sheet, of
+// several the last in the file; of dielectrics alone the one of the highest priority, of these the
+// last.
 struct Meeting {
   Hit hit;
-  std::vector<const Triangle*> alsoCrossed;  // of dielectrics alone, the others
+  std::vector<const Triangle*> alsoCrossed;  // the other dielectrics, where it is not opaque
 };
 
 class Geometry {
@@ -72,7 +73,9 @@ class Geometry {
   void addList(const Scene& scene, std::span<const Body> bodies,
                std::vector<Transform>& transforms);
   void addShape(const Scene& scene, const Object& object, std::span<const Transform> transforms);
+  Color texel(int map, const Hit& hit) const;
   bool isCutAway(const Hit& hit) const;
+  bool castsShadow(const Hit& hit) const;
 
   std::vector<Part> parts_;
   int triangles_ = 0;

@@ -38,14 +38,21 @@ struct Material {
   int normalMap = kNone;  // of tangent space, y along v
   int alphaMap = kNone;   // its first channel, mixed: cut out below the cutoff
   double alphaCutoff = 0.5;
+  double coverage = 1;      // the share that is there
+  int coverageMap = kNone;  // its first channel multiplies it
+  bool thin = false;
 
-  bool isDielectric() const { return largest(transmission) > 0; }
+  bool isInPart() const { return coverage < 1 || coverageMap != kNone; }
+  bool transmits() const { return largest(transmission) > 0; }
+  // Light goes on behind it, into another medium or, of a sheet, straight on.
+  bool passesLight() const { return transmits() || isInPart(); }
+  bool isDielectric() const { return transmits() && !thin && !isInPart(); }
   bool isMirror() const { return largest(mirror) > 0 || largest(mirrorGrazing) > 0; }
   // Whether the glossy lobe reflects the scene, where anything asks for it.
   bool reflectsGlossily() const {
     if (!(largest(specular) > 0)) return false;
     if (glossyReflection != Choice::unsaid) return glossyReflection == Choice::yes;
-    return !isMirror() && !isDielectric();
+    return !isMirror() && !transmits();
   }
 };
 

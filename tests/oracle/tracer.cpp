@@ -184,6 +184,7 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   textured(s.material.diffuseMap, s.material.diffuse);
   textured(s.material.specularMap, s.material.specular);
   textured(s.material.emissionMap, s.material.emission);
+  if (s.material.coverageMap != kNone) s.material.coverage *= texel(s.material.coverageMap).x;
   if (s.material.normalMap != kNone) {
     s.normal = mappedNormal(triangle, texel(s.material.normalMap), s.normal * side) * side;
     s.smooth = true;
@@ -212,23 +213,24 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
 
   const Surface surface = surfaceAt(ray, meeting->hit, there.width);
   Media behind = branch.media;
-  if (surface.material.isDielectric()) {
-    pass(behind, ray, *meeting->hit.triangle);
-    for (const Triangle* other : meeting->alsoCrossed) pass(behind, ray, *other);
-    if (behind.current() == branch.media.current()) {  // the surface is not there
-      if (branch.depth == options_.depth) return {};
-      ++there.depth;
-      there.media = behind;
-      return trace({surface.position, ray.direction}, there, random) * left;
-    }
+  const bool isDielectric = surface.material.isDielectric();
+  if (isDielectric) pass(behind, ray, *meeting->hit.triangle);
+  for (const Triangle* other : meeting->alsoCrossed) pass(behind, ray, *other);
+  if (isDielectric && behind.current() == branch.media.current()) {  // the surface is not there
+    if (branch.depth == options_.depth) return {};
+    ++there.depth;
+    there.media = behind;
+    return trace({surface.position, ray.direction}, there, random) * left;
   }
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission +
                    surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
+  Sight on;
   if (there.depth < options_.depth) {
-    seen += impulses(surface, there, behind, random);
+    on = impulses(surface, there, behind, random);
     seen += glossyReflection(surface, there, random);
   }
+  seen = seen * gray(surface.material.coverage) + on;
   seen = seen * left;
   seen.brightest = std::max(seen.brightest, largest(seen.radiance));
   return seen;
@@ -310,6 +312,7 @@ double leftBy(double coat, double largest) {
 
 Color underCoat(const Color& transmission, const Color& coat) {
   const double most = largest(transmission);
+  if (!(most > 0)) return {};
   return transmission * Color{leftBy(coat.x, most), leftBy(coat.y, most), leftBy(coat.z, most)};
 }
 
@@ -328,21 +331,25 @@ Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse
 Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media& behind,
                        Random& random) const {
   const Material& material = surface.material;
-  if (!material.isMirror() && !material.isDielectric()) return {};
+  if (!material.isMirror() && !material.passesLight()) return {};
   const Vec direction = -surface.toViewer;
   const double cosine = dot(surface.toViewer, surface.normal);
   if (surface.smooth && cosine < kSkimming) return {.undecided = 1};
   Sight sum;
   const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
-  Color reflectance = coat;
-  if (material.isDielectric()) {
+  // What is not there of a sheet leaves what is behind it: the interface of other solids, if its
+  // place is theirs, and all that comes through that.
+  const double there = material.coverage;
+  Color reflectance = coat * there;
+  if (material.passesLight()) {
     const double n1 = branch.media.current().ior, n2 = behind.current().ior;
     const double interface =
         options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
-    reflectance += (gray(1) - coat) * interface;
+    reflectance += (gray(1) - coat) * interface * there + gray(interface) * (1 - there);
     if (interface < 1) {
       const Vec on = refracted(direction, surface.normal, n1, n2);
-      const Color passed = underCoat(material.transmission, coat) * (1 - interface);
+      const Color through = underCoat(material.transmission, coat) * there + gray(1 - there);
+      const Color passed = through * (1 - interface);
       sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
   }

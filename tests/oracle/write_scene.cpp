@@ -93,17 +93,21 @@ std::string materialText(const Material& m) {
   map("normalMap", m.normalMap);
   map("alphaMap", m.alphaMap);
   if (m.alphaMap != kNone) text += R"(, "alphaCutoff": )" + number(m.alphaCutoff);
-  if (m.isDielectric()) {
+  if (m.coverage < 1) text += R"(, "coverage": )" + number(m.coverage);
+  map("coverageMap", m.coverageMap);
+  if (m.transmits()) {
     text += R"(, "transmission": )" + list(m.transmission) + R"(, "ior": )" + number(m.ior) +
             R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
             std::to_string(m.priority);
   }
+  if (m.thin) text += R"(, "thin": true)";
   if (m.glossyReflection != Choice::unsaid) {
     const bool reflects = m.glossyReflection == Choice::yes;
     text += std::string(R"(, "glossyReflection": )") + (reflects ? "true" : "false");
   }
   // Said only where it is not what the rest makes of it.
-  if (m.castsShadow == m.isDielectric()) {
+  const bool casts = !m.transmits() && m.coverage >= 0.5;
+  if (m.castsShadow != casts) {
     text += std::string(R"(, "castsShadow": )") + (m.castsShadow ? "true" : "false");
   }
   return text + "}";
