@@ -106,10 +106,11 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
     return hn::Zero(du);
   }
-  const TriangleLanes t = LoadTriangles(tables, triangle);
-  const Weights w = LoadWeights(hits, i);
+  TriangleLanes t = LoadTriangles(tables, triangle);
+  Weights w = LoadWeights(hits, i);
   Surface s =
       InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
   const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
   if (job.flush) {
@@ -246,12 +247,13 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   queue.level.any[slot] = false;
   const auto [valid, triangle] = LoadHits(job.hits, i);
   if (hn::AllFalse(d, valid)) return;
-  const TriangleLanes t = LoadTriangles(job.tables, triangle);
+  TriangleLanes t = LoadTriangles(job.tables, triangle);
   const VI map = mapOf(MaterialLanes(job.tables, t.material, valid));
   const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(d, mapped)) return;
-  const Weights w = LoadWeights(job.hits, i);
+  Weights w = LoadWeights(job.hits, i);
   Surface s = InterpolateSurface<false>(job.tables, t, triangle, w, job.shading.reciprocal);
+  if (job.spheres) PutOnSpheres(job.tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(job.tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
   const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
@@ -360,7 +362,7 @@ void LiftShadowOrigins(Chunk& c) noexcept {
   const HitColumns hits = c.hits;
   const SurfelColumns surfels = c.surfels;
   const size_t n = c.n;
-  const bool instanced = c.has(Feature::instances);
+  const bool instanced = c.has(Feature::instances), spheres = c.has(Feature::spheres);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto [valid, triangle] = LoadHits(hits, i);
@@ -384,6 +386,10 @@ void LiftShadowOrigins(Chunk& c) noexcept {
     add(w.position.c0, w.normal.c0, hn::Sub(hn::Sub(one, u), v));
     add(w.position.c1, w.normal.c1, u);
     add(w.position.c2, w.normal.c2, v);
+    if (spheres) {
+      const MF on = LoadSpheres(tables, hits, valid, triangle, i).on;
+      lift = Select3(on, {zero, zero, zero}, lift);
+    }
     Store3(lift, surfels.liftX, surfels.liftY, surfels.liftZ, i);
   }
 }

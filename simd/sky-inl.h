@@ -7,6 +7,7 @@
 #endif
 
 #include "hwy/contrib/math/math-inl.h"
+#include "simd/azimuth-inl.h"
 #include "simd/vec3-inl.h"
 #include "stages/shading_tables.h"
 
@@ -21,22 +22,6 @@ HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
   const MF above = hn::Ge(direction.y, hn::Zero(d));
   const V3 end = Select3(above, Broadcast3(sky.zenith), Broadcast3(sky.ground));
   return Mix3(horizon, end, hn::Min(hn::Abs(direction.y), hn::Set(d, 1.0f)));
-}
-
-// Azimuth from -z towards +x as a fraction of a turn, in [0, 1].
-HWY_INLINE VF AzimuthFraction(VF x, VF z) {
-  const FloatTag d;
-  const VF cosine = hn::Neg(z);
-  const VF ax = hn::Abs(x), ac = hn::Abs(cosine);
-  // Atan of the smaller over the larger keeps the quotient in [0, 1].
-  const MF steep = hn::Gt(ax, ac);
-  const VF larger = hn::Max(hn::Max(ax, ac), hn::Set(d, 1e-30f));
-  const VF a = hn::Atan(d, hn::Div(hn::Min(ax, ac), larger));
-  VF angle = hn::IfThenElse(steep, hn::Sub(hn::Set(d, 1.57079637f), a), a);
-  angle =
-      hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(hn::Set(d, 3.14159274f), angle), angle);
-  angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 6.28318548f), angle), angle);
-  return hn::Mul(angle, hn::Set(d, 0.159154943f));
 }
 
 // Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles.

@@ -9,6 +9,7 @@
 #include "core/effects.h"
 #include "hwy/contrib/math/math-inl.h"
 #include "simd/material-inl.h"
+#include "simd/sphere-inl.h"
 #include "simd/surface-inl.h"
 #include "simd/texture-inl.h"
 #include "stages/chunk.h"
@@ -31,7 +32,7 @@ struct SurfelJob {
   HitColumns hits;
   SurfelColumns surfels;
   bool absorption, cones, emissionFactors, flush, glossy, instances, radianceMaps, secondUvs,
-      transmission, vertexColors;
+      spheres, transmission, vertexColors;
 };
 
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
@@ -49,6 +50,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::instances),
           c.tables().radianceMaps,
           c.has(Feature::secondUvs),
+          c.has(Feature::spheres),
           c.has(Feature::transmission),
           c.has(Feature::vertexColors)};
 }
@@ -303,10 +305,11 @@ HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, Blo
   const ShadingTables& tables = job.tables;
   const auto [valid, triangle] = LoadHits(job.hits, i);
   if (hn::AllFalse(d, valid)) return;
-  const TriangleLanes t = LoadTriangles(tables, triangle);
-  const Weights w = LoadWeights(job.hits, i);
+  TriangleLanes t = LoadTriangles(tables, triangle);
+  Weights w = LoadWeights(job.hits, i);
   Surface s =
       InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  if (job.spheres) PutOnSpheres(tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
   const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);

@@ -20,6 +20,7 @@ struct AccelOptions {
   BvhQuality quality = BvhQuality::medium;
   bool alphaMasks = true;  // respect them (a filter on masked triangles only)
   bool instances = true;   // there at all
+  bool spheres = true;     // likewise
   int threads = 0;         // for building; 0: all
   int packet = 0;          // 0: the widest the CPU runs natively
   std::string isa;         // "avx512", "avx2", "avx", "sse4.2"; empty: the CPU's best

@@ -18,20 +18,23 @@ AlphaMaps makeAlphaMaps(const Scene& scene) {
   return maps;
 }
 
+Mask maskOf(const Material& material, const AlphaMaps& maps) {
+  Mask mask;
+  mask.doubleSided = material.doubleSided;
+  if (material.alphaMap == kNoTexture || maps.empty()) return mask;
+  mask.map = maps[static_cast<std::size_t>(material.alphaMap)].get();
+  mask.cutoff = material.alphaCutoff;
+  mask.shadowCutoff = material.shadowCutoff();
+  if (!material.isCutBesidesCoverage()) return mask;
+  mask.coverage = maps[static_cast<std::size_t>(material.coverageMap)].get();
+  mask.coverageCutoff = material.coverageCutoff();
+  return mask;
+}
+
 MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first,
                                std::uint32_t end) {
-  masks.resize(scene.materials.size());
-  for (std::size_t m = 0; m < masks.size(); ++m) {
-    const Material& material = scene.materials[m];
-    masks[m].doubleSided = material.doubleSided;
-    if (material.alphaMap == kNoTexture || maps.empty()) continue;
-    masks[m].map = maps[static_cast<std::size_t>(material.alphaMap)].get();
-    masks[m].cutoff = material.alphaCutoff;
-    masks[m].shadowCutoff = material.shadowCutoff();
-    if (!material.isCutBesidesCoverage()) continue;
-    masks[m].coverage = maps[static_cast<std::size_t>(material.coverageMap)].get();
-    masks[m].coverageCutoff = material.coverageCutoff();
-  }
+  masks.reserve(scene.materials.size());
+  for (const Material& material : scene.materials) masks.push_back(maskOf(material, maps));
   triangles.reserve(end - first);
   for (std::uint32_t i = first; i < end; ++i) {
     const TriangleRecord& t = scene.triangles[i];

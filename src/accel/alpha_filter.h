@@ -31,6 +31,21 @@ struct Mask {
   bool doubleSided = true;
 };
 
+// `maps` must outlive it; where they are empty there is no mask.
+Mask maskOf(const Material& material, const AlphaMaps& maps);
+
+// False where the mask, cut at that member of it, cuts the point with these texture coordinates;
+// for shadows also where less than half of it is there.
+template <float Mask::*kCutoff>
+bool isOpaqueAt(const Mask& mask, float s, float t) noexcept {
+  if (!mask.map) return true;
+  if (!mask.map->isOpaqueAt(s, t, mask.*kCutoff)) return false;
+  if constexpr (kCutoff == &Mask::shadowCutoff) {
+    return !mask.coverage || mask.coverage->isOpaqueAt(s, t, mask.coverageCutoff);
+  }
+  return true;
+}
+
 // The masked triangles of one Embree geometry, in its order.
 struct MaskedGeometry {
   // Those of scene.triangles from `first` to before `end`. `maps` must outlive it; where they are
@@ -47,8 +62,7 @@ inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitiv
   return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
 }
 
-// False where the alpha mask, cut at that member of it, cuts the triangle's point (u, v); for
-// shadows also where less than half of it is there.
+// The same of the triangle's point (u, v).
 template <float Mask::*kCutoff>
 bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
                 float v) noexcept {
@@ -58,11 +72,7 @@ bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u
   const float w = 1.0f - u - v;
   const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
   const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
-  if (!mask.map->isOpaqueAt(s, r, mask.*kCutoff)) return false;
-  if constexpr (kCutoff == &Mask::shadowCutoff) {
-    return !mask.coverage || mask.coverage->isOpaqueAt(s, r, mask.coverageCutoff);
-  }
-  return true;
+  return isOpaqueAt<kCutoff>(mask, s, r);
 }
 
 }  // namespace whit

@@ -101,6 +101,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
     rtcSetSceneFlags(made, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(made, buildQuality(options.quality));
     addGeometry(i, scene);
+    if (options.spheres) addSpheres(i, scene);
     if (i != 0) commit(made, progress);
   }
   if (options.instances) addInstances(scene);
@@ -133,6 +134,17 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
   }
+}
+
+void EmbreeScene::addSpheres(std::size_t index, const Scene& scene) {
+  if (scene.geometries[index].spheres == 0) return;
+  spheres_.push_back(std::make_unique<SphereGeometry>(scene, alphaMaps_, scene.geometries[index]));
+  const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
+  RTCGeometry geometry = held.get();
+  spheres_.back()->attachTo(geometry);
+  rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scenes_[index].get(), geometry, kSpheresId);
 }
 
 // Shadows are cast by both sides.

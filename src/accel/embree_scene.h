@@ -10,11 +10,13 @@
 #include "accel/accel.h"
 #include "accel/alpha_filter.h"
 #include "accel/embree_calls.h"
+#include "accel/sphere_geometry.h"
 
 namespace whit {
 
-// Instances follow the four classes of world triangles in the top-level scene.
-inline constexpr unsigned kFirstInstanceId = kTriangleClasses;
+// Spheres follow the four classes of world triangles in a scene, instances follow those in the
+// top-level one.
+inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
 // Ray masks: shadow rays do not see triangles that cast no shadow.
 inline constexpr unsigned kSeenMask = 1, kShadowMask = 2;
 
@@ -69,6 +71,7 @@ class EmbreeScene {
 
  private:
   void addGeometry(std::size_t index, const Scene& scene);
+  void addSpheres(std::size_t index, const Scene& scene);
   static void setFilters(MaskedGeometry& filtered, RTCGeometry geometry);
   void addInstances(const Scene& scene);
   void commit(RTCScene scene, Progress* progress);
@@ -77,6 +80,7 @@ class EmbreeScene {
   std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
   AlphaMaps alphaMaps_;
   std::vector<std::unique_ptr<MaskedGeometry>> masked_;
+  std::vector<std::unique_ptr<SphereGeometry>> spheres_;
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries

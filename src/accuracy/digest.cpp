@@ -137,9 +137,9 @@ void add(Digester& d, const Texture& texture) {
   addTable(d, texels);
 }
 void add(Digester& d, const Geometry& geometry) {
-  const auto& [position, index, classBegin, firstTriangle] = geometry;
+  const auto& [position, index, classBegin, firstTriangle, firstSphere, spheres] = geometry;
   addTable(d, position), addTable(d, index);
-  add(d, classBegin), add(d, firstTriangle);
+  add(d, classBegin), add(d, firstTriangle), add(d, firstSphere), add(d, spheres);
 }
 void add(Digester& d, const Sky& sky) {
   const auto& [name, kind, zenith, horizon, ground, image, scale, rotation] = sky;
@@ -153,8 +153,9 @@ void add(Digester& d, const Sky& sky) {
 
 std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, lights, sky, ambient, materials,
-               mediumOfMaterial, media, textures, geometries, instances, triangles, normals, colors,
-               secondUvs, lower, upper, instancedTriangles, flush, effects, reasons] = scene;
+               mediumOfMaterial, media, textures, geometries, instances, triangles, firstSphere,
+               normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
+               flush, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

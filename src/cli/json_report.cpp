@@ -150,6 +150,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
               const Warnings& warnings) {
   Json json{{"scene", scene.name},
             {"triangles", scene.instancedTriangles},
+            {"spheres", scene.instancedSpheres},
             {"instances", scene.instances.size()},
             {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
             {"materials", scene.materials.size()},

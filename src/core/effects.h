@@ -33,6 +33,7 @@ namespace whit {
   X(mirror, "reflected impulses")                              \
   X(transmission, "refracted impulses")                        \
   X(absorption, "absorption inside dielectrics")               \
+  X(spheres, "exact spheres")                                  \
   X(instances, "instanced geometry")
 
 enum class Effect : std::uint32_t {

@@ -53,6 +53,7 @@ std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
          mesh.colors.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
+         mesh.spheres.size() * sizeof(Affine) +
          (mesh.materials.size() + mesh.order.size()) * sizeof(std::uint32_t);
 }
 

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "reference/media.h"
+#include "reference/sphere.h"
 #include "reference/texture_sampling.h"
+#include "scene/sphere.h"
 
 namespace whit::reference {
 
@@ -49,11 +51,19 @@ TextureEdges textureEdgesOf(const float* uvs) {
   return {uvs[2] - u0, uvs[3] - v0, uvs[4] - u0, uvs[5] - v0};
 }
 
-// The magnitudes that the hit point is added up from, per axis, in the world.
-Vec3d magnitude(const TriangleRecord& t, const TriangleHit& hit, const Affine* toWorld) {
+// The magnitudes that the hit point is added up from, per axis.
+Vec3d magnitudeOnTriangle(const TriangleRecord& t, const TriangleHit& hit) {
   const double w = std::max(0.0, 1 - hit.u - hit.v);
-  const Vec3d sum = abs(triple(t.position)) * w + abs(triple(t.position + 3)) * hit.u +
-                    abs(triple(t.position + 6)) * hit.v;
+  return abs(triple(t.position)) * w + abs(triple(t.position + 3)) * hit.u +
+         abs(triple(t.position + 6)) * hit.v;
+}
+Vec3d magnitudeOnSphere(const Affine& map, const Vec3d& unit) {
+  const Vec3d q = abs(unit);
+  return abs(map.x) * q.x + abs(map.y) * q.y + abs(map.z) * q.z + abs(map.p);
+}
+
+// The same in the world.
+Vec3d magnitudeInWorld(const Vec3d& sum, const Affine* toWorld) {
   if (!toWorld) return sum;
   return abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z +
          abs(toWorld->p);
@@ -69,12 +79,19 @@ bool isNarrow(const Edges& e) {
 
 // Where the ray meets the plane, if that is more than the weights say: of a triangle that is larger
 // than its distance from the ray's start the weights of a hit found in floats say less.
-std::optional<Vec3d> pointOnRay(const Edges& e, const TriangleRecord& t, const TriangleHit& hit,
-                                const Ray& ray, const Vec3d& normal) {
-  if (!(8 * hit.t < sumOf(abs(e.e1) + abs(e.e2)))) return std::nullopt;
-  const Vec3d point = ray.origin + ray.direction * hit.t;
-  return point - normal * dot(point - triple(t.position), normal);
+std::optional<Vec3d> pointOnRay(const Edges& e, const Vec3d& inPlane, double t, const Ray& ray,
+                                const Vec3d& normal) {
+  if (!(8 * t < sumOf(abs(e.e1) + abs(e.e2)))) return std::nullopt;
+  const Vec3d point = ray.origin + ray.direction * t;
+  return point - normal * dot(point - inPlane, normal);
 }
+
+// What a position follows from, in the space of the geometry.
+struct Placement {
+  Vec3d position, magnitude;
+  Edges edges;    // of the triangle, or of one that touches the sphere
+  Vec3d inPlane;  // some point of its plane
+};
 
 // The position, and how far from it rays start, in the arithmetic of floats. What a point is added
 // up from is off by an ulp or two of itself along each axis (pbrt-v4, section 6.8.5), the edges and
@@ -83,49 +100,61 @@ std::optional<Vec3d> pointOnRay(const Edges& e, const TriangleRecord& t, const T
 // exact. The point is off across the normal as well, which the retreat makes good: half of the way
 // that the ray has come is clear. `inDoubt`: on the way through an instance's space the axes are
 // mixed, and of several surfaces in one place another one may be larger.
-void placeSurfel(const TriangleRecord& t, const TriangleHit& hit, const Ray& ray,
-                 const Affine* toWorld, bool inDoubt, Surfel& s) {
-  const Vec3d point = magnitude(t, hit, toWorld);
-  s.position = interpolate(t.position, hit);
+void placeSurfel(const Placement& place, double t, const Ray& ray, const Affine* toWorld,
+                 bool inDoubt, Surfel& s) {
+  const Vec3d point = magnitudeInWorld(place.magnitude, toWorld);
+  s.position = place.position;
   if (toWorld) s.position = toWorld->point(s.position);
   s.offset = 32 * kUnitRoundOff * sumOf(point);
-  s.retreat = std::min(s.offset, hit.t) / 2;
-  const Edges e = edgesOf(t);
+  s.retreat = std::min(s.offset, t) / 2;
+  const Edges& e = place.edges;
   if (inDoubt || toWorld || isNarrow(e)) return;
   const Vec3d edges = abs(e.e1) + abs(e.e2), n = abs(s.geometricNormal);
   double across = sumOf(point * 2.0 + edges);
-  if (const auto onRay = pointOnRay(e, t, hit, ray, s.geometricNormal)) {
+  if (const auto onRay = pointOnRay(e, place.inPlane, t, ray, s.geometricNormal)) {
     s.position = *onRay;
-    across = 2 * sumOf(abs(s.position)) + 8 * hit.t + 2 * dot(n, edges);
+    across = 2 * sumOf(abs(s.position)) + 8 * t + 2 * dot(n, edges);
   }
   const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
   s.offset = std::min(s.offset, kUnitRoundOff * along);
   s.retreat = std::min(s.retreat, kUnitRoundOff * across);
 }
 
+// What textures see of a hit: on a triangle, or on one that touches the sphere in place of it.
+struct Textured {
+  TriangleRecord triangle;
+  TriangleHit hit;
+  const float* secondUvs = nullptr;
+
+  const float* uvs(bool second) const { return second && secondUvs ? secondUvs : triangle.uv; }
+};
+
+Textured texturedAt(const Scene& scene, std::uint32_t number, const TriangleHit& hit) {
+  const TriangleRecord& record = scene.triangles[number];
+  if (scene.isSphere(number)) {
+    return {touchingTriangle(record, hit.u, hit.v), {hit.t, 0, 0}, nullptr};
+  }
+  return {record, hit, scene.secondUvs.empty() ? nullptr : scene.secondUvs[number].uv};
+}
+
 // The textures at a hit. `cosine` is that between ray and geometric normal.
 class Lookups {
  public:
-  Lookups(const Scene& scene, const TextureLookup& how, std::uint32_t triangle,
-          const Affine* toWorld, const TriangleHit& hit, double cosine)
-      : scene_(scene),
-        how_(how),
-        triangle_(triangle),
-        toWorld_(toWorld),
-        hit_(hit),
-        cosine_(cosine) {}
+  Lookups(const Scene& scene, const TextureLookup& how, const Textured& at, const Affine* toWorld,
+          double cosine)
+      : scene_(scene), how_(how), at_(at), toWorld_(toWorld), cosine_(cosine) {}
 
-  const float* uvs(bool second) const { return scene_.uvsOf(triangle_, second); }
+  const float* uvs(bool second) const { return at_.uvs(second); }
 
   RgbD color(std::int32_t map, bool second) const {
-    const TexturePoint at = texturePoint(uvs(second), hit_);
+    const TexturePoint at = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) {
       return sampleColor(textureOf(map), at.u, at.v, how_.filter);
     }
     return sampleColor(*how_.maps, static_cast<std::size_t>(map), at.u, at.v, levelOf(map, second));
   }
   DataSample data(std::int32_t map, bool second) const {
-    const TexturePoint at = texturePoint(uvs(second), hit_);
+    const TexturePoint at = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) {
       return sampleData(textureOf(map), at.u, at.v, how_.filter);
     }
@@ -137,16 +166,15 @@ class Lookups {
     return scene_.textures[static_cast<std::size_t>(map)];
   }
   double levelOf(std::int32_t map, bool second) const {
-    const double footprint = textureFootprint(scene_.triangles[triangle_], uvs(second), toWorld_,
-                                              how_.cone.width, cosine_);
+    const double footprint =
+        textureFootprint(at_.triangle, uvs(second), toWorld_, how_.cone.width, cosine_);
     return mipLevel(footprint * textureOf(map).width * textureOf(map).height);
   }
 
   const Scene& scene_;
   const TextureLookup& how_;
-  std::uint32_t triangle_;
+  const Textured& at_;
   const Affine* toWorld_;
-  const TriangleHit& hit_;
   double cosine_;
 };
 
@@ -185,6 +213,18 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
     const Vec3d n = interpolate(scene.normals[candidate.triangle].normal, hit);
     s.shadingNormal = normalized(carried(n), s.geometricNormal);
   }
+}
+
+// Position and normals of a hit on a sphere.
+void placeOnSphere(const TriangleRecord& record, const Textured& at, const TriangleHit& hit,
+                   const Ray& ray, const Affine* toWorld, bool inDoubt, Surfel& s) {
+  const Affine own = sphereMap(record);
+  const Vec3d unit = spherePoint(hit.u, hit.v), point = own.point(unit);
+  const Vec3d normal = own.normal(unit);
+  s.geometricNormal = normalized(toWorld ? toWorld->normal(normal) : normal, s.view);
+  s.shadingNormal = s.geometricNormal;
+  const Placement place{point, magnitudeOnSphere(own, unit), edgesOf(at.triangle), point};
+  placeSurfel(place, hit.t, ray, toWorld, inDoubt, s);
 }
 
 // Of the vertices: the first corner's and what the others add to it, so that one color at all
@@ -236,6 +276,7 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
 }  // namespace
 
 TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
+  if (scene.isSphere(candidate.triangle)) return refineSphereHit(scene, ray, candidate);
   const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
   if (std::optional<TriangleHit> hit = piercePlane(ray, corners); hit && hit->t > 0) {
     moveOntoTriangle(*hit);
@@ -268,7 +309,8 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
   const TriangleRecord& record = scene.triangles[triangle];
   const Material& material = scene.materials[record.material];
   if (material.alphaMap == kNoTexture) return false;
-  const TexturePoint at = texturePoint(record.uv, hit);
+  const Textured textured = texturedAt(scene, triangle, hit);
+  const TexturePoint at = texturePoint(textured.triangle.uv, textured.hit);
   const auto isBelow = [&](std::int32_t map, float cutoff) {
     const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
     return sampleData(mask, at.u, at.v).r < double{cutoff};
@@ -282,7 +324,7 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
               const Vec3d& direction) {
   const TriangleRecord& record = scene.triangles[triangle];
-  if (scene.materials[record.material].doubleSided) return false;
+  if (scene.materials[record.material].doubleSided || scene.isSphere(triangle)) return false;
   const Edges e = edgesOf(record);
   Vec3d normal = cross(e.e1, e.e2);
   if (instance != kNoHit) normal = scene.instances[instance].toWorld.normal(normal);
@@ -292,6 +334,7 @@ bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
                      const TriangleHit& hit, const Surfel& s) {
   if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};
+  if (scene.isSphere(candidate.triangle)) return {};
   const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
   const float* normals = scene.normals[candidate.triangle].normal;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
@@ -319,14 +362,21 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   Surfel s;
   s.view = -ray.direction;
   s.cone = lookup.cone;
-  findNormals(scene, effects, candidate, hit, toWorld, s);
-  placeSurfel(triangle, hit, ray, toWorld, sharesPlace, s);
+  const Textured textured = texturedAt(scene, candidate.triangle, hit);
+  if (scene.isSphere(candidate.triangle)) {
+    placeOnSphere(triangle, textured, hit, ray, toWorld, sharesPlace, s);
+  } else {
+    findNormals(scene, effects, candidate, hit, toWorld, s);
+    const Placement place{interpolate(triangle.position, hit), magnitudeOnTriangle(triangle, hit),
+                          edgesOf(triangle), triple(triangle.position)};
+    placeSurfel(place, hit.t, ray, toWorld, sharesPlace, s);
+  }
   const double cosine = dot(ray.direction, s.geometricNormal);
-  const Lookups lookups(scene, lookup, candidate.triangle, toWorld, hit, cosine);
+  const Lookups lookups(scene, lookup, textured, toWorld, cosine);
   const Material& material = scene.materials[triangle.material];
   if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
     const bool second = material.normalBySecondUvs;
-    s.shadingNormal = bentNormal(lookups.data(material.normalMap, second), triangle,
+    s.shadingNormal = bentNormal(lookups.data(material.normalMap, second), textured.triangle,
                                  lookups.uvs(second), toWorld, s.shadingNormal);
   }
   s.entering = cosine < 0;

@@ -13,8 +13,11 @@ namespace {
 // In no plane, and through no edge, that a model is likely to have.
 const Vec3d kProbe = normalized(Vec3d{0.3217, 0.8431, 0.4309});
 
-// A straight line meets a triangle once. Twice as many end what rounding might keep going.
-std::uint64_t mostSurfaces(const Scene& scene) { return 2 * scene.instancedTriangles + 16; }
+// A straight line meets a triangle once, a sphere twice. Twice as many end what rounding might keep
+// going.
+std::uint64_t mostSurfaces(const Scene& scene) {
+  return 2 * scene.instancedTriangles + 4 * scene.instancedSpheres + 16;
+}
 
 }  // namespace
 
@@ -57,7 +60,7 @@ bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& 
     Candidate met;
     return intersector.closest({point, direction}, met) &&
            scene.mediumOfMaterial[scene.triangles[met.triangle].material] != 0 &&
-           liesInPlane(point, worldCorners(scene, met.triangle, met.instance));
+           liesInSurface(scene, point, met.triangle, met.instance);
   };
   return startsOnOne(kProbe) || startsOnOne(-kProbe);
 }

@@ -79,13 +79,13 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   return radiance * arrives;
 }
 
-// The nearest triangle; of the camera's rays, that their start does not lie in.
+// The nearest surface; of the camera's rays, that their start does not lie in.
 std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
   Candidate candidate;
   for (int attempt = 0; attempt < kAttemptsPastEye; ++attempt) {
     if (!intersector_.closest(ray, candidate)) return std::nullopt;
-    const Corners corners = worldCorners(scene_, candidate.triangle, candidate.instance);
-    if (depth > 0 || !liesInPlane(ray.origin, corners)) break;
+    if (depth > 0) break;
+    if (!liesInSurface(scene_, ray.origin, candidate.triangle, candidate.instance)) break;
     ray.tNear = wayPastEye(ray.origin, attempt);
   }
   const Settled settled = settleFlush(scene_, effects_, ray, candidate);

@@ -5,6 +5,7 @@
 #include "reference/initial_medium_stack.h"
 #include "reference/twin.h"
 #include "render/embree_intersector.h"
+#include "scene/sphere.h"
 
 namespace whit {
 
@@ -18,6 +19,13 @@ Box boundsWithin(const Scene& scene, const Geometry& geometry) {
     for (int k = 0; k < 9; k += 3) {
       box.add({triangle.position[k], triangle.position[k + 1], triangle.position[k + 2]});
     }
+  }
+  for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+    const TriangleRecord& sphere = scene.triangles[geometry.firstSphere + i];
+    if (scene.mediumOfMaterial[sphere.material] == 0) continue;
+    const Box own = sphereBounds(sphereMap(sphere));
+    box.add(own.lower);
+    box.add(own.upper);
   }
   return box;
 }

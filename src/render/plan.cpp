@@ -48,6 +48,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
+      .with(Feature::spheres, e.has(Effect::spheres))
       .with(Feature::flush, !scene.flush.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
       // Where no vertex normal differs from its triangle's there is nothing to lift.

@@ -37,6 +37,7 @@ AccelOptions accelOptions(const RenderOptions& options, EffectSet effects, int t
   accel.quality = options.bvh;
   accel.alphaMasks = effects.has(Effect::alphaMasks);
   accel.instances = effects.has(Effect::instances);
+  accel.spheres = effects.has(Effect::spheres);
   accel.threads = threads;
   accel.packet = options.packet;
   // Also when the target was chosen by itself: kernels of another target than the processor's best,

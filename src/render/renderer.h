@@ -54,8 +54,8 @@ class Renderer {
 
   // For frames to come: all that changes neither the acceleration structure nor the workers is
   // taken from `options` (see canSetOptions), the others stay. Plans anew where needed. Throws
-  // Error(usage) when alpha masks or instances would come or go, which are built in. Not while
-  // rendering.
+  // Error(usage) when alpha masks, spheres or instances would come or go, which are built in. Not
+  // while rendering.
   void setOptions(const RenderOptions& options);
   // Whether setOptions() is enough for frames with these options. Otherwise they need a renderer of
   // their own: what differs is part of the acceleration structure or of the workers.

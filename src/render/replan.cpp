@@ -10,7 +10,8 @@ namespace {
 
 // What the acceleration structure has built in of a plan's effects.
 EffectSet builtIn(const Plan& plan) {
-  constexpr EffectSet kBuiltIn = EffectSet().with(Effect::alphaMasks).with(Effect::instances);
+  constexpr EffectSet kBuiltIn =
+      EffectSet().with(Effect::alphaMasks).with(Effect::instances).with(Effect::spheres);
   return EffectSet(plan.effects.bits() & kBuiltIn.bits());
 }
 
@@ -39,7 +40,8 @@ void Renderer::setOptions(const RenderOptions& options) {
   Plan plan = makePlan(scene_, options);
   if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
-        "alpha masks and instances are part of the acceleration structure: it has to be built "
+        "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
+        "built "
         "anew");
   }
   const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();

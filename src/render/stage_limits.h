@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "reference/find_intersections.h"
+#include "reference/sphere.h"
 #include "reference/triangle.h"
 #include "reference/twin.h"
 #include "scene/light.h"
+#include "scene/sphere.h"
 
 namespace whit {
 
@@ -101,7 +103,13 @@ double notEdgeOn(const Place<SurfelRow>& p) {
 inline double byItself(const Place<SurfelRow>&) { return 0; }
 inline Corners cornersAt(const Place<SurfelRow>& p) {
   const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
-  return worldCorners(p.world.scene, candidate.triangle, candidate.instance);
+  const Scene& scene = p.world.scene;
+  if (!scene.isSphere(candidate.triangle)) {
+    return worldCorners(scene, candidate.triangle, candidate.instance);
+  }
+  const bool placed = candidate.instance != reference::kNoHit;
+  return cornersOf(touchingTriangle(scene.triangles[candidate.triangle], candidate.u, candidate.v),
+                   placed ? &scene.instances[candidate.instance].toWorld : nullptr);
 }
 // How much the cross product of the edges amplifies their rounding.
 inline double bySliver(const Place<SurfelRow>& p) {
@@ -121,10 +129,20 @@ inline std::optional<double> alongRay(const Place<SurfelRow>& p) {
   const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
   return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
 }
+// What a position on a sphere is made of; none on triangles.
+inline std::optional<double> onSphere(const Place<SurfelRow>& p) {
+  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
+  if (!p.world.scene.isSphere(candidate.triangle)) return {};
+  const Affine map =
+      reference::sphereInWorld(p.world.scene, candidate.triangle, candidate.instance);
+  const Vec3d size = abs(map.x) + abs(map.y) + abs(map.z) + abs(map.p);
+  return size.x + size.y + size.z;
+}
 // By the corners, which may be far larger than the place that a ray found; of an instance the
 // offset is 32 units in the last place of all that went into the position.
 inline double byMagnitude(const Place<SurfelRow>& p) {
   if (const auto found = alongRay(p)) return *found;
+  if (const auto found = onSphere(p)) return *found;
   Vec3d largest;
   for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
   return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);

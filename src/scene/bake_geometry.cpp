@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -6,6 +7,7 @@
 #include "scene/bake_triangles.h"
 #include "scene/finalize_steps.h"
 #include "scene/instance_bounds.h"
+#include "scene/sphere.h"
 
 namespace whit {
 
@@ -34,6 +36,12 @@ struct Source {
   }
 };
 
+struct PlacedSphere {
+  Affine map;
+  std::uint32_t material = 0;
+  std::uint64_t rank = 0;  // in the order of the scene
+};
+
 class Baker {
  public:
   Baker(SceneDescription& description, Scene& scene, Warnings& warnings, Progress* progress)
@@ -51,6 +59,8 @@ class Baker {
     dropEmptyGeometries();
     reserveTables();
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
+    scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
+    for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
     boundInstances(scene_, boxes_, warnings_);
     return std::move(order_);
   }
@@ -60,21 +70,24 @@ class Baker {
   void numberTriangles(std::size_t g);
   void place(std::size_t g);
   std::vector<std::uint32_t> fromTheLast(std::size_t g) const;
+  void placeSpheres(const Source& source, std::size_t g);
   void dropCoincident(std::size_t g);
   void countClasses(std::size_t g);
   void dropEmptyGeometries();
   void reserveTables();
   void emit(std::size_t g);
+  void emitSpheres(std::size_t g);
   void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
 
   SceneDescription& description_;
   Scene& scene_;
   Warnings& warnings_;
   Progress* progress_;
-  std::vector<MaterialUse> uses_;             // one a material
-  std::vector<std::vector<Source>> sources_;  // one list a geometry
-  std::vector<Box> boxes_;                    // one a geometry, in its own space
   SceneOrder order_;
+  std::vector<MaterialUse> uses_;                   // one a material
+  std::vector<std::vector<Source>> sources_;        // one list a geometry
+  std::vector<std::vector<PlacedSphere>> spheres_;  // likewise
+  std::vector<Box> boxes_;                          // one a geometry, in its own space
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
   bool isSearched_ = false;  // for flush triangles
 };
@@ -92,6 +105,7 @@ void Baker::plan() {
   }
   sources_.resize(geometries);
   order_.meshes.resize(geometries);
+  spheres_.resize(geometries);
   scene_.geometries.resize(geometries);
   for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
     const Instance& instance = description_.instances[i];
@@ -142,6 +156,7 @@ void Baker::place(std::size_t g) {
   geometry.position.reserve(vertices + 1);
   for (Source& source : sources_[g]) {
     transform(*source.mesh, source.toGeometry);
+    placeSpheres(source, g);
     source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
     const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
     geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
@@ -159,6 +174,25 @@ std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
     return sources_[g][a].place.rank > sources_[g][b].place.rank;
   });
   return numbers;
+}
+
+// What Embree would not take, or what has no inside, is left out.
+void Baker::placeSpheres(const Source& source, std::size_t g) {
+  const Mesh& mesh = *source.mesh;
+  std::uint64_t dropped = 0;
+  for (const Affine& map : mesh.spheres) {
+    const Box box = sphereBounds(map);
+    const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
+                      maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
+    const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
+    if (fits && std::isnormal(volume)) {
+      spheres_[g].push_back({map, mesh.materials[0], source.place.rank});
+    } else {
+      ++dropped;
+    }
+  }
+  warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
+                dropped);
 }
 
 // Of triangles in the same place the last in the scene stays, which is the one that would be met.
@@ -212,16 +246,18 @@ void Baker::dropEmptyGeometries() {
   std::vector<std::uint32_t> newNumber(sources_.size());
   std::uint32_t kept = 1;
   for (std::size_t g = 1; g < sources_.size(); ++g) {
-    if (scene_.geometries[g].classBegin.back() == 0) continue;
+    if (scene_.geometries[g].classBegin.back() == 0 && spheres_[g].empty()) continue;
     if (kept != g) {
       scene_.geometries[kept] = std::move(scene_.geometries[g]);
       sources_[kept] = std::move(sources_[g]);
       order_.meshes[kept] = std::move(order_.meshes[g]);
+      spheres_[kept] = std::move(spheres_[g]);
     }
     newNumber[g] = kept++;
   }
   scene_.geometries.resize(kept);
   sources_.resize(kept);
+  spheres_.resize(kept);
   std::erase_if(scene_.instances,
                 [&](const InstanceRecord& i) { return newNumber[i.geometry] == 0; });
   for (InstanceRecord& i : scene_.instances) i.geometry = newNumber[i.geometry];
@@ -230,7 +266,8 @@ void Baker::dropEmptyGeometries() {
 void Baker::reserveTables() {
   std::uint64_t total = 0;
   for (const Geometry& geometry : scene_.geometries) total += geometry.classBegin.back();
-  if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+  for (const auto& spheres : spheres_) total += spheres.size();
+  if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
   scene_.triangles.reserve(total);
   if (withNormals_) scene_.normals.reserve(total);
   if (withColors_) scene_.colors.reserve(total);
@@ -260,6 +297,25 @@ void Baker::emit(std::size_t g) {
                          static_cast<double>(scene_.triangles.capacity()));
     }
   }
+}
+
+// What other tables say of a sphere's number is never looked at, but may be read.
+void Baker::emitSpheres(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
+  geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
+  std::stable_sort(spheres_[g].begin(), spheres_[g].end(),
+                   [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
+  for (const PlacedSphere& sphere : spheres_[g]) {
+    scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
+    if (withSecondUvs_) scene_.secondUvs.push_back({});
+    if (withNormals_) scene_.normals.push_back({});
+    if (withColors_) scene_.colors.push_back({{1, 1, 1, 1, 1, 1, 1, 1, 1}});
+    const Box own = sphereBounds(sphere.map);
+    boxes_[g].add(own.lower);
+    boxes_[g].add(own.upper);
+  }
+  spheres_[g] = {};
 }
 
 void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {

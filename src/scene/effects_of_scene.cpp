@@ -117,6 +117,8 @@ void Gatherer::geometry() {
       "no vertex normal differs from its triangle's");
   set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
       "no vertex has a color");
+  set(Effect::spheres, scene_.instancedSpheres > 0, counted(scene_.instancedSpheres, "sphere"),
+      "nothing is a sphere but by its triangles");
   set(Effect::instances, !scene_.instances.empty(),
       counted(scene_.instances.size(), "instance") + " of " +
           counted(scene_.geometries.size() - 1, "object"),
@@ -167,7 +169,8 @@ std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene) {
 }
 
 bool hasSmoothNormals(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.normals.size(); ++i) {
+  if (scene.normals.empty()) return false;
+  for (std::uint32_t i = 0; i < scene.firstSphere; ++i) {
     const Vec3d face = faceNormal(scene.triangles[i]);
     const float* n = scene.normals[i].normal;
     for (int corner = 0; corner < 9; corner += 3) {

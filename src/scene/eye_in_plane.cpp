@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/sphere.h"
+
 namespace whit {
 
 namespace {
@@ -18,6 +20,17 @@ double roundingOf(const Vec3d& eye) {
 bool liesInPlane(const Vec3d& eye, const Corners& corners) {
   const Vec3d n = cross(corners[1] - corners[0], corners[2] - corners[0]);
   return std::fabs(dot(n, eye - corners[0])) <= roundingOf(eye) * length(n);
+}
+
+bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
+                   std::uint32_t instance) {
+  if (!scene.isSphere(number)) return liesInPlane(eye, worldCorners(scene, number, instance));
+  Affine map = sphereMap(scene.triangles[number]);
+  if (instance != kNoInstance) map = scene.instances[instance].toWorld * map;
+  const Vec3d unit = onUnitSphere(map, eye), direction = normalized(unit);
+  // Along the normal the map stretches by this.
+  const double stretch = std::fabs(map.determinant()) / length(map.normal(direction));
+  return std::fabs(length(unit) - 1) * stretch <= roundingOf(eye);
 }
 
 double wayPastEye(const Vec3d& eye, int attempt) {

@@ -1,5 +1,7 @@
 #include "scene/leave_out.h"
 
+#include "scene/shapes/generators.h"
+
 namespace whit {
 
 namespace {
@@ -77,6 +79,8 @@ void keepFirstUses(SceneDescription& d) {
   });
 }
 
+constexpr int kSegmentsOfSphere = 64;
+
 }  // namespace
 
 void leaveOut(SceneDescription& d, EffectSet effects) {
@@ -90,6 +94,7 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
   if (effects.has(Effect::instances)) keepFirstUses(d);
   for (Object& object : d.objects) {
     for (Mesh& mesh : object.meshes) {
+      if (effects.has(Effect::spheres)) procedural::tessellateSpheres(mesh, kSegmentsOfSphere);
       if (effects.has(Effect::smoothNormals)) mesh.normals.clear();
       if (effects.has(Effect::vertexColors)) mesh.colors.clear();
     }

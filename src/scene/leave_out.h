@@ -14,9 +14,9 @@ namespace whit {
 // texels go too when no material is left that uses them; alpha masks, so that masked surfaces
 // become solid; vertex normals; lobes, emission, lights; the sky, or of a sky image only the image,
 // in whose place comes a gradient; mirrors, transmission (glass becomes opaque), absorption,
-// coverage (what is there in part becomes whole); all uses of an object but the first. Without
-// shadows nothing casts any. Without mirror dielectrics get the refractive index of the vacuum,
-// because others reflect.
+// coverage (what is there in part becomes whole); all uses of an object but the first; of a sphere
+// that it is round: it becomes triangles. Without shadows nothing casts any. Without mirror
+// dielectrics get the refractive index of the vacuum, because others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
 // What the matte scene starts with: primary and shadow rays, lights that shine all around.
@@ -24,11 +24,12 @@ inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with
 
 // What is added to it, in this order: each needs only those before it.
 inline constexpr std::array kAddedEffects{
-    Effect::spotLights,   Effect::directionalLights, Effect::ambient,       Effect::emission,
-    Effect::sky,          Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
-    Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
-    Effect::glossy,       Effect::glossyReflection,  Effect::instances,     Effect::mirror,
-    Effect::transmission, Effect::absorption,        Effect::coverage,      Effect::softShadows,
+    Effect::spotLights,  Effect::directionalLights, Effect::ambient,       Effect::emission,
+    Effect::sky,         Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
+    Effect::textures,    Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
+    Effect::glossy,      Effect::glossyReflection,  Effect::instances,     Effect::spheres,
+    Effect::mirror,      Effect::transmission,      Effect::absorption,    Effect::coverage,
+    Effect::softShadows,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

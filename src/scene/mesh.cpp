@@ -22,6 +22,7 @@ void transform(Mesh& mesh, const Affine& map) {
     return;
   }
   mesh.fromModel = map * mesh.fromModel;
+  for (Affine& sphere : mesh.spheres) sphere = map * sphere;
   for (Vec3f& p : mesh.positions) p = Vec3f(map.point(Vec3d(p)));
   for (Vec3f& n : mesh.normals) n = unitOrZero(map.normal(Vec3d(n)));
   if (map.determinant() < 0) {

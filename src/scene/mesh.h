@@ -1,4 +1,4 @@
-// Triangles as they are loaded or generated, before Scene::finalize() bakes them.
+// Triangles and spheres as they are loaded or generated, before Scene::finalize() bakes them.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@ struct Mesh {
   std::vector<Vec2f> secondUvs;  // likewise, for the maps of a Material that say so
   std::vector<Rgb> colors;       // empty (white), or one a position; linear, 0 to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+  std::vector<Affine> spheres;  // from the unit sphere (scene/sphere.h); of the first material
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
   Affine fromModel;  // what transform() has applied so far
@@ -50,10 +51,10 @@ struct Instance {
   std::uint64_t rank = 0;
 };
 
-// Applies `map` to positions and normals (rounded once), flips the winding if it mirrors. Normals
-// come out as unit vectors, zero where they have no direction. The identity leaves positions alone.
-// What lengths a map that stretches space gives to the normals follows from Mesh::fromModel
-// (makeNormalRecord).
+// Applies `map` to positions, normals (rounded once) and spheres, flips the winding if it mirrors.
+// Normals come out as unit vectors, zero where they have no direction. The identity leaves
+// positions alone. What lengths a map that stretches space gives to the normals follows from
+// Mesh::fromModel (makeNormalRecord).
 void transform(Mesh& mesh, const Affine& map);
 
 }  // namespace whit

@@ -82,6 +82,7 @@ struct Geometry {
   std::vector<std::array<std::uint32_t, 3>> index;
   std::array<std::uint32_t, kTriangleClasses + 1> classBegin{};
   std::uint32_t firstTriangle = 0;
+  std::uint32_t firstSphere = 0, spheres = 0;  // in Scene::triangles too
 };
 
 struct InstanceRecord {
@@ -126,7 +127,10 @@ class Scene {
   // Geometry 0 is the world (may be empty), the others are instanced.
   std::vector<Geometry> geometries;
   std::vector<InstanceRecord> instances;
-  HugeVector<TriangleRecord> triangles;  // all geometries, one after the other
+  // Those of all geometries, one after the other; from firstSphere on they are spheres
+  // (scene/sphere.h), in the same order.
+  HugeVector<TriangleRecord> triangles;
+  std::uint32_t firstSphere = 0;
   // Same length, or empty when no mesh has normals other than its triangles'.
   HugeVector<NormalRecord> normals;
   HugeVector<ColorRecord> colors;  // same length, or empty when every vertex is white
@@ -135,12 +139,15 @@ class Scene {
 
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;
-  std::uint64_t instancedTriangles = 0;  // triangles as seen, instances multiplied out
+  // As seen, instances multiplied out.
+  std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
 
   FlushTriangles flush;  // that share their place with others
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;
+
+  bool isSphere(std::uint32_t number) const { return number >= firstSphere; }
 
   // The three corners' texture coordinates for a map that is looked up with the first or second.
   const float* uvsOf(std::uint32_t triangle, bool second) const {

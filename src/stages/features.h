@@ -24,6 +24,7 @@ namespace whit {
   X(transmission, "media along rays")                                     \
   X(absorption, "media that absorb")                                      \
   X(instances, "hits on instances")                                       \
+  X(spheres, "hits on exact spheres")                                     \
   X(flush, "triangles that share their place with others")                \
   X(shadows, "shadow rays")                                               \
   X(lift, "shadow rays that start above their facets (--terminator)")     \

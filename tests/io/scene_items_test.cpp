@@ -41,7 +41,8 @@ TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
 // Stretched within an object, it looks the same whether that is used once or twice.
 TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
   const std::string egg =
-      "\"objects\": {\"egg\": [{\"shape\": \"sphere\", \"transform\": {\"scale\": [1, 3, 0.5]}}]}, "
+      "\"objects\": {\"egg\": [{\"shape\": \"sphere\", \"segments\": 64, \"transform\": "
+      "{\"scale\": [1, 3, 0.5]}}]}, "
       "\"scene\": [{\"use\": \"egg\"}";
   const Scene once = Scene::finalize(loadMembers(egg + "]"), warnings_);
   const Scene twice = Scene::finalize(

@@ -13,6 +13,7 @@ const char* sceneWith(Effect effect) {
     case Effect::transmission:
     case Effect::absorption:
       return "glass";
+    case Effect::smoothNormals:
     case Effect::alphaMasks:
     case Effect::normalMaps:
     case Effect::emission:

@@ -22,6 +22,7 @@ void scale(SceneDescription& d, int k) {
   for (Object& object : d.objects) {
     for (Mesh& mesh : object.meshes) {
       for (Vec3f& p : mesh.positions) p = scaled(p, k);
+      for (Affine& s : mesh.spheres) s = Affine::scaling(Vec3d(std::ldexp(1.0, k))) * s;
     }
   }
   for (Instance& instance : d.instances) instance.toWorld.p *= std::ldexp(1.0, k);

@@ -24,9 +24,9 @@ std::string caseName(const testing::TestParamInfo<Case>& info) {
 
 // Solids whose every edge is shared by exactly two triangles.
 std::vector<Case> solids() {
-  return {{"sphere", {}, ""},
+  return {{"sphere", {{"segments", 64.0}}, ""},
           {"sphere", {{"segments", 7.0}, {"rings", 5.0}, {"smooth", false}}, "Coarse"},
-          {"sphere", {{"radius", 1.0e-3}}, "Small"},
+          {"sphere", {{"radius", 1.0e-3}, {"segments", 64.0}}, "Small"},
           {"icosphere", {}, ""},
           {"icosphere", {{"level", 0.0}}, "Coarsest"},
           {"cylinder", {}, ""},
@@ -119,7 +119,7 @@ TEST_P(EveryShape, HasUnitNormalsThatAgreeWithTheWinding) {
 
 TEST_P(EveryShape, KeepsIndicesInRangeAndCornersApart) {
   for (const ShapePart& part : generate(GetParam()).parts) {
-    ASSERT_FALSE(part.mesh.triangles.empty()) << part.slot;
+    ASSERT_NE(part.mesh.triangles.empty(), part.mesh.spheres.empty()) << part.slot;
     for (const Vec3f& p : part.mesh.positions) ASSERT_TRUE(isFinite(p));
     for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
       for (const std::uint32_t k : part.mesh.triangles[t]) {
@@ -137,6 +137,7 @@ TEST_P(EveryShape, ComesOutTheSameEachTime) {
     EXPECT_EQ(a.parts[k].mesh.positions, b.parts[k].mesh.positions);
     EXPECT_EQ(a.parts[k].mesh.normals, b.parts[k].mesh.normals);
     EXPECT_EQ(a.parts[k].mesh.triangles, b.parts[k].mesh.triangles);
+    EXPECT_EQ(a.parts[k].mesh.spheres, b.parts[k].mesh.spheres);
   }
   EXPECT_EQ(a.placements, b.placements);
 }

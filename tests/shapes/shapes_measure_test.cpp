@@ -127,7 +127,7 @@ TEST(Measures, GroinVaultMeetsItsBarrels) {
 }
 
 TEST(Measures, SphereNormalsPointAwayFromTheCenter) {
-  const Shape shape = generate("sphere", {{"radius", 3.0}});
+  const Shape shape = generate("sphere", {{"radius", 3.0}, {"segments", 64.0}});
   for (std::size_t k = 0; k < only(shape).positions.size(); ++k) {
     const Vec3d out = normalized(Vec3d(only(shape).positions[k]));
     EXPECT_NEAR(dot(out, Vec3d(only(shape).normals[k])), 1, kFloat);

@@ -93,6 +93,12 @@ const std::vector<Rule>& rules() {
        },
        "some vertices are not white",
        {}},
+      {Effect::spheres,
+       [](auto& d) {
+         d.objects[0].meshes[0].spheres = {Affine(), Affine::translation({3, 0, 0})};
+       },
+       "2 spheres",
+       {}},
       {Effect::sky, [](auto& d) { useSky(d, Sky::Kind::color); }, "the sky is not black", {}},
       {Effect::skyImage, [](auto& d) { useSky(d, Sky::Kind::image); }, "the sky is an image",
        EffectSet().with(Effect::sky)},

@@ -23,12 +23,7 @@ Shape finished(Mesh mesh, ShapeParameters& parameters) {
   return singlePart(std::move(mesh));
 }
 
-}  // namespace
-
-Shape makeSphere(ShapeParameters& parameters) {
-  const double radius = radiusOf(parameters);
-  const int segments = segmentsOf(parameters, 64);
-  const int rings = parameters.integer("rings", std::max(2, segments / 2), 2, 4096);
+Mesh sphereMesh(double radius, int segments, int rings) {
   std::vector<ProfilePoint> profile;
   for (int j = 0; j <= rings; ++j) {
     // Half turns from the lower pole to the upper one, so that both poles lie on the axis exactly.
@@ -38,7 +33,54 @@ Shape makeSphere(ShapeParameters& parameters) {
   }
   MeshBuilder builder;
   builder.revolve(profile, segments);
-  return finished(builder.take("sphere"), parameters);
+  return builder.take("sphere");
+}
+
+Shape exactSphere(double radius) {
+  Mesh mesh;
+  mesh.name = "sphere";
+  mesh.spheres = {Affine::scaling(Vec3d(radius))};
+  return singlePart(std::move(mesh));
+}
+
+// 0 where they are not given: then the sphere is exact.
+int facetsOf(ShapeParameters& parameters, const std::string& key, int least) {
+  constexpr int kMost = 4096;
+  const int given = parameters.integer(key, 0, 0, kMost);
+  return given == 0 ? 0 : parameters.integer(key, given, least, kMost);
+}
+
+}  // namespace
+
+Shape makeSphere(ShapeParameters& parameters) {
+  const double radius = radiusOf(parameters);
+  const int segments = facetsOf(parameters, "segments", 3),
+            rings = facetsOf(parameters, "rings", 2);
+  const bool smooth = parameters.flag("smooth", true);
+  if (segments == 0 && rings == 0 && smooth) return exactSphere(radius);
+  const int around = segments == 0 ? 64 : segments;
+  Mesh mesh = sphereMesh(radius, around, rings == 0 ? std::max(2, around / 2) : rings);
+  if (!smooth) mesh.normals.clear();
+  return singlePart(std::move(mesh));
+}
+
+void tessellateSpheres(Mesh& mesh, int segments) {
+  if (mesh.spheres.empty()) return;
+  const Mesh unit = sphereMesh(1, segments, segments / 2);
+  for (const Affine& map : std::exchange(mesh.spheres, {})) {
+    Mesh sphere = unit;
+    transform(sphere, map);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(mesh.positions, sphere.positions);
+    append(mesh.normals, sphere.normals);
+    append(mesh.uvs, sphere.uvs);
+    for (const auto& [i, j, k] : sphere.triangles) {
+      mesh.triangles.push_back({first + i, first + j, first + k});
+    }
+  }
 }
 
 std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level) {

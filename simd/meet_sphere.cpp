@@ -1,0 +1,124 @@
+// Where rays of a packet meet an exact sphere: what Embree asks for, in both findIntersections and
+// checkShadows. In double, so that a sphere far away or far from the origin is as round as a near
+// one.
+#include "simd/meet_sphere.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/meet_sphere.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+#include "scene/sphere.h"
+#include "stages/packet_words.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+struct Vec3Of {
+  hn::Vec<D> x, y, z;
+};
+
+template <class D>
+HWY_INLINE hn::Vec<D> DotOf(const Vec3Of<D>& a, const Vec3Of<D>& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+template <class D>
+HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v) {
+  const auto row = [&](const double* r) HWY_ATTR {
+    return DotOf<D>({hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2])}, v);
+  };
+  return {row(sphere.rows[0]), row(sphere.rows[1]), row(sphere.rows[2])};
+}
+
+// The octahedral map of sphereWeights in src/scene/sphere.cpp.
+template <class D>
+HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits& to) {
+  const hn::Rebind<float, D> df;
+  const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  const auto sum = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+  const auto x = hn::Div(p.x, sum), y = hn::Div(p.y, sum);
+  const auto below = hn::Lt(p.z, zero);
+  const auto flatX = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
+  const auto flatY = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
+  const auto begin = hn::Set(d, kSphereWeightBegin), scale = hn::Set(d, kSphereWeightScale);
+  const auto store = [&](hn::Vec<D> flat, float* column) HWY_ATTR {
+    const auto weight = hn::MulAdd(hn::Add(flat, one), scale, begin);
+    hn::StoreU(hn::DemoteTo(df, weight), df, column + i);
+  };
+  store(flatX, to.u);
+  store(flatY, to.v);
+}
+
+// The scalar twin is meetSphere in src/scene/sphere.cpp.
+template <class D>
+HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, size_t width,
+                          size_t i, const float* after, const SphereHits& to) {
+  const hn::Rebind<float, D> df;
+  const auto load = [&](size_t column) HWY_ATTR {
+    return hn::PromoteTo(d, hn::LoadU(df, words + column * width + i));
+  };
+  const Vec3Of<D> from{hn::Sub(load(packet_column::orgX), hn::Set(d, sphere.center[0])),
+                       hn::Sub(load(packet_column::orgY), hn::Set(d, sphere.center[1])),
+                       hn::Sub(load(packet_column::orgZ), hn::Set(d, sphere.center[2]))};
+  const Vec3Of<D> along{load(packet_column::dirX), load(packet_column::dirY),
+                        load(packet_column::dirZ)};
+  const Vec3Of<D> f = ToUnit(d, sphere, from), v = ToUnit(d, sphere, along);
+  const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), middle = hn::Div(b, a);
+  const Vec3Of<D> nearest{hn::MulAdd(v.x, middle, f.x), hn::MulAdd(v.y, middle, f.y),
+                          hn::MulAdd(v.z, middle, f.z)};
+  const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
+  const auto met = hn::Ge(inside, zero);
+  const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(met, inside)));
+  const auto q = hn::Add(b, hn::CopySign(root, b));
+  const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Div(q, a);
+  const auto low = hn::Min(first, second), high = hn::Max(first, second);
+  const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
+  const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
+  const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
+  hn::StoreU(hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d))), df, to.t + i);
+  StoreWeights(d, {hn::MulAdd(v.x, t, f.x), hn::MulAdd(v.y, t, f.y), hn::MulAdd(v.z, t, f.z)}, i,
+               to);
+}
+
+// Vectors without a ray that asks are passed over: Embree asks for single rays of packets, too.
+template <size_t kWidth>
+HWY_INLINE void MeetPacket(const SphereInverse& sphere, const float* words, size_t width,
+                           const int* valid, const float* after, const SphereHits& to) {
+  const hn::CappedTag<double, kWidth> d;
+  const size_t lanes = hn::Lanes(d);
+  for (size_t i = 0; i < width; i += lanes) {
+    int any = 0;
+    for (size_t lane = 0; lane < lanes; ++lane) any |= valid[i + lane];
+    if (any != 0) MeetLanes(d, sphere, words, width, i, after, to);
+  }
+}
+
+void MeetSphere(const SphereInverse& sphere, const float* words, size_t width, const int* valid,
+                const float* after, const SphereHits& to) {
+  switch (width) {
+    case 16:
+      return MeetPacket<16>(sphere, words, width, valid, after, to);
+    case 8:
+      return MeetPacket<8>(sphere, words, width, valid, after, to);
+    case 4:
+      return MeetPacket<4>(sphere, words, width, valid, after, to);
+    default:
+      return MeetPacket<1>(sphere, words, width, valid, after, to);
+  }
+}
+
+SphereMeeter FindMeetSphere() { return MeetSphere; }
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(FindMeetSphere);
+SphereMeeter findMeetSphere() { return HWY_DYNAMIC_DISPATCH(FindMeetSphere)(); }
+}  // namespace whit::simd
+#endif

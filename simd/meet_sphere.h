@@ -1,0 +1,28 @@
+// Rays of a packet and one exact sphere: what Embree asks for where it finds a sphere's box.
+#pragma once
+
+#include <cstddef>
+
+namespace whit::simd {
+
+// From the world, or the space of a geometry, to the unit sphere: rows * (point - center).
+struct SphereInverse {
+  double rows[3][3];
+  double center[3];
+};
+
+// A ray's hit: its distance, NaN where there is none, and the weights of the point
+// (scene/sphere.h).
+struct SphereHits {
+  float *t, *u, *v;
+};
+
+// `words` are those of Embree's packet of `width` rays (stages/packet_words.h). Of each ray that is
+// valid (not 0) the first place where it meets the sphere farther than `after`; what others get may
+// be anything. A ray's hit does not depend on the width.
+using SphereMeeter = void (*)(const SphereInverse& sphere, const float* words, std::size_t width,
+                              const int* valid, const float* after, const SphereHits& to);
+// Of the chosen target.
+SphereMeeter findMeetSphere();
+
+}  // namespace whit::simd

@@ -1,0 +1,145 @@
+#include "accel/sphere_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "scene/sphere.h"
+#include "stages/packet_words.h"
+
+namespace whit {
+
+namespace {
+
+// Where Embree's packets have what kernels do not look at.
+constexpr std::size_t kNearColumn = 3, kInstanceColumn = 19, kWidest = 16;
+
+// Of a dielectric; nobody asks for more.
+constexpr int kHighest = std::numeric_limits<int>::max() - 2;
+
+simd::SphereInverse inverseOf(const Affine& map) {
+  const double volume = map.determinant();
+  const Vec3d rows[] = {cross(map.y, map.z) / volume, cross(map.z, map.x) / volume,
+                        cross(map.x, map.y) / volume};
+  simd::SphereInverse inverse{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) inverse.rows[row][column] = rows[row][column];
+    inverse.center[row] = map.p[row];
+  }
+  return inverse;
+}
+
+int rankOf(const Material& material) {
+  if (!material.passesLight()) return std::numeric_limits<int>::max();
+  return material.boundsMedium() ? std::min(material.priority, kHighest) : kHighest + 1;
+}
+
+}  // namespace
+
+SphereGeometry::SphereGeometry(const Scene& scene, const AlphaMaps& maps, const Geometry& of)
+    : records_(scene.triangles.data() + of.firstSphere),
+      firstPrimitive_(of.firstSphere - of.firstTriangle) {
+  for (const Material& material : scene.materials) masks_.push_back(maskOf(material, maps));
+  spheres_.reserve(of.spheres);
+  for (std::uint32_t i = 0; i < of.spheres; ++i) {
+    const Material& material = scene.materials[records_[i].material];
+    Sphere& sphere = spheres_.emplace_back();
+    sphere.inverse = inverseOf(sphereMap(records_[i]));
+    sphere.castsShadow = material.castsShadow;
+    sphere.rank = rankOf(material);
+    const Mask& mask = masks_[records_[i].material];
+    if (mask.map) sphere.mask = &mask;
+  }
+}
+
+void SphereGeometry::attachTo(RTCGeometry geometry) {
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres_.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, bound, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect);
+  rtcSetGeometryOccludedFunction(geometry, occlude);
+}
+
+void SphereGeometry::bound(const RTCBoundsFunctionArguments* args) {
+  const auto& own = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+  const Box box = sphereBounds(sphereMap(own.records_[args->primID]));
+  RTCBounds& to = *args->bounds_o;
+  to.lower_x = box.lower.x, to.lower_y = box.lower.y, to.lower_z = box.lower.z;
+  to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
+}
+
+// Whether a sphere is met rather than what the ray has met at the same distance, if that is a
+// sphere of this geometry, too: of equals the later. So it does not matter which is asked first.
+bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
+  const unsigned own = sphere.primitive - firstPrimitive_, its = other.primitive - firstPrimitive_;
+  if (other.geometry != sphere.geometry || its >= spheres_.size()) return false;
+  if (spheres_[own].rank != spheres_[its].rank) return spheres_[own].rank > spheres_[its].rank;
+  return std::tie(sphere.instance, own) > std::tie(other.instance, its);
+}
+
+// Calls accept(ray, t, u, v) for each valid ray that meets the sphere not beyond its end. A masked
+// sphere may be cut where it is met first, and there where the ray leaves it.
+template <float Mask::*kCutoff, typename Accept>
+void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, const int* valid,
+                          const Accept& accept) const {
+  const Sphere& sphere = spheres_[primitive];
+  std::array<float, kWidest> t, u, v, after{};
+  for (unsigned i = 0; i < width; ++i) after[i] = words[kNearColumn * width + i];
+  meeter_(sphere.inverse, words, width, valid, after.data(), {t.data(), u.data(), v.data()});
+  const auto isCut = [&](unsigned i) {
+    const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
+    return !isOpaqueAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r));
+  };
+  const float* const tFar = words + packet_column::tFar * width;
+  if (sphere.mask) {
+    for (unsigned i = 0; i < width; ++i) {
+      const bool cut = valid[i] != 0 && t[i] <= tFar[i] && isCut(i);
+      after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : after[i];
+    }
+    meeter_(sphere.inverse, words, width, valid, after.data(), {t.data(), u.data(), v.data()});
+  }
+  for (unsigned i = 0; i < width; ++i) {
+    if (valid[i] == 0 || !(t[i] <= tFar[i])) continue;
+    if (sphere.mask && isCut(i)) continue;
+    accept(i, t[i], u[i], v[i]);
+  }
+}
+
+void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& own = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+  const unsigned width = args->N;
+  auto* const words = reinterpret_cast<float*>(args->rayhit);
+  auto* const numbers = reinterpret_cast<unsigned*>(args->rayhit);
+  const auto put = [&](unsigned i, float t, float u, float v) {
+    const auto number = [&](std::size_t column) -> unsigned& {
+      return numbers[column * width + i];
+    };
+    float& tFar = words[packet_column::tFar * width + i];
+    const Met here{args->context->instID[0], 0, own.firstPrimitive_ + args->primID};
+    const Met before{number(kInstanceColumn), number(packet_column::geometry),
+                     number(packet_column::primitive)};
+    if (t == tFar && !own.comesBefore(here, before)) return;
+    tFar = t;
+    words[packet_column::u * width + i] = u;
+    words[packet_column::v * width + i] = v;
+    number(kInstanceColumn) = here.instance;
+    number(packet_column::geometry) = here.geometry;
+    number(packet_column::primitive) = here.primitive;
+  };
+  own.meet<&Mask::cutoff>(args->primID, words, width, args->valid, put);
+}
+
+void SphereGeometry::occlude(const RTCOccludedFunctionNArguments* args) {
+  const auto& own = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+  if (!own.spheres_[args->primID].castsShadow) return;
+  auto* const words = reinterpret_cast<float*>(args->ray);
+  const unsigned width = args->N;
+  own.meet<&Mask::shadowCutoff>(
+      args->primID, words, width, args->valid, [&](unsigned i, float, float, float) {
+        words[packet_column::tFar * width + i] = -std::numeric_limits<float>::infinity();
+      });
+}
+
+}  // namespace whit

@@ -1,0 +1,53 @@
+// Exact spheres as Embree's user geometry: their boxes, and what a ray meets of one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/alpha_filter.h"
+#include "accel/embree_calls.h"
+#include "scene/scene.h"
+#include "simd/meet_sphere.h"
+
+namespace whit {
+
+// The spheres of one of the scene's geometries, in their order. A hit looks as if it were on the
+// first triangle class of that geometry: the primitive's number is counted from there.
+class SphereGeometry {
+ public:
+  // `maps` and the scene must outlive it; where `maps` is empty there are no masks.
+  SphereGeometry(const Scene& scene, const AlphaMaps& maps, const Geometry& of);
+
+  // Makes `geometry`, which this must outlive, answer for the spheres.
+  void attachTo(RTCGeometry geometry);
+
+ private:
+  struct Sphere {
+    simd::SphereInverse inverse;
+    const Mask* mask = nullptr;  // none: opaque everywhere
+    bool castsShadow = true;
+    // Of spheres in one place the highest is met: what is opaque before a sheet, that before a
+    // dielectric, then by priority.
+    int rank = 0;
+  };
+  // As Embree's packets have it.
+  struct Met {
+    unsigned instance, geometry, primitive;
+  };
+
+  static void bound(const RTCBoundsFunctionArguments* args);
+  static void intersect(const RTCIntersectFunctionNArguments* args);
+  static void occlude(const RTCOccludedFunctionNArguments* args);
+  template <float Mask::*kCutoff, typename Accept>
+  void meet(unsigned primitive, float* words, unsigned width, const int* valid,
+            const Accept& accept) const;
+  bool comesBefore(const Met& sphere, const Met& other) const;
+
+  simd::SphereMeeter meeter_ = simd::findMeetSphere();
+  const TriangleRecord* records_ = nullptr;  // of the first sphere
+  std::uint32_t firstPrimitive_ = 0;         // as hits have it
+  std::vector<Mask> masks_;                  // one a material of the scene
+  std::vector<Sphere> spheres_;
+};
+
+}  // namespace whit
