@@ -18,18 +18,6 @@ double shadowReach(const Light& light) {
   return double{kShadowReach};
 }
 
-LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
-  LightPoint point;
-  if (chunk.lightSamples > 1) {
-    const LobeSampling sampling =
-        lightSampling(chunk.depth, chunk.lightSamples, chunk.sampleNumber);
-    point = {false,
-             lightPoint(chunk.rays.path[slot], sampling, chunk.lightNumber, chunk.lightSample)};
-  }
-  return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
-                           chunk.options().shading, point);
-}
-
 // What a surfel sees of a light: the way to a point of it, and what the intensity is divided by for
 // the biradiance that all of it would bring from there.
 struct LightView {
@@ -111,6 +99,18 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
                        point.center ? towards(light, origin) : surfel.position + toLight - origin};
   arrival.tFar = shadowReach(light);
   return arrival;
+}
+
+LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
+  LightPoint point;
+  if (chunk.lightSamples > 1) {
+    const LobeSampling sampling =
+        lightSampling(chunk.depth, chunk.lightSamples, chunk.sampleNumber);
+    point = {false,
+             lightPoint(chunk.rays.path[slot], sampling, chunk.lightNumber, chunk.lightSample)};
+  }
+  return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
+                           chunk.options().shading, point);
 }
 
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,

@@ -35,6 +35,9 @@ struct LightArrival {
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {}, const LightPoint& point = {});
 
+// Of the chunk's slot, from the point of its light that is in hand.
+LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot);
+
 // The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light
 // lies in the surface's plane, or behind it.
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk, std::size_t slot);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reference/find_intersections.h"
+#include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/sphere.h"
 #include "reference/triangle.h"
 #include "reference/twin.h"
@@ -176,12 +177,12 @@ inline double ofSurfels(const Place<RadianceRow>& p) {
 // difference.
 inline double byPointOfLight(const Chunk& chunk) { return chunk.lightSamples > 1 ? 4 : 1; }
 
-// What the radiance would be without the cosine, whose rounding error is absolute. An ulp of the
-// half vector, over the width of the lobe, is how much a highlight moves.
+// What the radiance would be without the cosine to the light's point, whose rounding error is
+// absolute. An ulp of the half vector, over the width of the lobe, is how much a highlight moves.
 inline double byGrazing(const Place<UnshadowedRow>& p) {
   const Light& light = *p.chunk.light;
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
-  const Vec3d l = normalized(towards(light, s.position));
+  const Vec3d l = normalized(reference::arrivalAt(p.world, p.chunk, p.slot).shadowRay.direction);
   const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
   const double scale = byPointOfLight(p.chunk) * std::max({p.twin.r, p.twin.g, p.twin.b}) /
                        (std::max(dot(l, s.shadingNormal), 1e-4) * width);
