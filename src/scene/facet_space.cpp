@@ -88,7 +88,8 @@ std::vector<BoxedBlock> FacetSpace::everything() const {
   if (own.top() > 0) all.push_back(block(own.top(), 0, kNoInstance));
   if (geometry_ != 0) return all;
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    all.push_back(block(blocks_[scene_.instances[i].geometry].top(), 0, i));
+    const TriangleBlocks& placed = blocks_[scene_.instances[i].geometry];
+    if (placed.top() > 0) all.push_back(block(placed.top(), 0, i));
   }
   return all;
 }

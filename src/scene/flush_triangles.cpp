@@ -119,6 +119,7 @@ std::vector<BoxedBlock> FlushFinder::boxesOf(const Orders& orders) const {
 
 // Of triangles that one instance carries. What may overlap is looked for once for all instances.
 void FlushFinder::addWithinInstances(std::uint32_t geometry, Orders& all) const {
+  if (blocks_[geometry].top() == 0) return;
   const FacetSpace object = FacetSpace::ofObject(scene_, blocks_, geometry);
   Orders candidates;
   addBoth(findPairs(object, object.everything(), PairsOf::differentPlaces, facetsOverlap,

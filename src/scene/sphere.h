@@ -33,7 +33,7 @@ Box sphereBounds(const Affine& map);
 // The two weights are an octahedral map of the unit sphere (Cigolle et al. 2014, "A Survey of
 // Efficient Representations for Independent Unit Vectors"), drawn into a triangle and away from its
 // edges: nothing that looks for hits near a triangle's edge finds one.
-inline constexpr double kSphereWeightBegin = 1.0 / 16, kSphereWeightScale = 1.0 / 8;
+inline constexpr double kSphereWeightBegin = 0x1p-11, kSphereWeightScale = 1.0 / 8;
 std::array<double, 2> sphereWeights(const Vec3d& unit);
 Vec3d spherePoint(double u, double v);
 

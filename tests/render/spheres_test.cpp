@@ -1,0 +1,262 @@
+// Exact spheres: a glass ball against the two refractions of each pixel, worked out here; surfaces
+// of every kind against the same in triangles, and against the reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/metrics.h"
+#include "pi.h"
+#include "render/row_of_tiles.h"
+#include "scene/shapes/generators.h"
+
+namespace whit::test {
+namespace {
+
+Mesh ballOf(const Affine& map, std::uint32_t material) {
+  Mesh mesh;
+  mesh.spheres = {map};
+  mesh.materials = {material};
+  return mesh;
+}
+
+Affine placedBall(const Vec3d& center, double radius) {
+  return Affine::translation(center) * Affine::scaling(Vec3d(radius));
+}
+
+// --- A glass ball of radius 1 about the origin before a checkered wall that shines.
+
+constexpr double kGlassIndex = 1.5, kWallDistance = 3, kEyeDistance = 5;
+constexpr int kWallHalf = 32;  // fields from the middle to an end
+constexpr int kBallWidth = 480, kBallHeight = 300;
+
+double wallRadiance(const Vec3d& from, const Vec3d& direction) {
+  if (!(direction.z < 0)) return 0;
+  const double t = (-kWallDistance - from.z) / direction.z;
+  const double x = from.x + t * direction.x, y = from.y + t * direction.y;
+  if (std::fabs(x) > kWallHalf || std::fabs(y) > kWallHalf) return 0;
+  const auto field = static_cast<long>(std::floor(x)) + static_cast<long>(std::floor(y));
+  return field % 2 == 0 ? 0 : 1;
+}
+
+// Fresnel's equations, unpolarized; `cosine` on the side of the index `from`.
+double fresnelReflectance(double cosine, double from, double to) {
+  const double sine2 = (1 - cosine * cosine) * (from / to) * (from / to);
+  if (sine2 >= 1) return 1;
+  const double c = std::sqrt(1 - sine2);
+  const double s = (from * cosine - to * c) / (from * cosine + to * c);
+  const double p = (from * c - to * cosine) / (from * c + to * cosine);
+  return (s * s + p * p) / 2;
+}
+
+Vec3d refractedAlong(const Vec3d& d, const Vec3d& n, double from, double to) {
+  const double ratio = from / to, cosine = -dot(d, n);
+  return d * ratio + n * (ratio * cosine - std::sqrt(1 - ratio * ratio * (1 - cosine * cosine)));
+}
+
+// Through both faces, and by the mirror of the first: what impulses up to depth 2 bring.
+double ballRadiance(const Vec3d& eye, const Vec3d& d) {
+  const double b = dot(eye, d), inside = b * b - dot(eye, eye) + 1;
+  if (inside < 0) return wallRadiance(eye, d);
+  const Vec3d in = eye + d * (-b - std::sqrt(inside));
+  const double cosine = -dot(d, in), mirror = fresnelReflectance(cosine, 1, kGlassIndex);
+  const Vec3d across = refractedAlong(d, in, 1, kGlassIndex);
+  const Vec3d out = in - across * (2 * dot(in, across));
+  const double inner = dot(across, out), left = 1 - fresnelReflectance(inner, kGlassIndex, 1);
+  return mirror * wallRadiance(in, d + in * (2 * cosine)) +
+         (1 - mirror) * left * wallRadiance(out, refractedAlong(across, -out, kGlassIndex, 1));
+}
+
+int displayCode(double radiance) {
+  const double v =
+      radiance <= 0.0031308 ? 12.92 * radiance : 1.055 * std::pow(radiance, 1 / 2.4) - 0.055;
+  return static_cast<int>(std::lround(255 * std::min(1.0, std::max(0.0, v))));
+}
+
+Scene ballBeforeWall() {
+  SceneBuilder builder;
+  Texture fields = makeTexture(TexelFormat::color, 2, 2,
+                               {encodeColorTexel(Rgb(1.0f)), encodeColorTexel(Rgb(0.0f)),
+                                encodeColorTexel(Rgb(0.0f)), encodeColorTexel(Rgb(1.0f))});
+  Material wall = emittingMaterial(1);
+  wall.emissionMap = builder.add(std::move(fields));
+  constexpr float kHalf = kWallHalf, kZ = -kWallDistance;
+  Mesh mesh = quad({-kHalf, -kHalf, kZ}, {kHalf, -kHalf, kZ}, {kHalf, kHalf, kZ},
+                   {-kHalf, kHalf, kZ}, builder.add(wall));
+  for (Vec2f& uv : mesh.uvs) uv = {uv.x * kHalf, uv.y * kHalf};
+  builder.add(std::move(mesh));
+  builder.add(ballOf(Affine(), builder.add(glassMaterial(kGlassIndex))));
+  builder.description.cameras = {{.eye = {0, 0, kEyeDistance}, .at = {0, 0, 0}, .fov = 40}};
+  return builder.build();
+}
+
+TEST(Spheres, GlassBallShowsWhatTwoRefractionsShow) {
+  RenderOptions o;
+  o.size = ImageSize{kBallWidth, kBallHeight};
+  o.depth = 2;
+  o.cutoff = 0;
+  o.shading.textureFilter = TextureFilter::nearest;
+  const Image image = render(ballBeforeWall(), o).image;
+  const double half = std::tan(20 * kPi / 180);
+  int off = 0, seen = 0;
+  for (int y = 0; y < kBallHeight; ++y) {
+    for (int x = 0; x < kBallWidth; ++x) {
+      const double right = (x + 0.5 - kBallWidth / 2.0) / (kBallHeight / 2.0) * half,
+                   up = (kBallHeight / 2.0 - y - 0.5) / (kBallHeight / 2.0) * half;
+      const double expected = ballRadiance({0, 0, kEyeDistance}, normalized(Vec3d{right, up, -1}));
+      const Rgb& got = image.pixels[static_cast<std::size_t>(y * kBallWidth + x)];
+      off += std::abs(displayCode(double{got.x}) - displayCode(expected)) > 1;
+      seen += expected > 0;
+    }
+  }
+  EXPECT_GT(seen, kBallWidth * kBallHeight / 3);
+  // Where a field of the wall ends, or the ball, rounding decides.
+  EXPECT_LE(off, kBallWidth * kBallHeight / 1000);
+}
+
+// --- Surfaces of every kind.
+
+std::int32_t addFields(SceneBuilder& builder, TexelFormat format, int width, int height) {
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < width * height; ++i) {
+    const int field = (i / 8 % 2 + i / (8 * width)) % 3;
+    const float a = 0.3f + 0.3f * static_cast<float>(field), b = field == 1 ? 0.9f : 0.45f;
+    texels.push_back(format == TexelFormat::data ? encodeDataTexel(a, b, 0.9f, 1)
+                                                 : encodeColorTexel({a, b, 1 - a}));
+  }
+  return builder.add(makeTexture(format, width, height, std::move(texels)));
+}
+
+std::vector<Material> everyKind(SceneBuilder& builder) {
+  const std::int32_t colors = addFields(builder, TexelFormat::color, 64, 32),
+                     data = addFields(builder, TexelFormat::data, 64, 32);
+  Material textured = diffuseMaterial(1);
+  textured.diffuseMap = colors;
+  Material bumpy = diffuseMaterial(0.7f);
+  bumpy.normalMap = data;
+  Material shiny = diffuseMaterial(0.2f);
+  shiny.specular = Rgb(0.5f);
+  shiny.roughness = 0.6f;
+  shiny.roughnessMap = data;
+  shiny.glossyReflection = false;
+  Material lamp = emittingMaterial(0.8f);
+  lamp.emissionMap = colors;
+  Material masked = textured;
+  masked.alphaMap = data;
+  masked.alphaCutoff = 0.5f;
+  Material veil = diffuseMaterial(0.5f);
+  veil.coverage = 0.8f;
+  veil.coverageMap = data;
+  return {textured, bumpy, shiny, lamp, mirrorMaterial(0.8f), glassMaterial(1.5f), masked, veil};
+}
+
+// Balls in two rows over a floor: round, stretched, mirrored, and each kind once as an instance.
+// `segments` above 0: triangles in their place.
+Scene ballsOfEveryKind(int segments = 0) {
+  SceneBuilder builder;
+  const std::vector<Material> kinds = everyKind(builder);
+  const auto put = [&](Mesh mesh) {
+    if (segments > 0) procedural::tessellateSpheres(mesh, segments);
+    return mesh;
+  };
+  Object all;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const double x = static_cast<double>(i % 4) * 1.3 - 2, z = i < 4 ? -1.2 : 0.4;
+    const Affine stretch = i % 3 == 0   ? Affine::scaling({0.6, 0.4, 0.6})
+                           : i % 3 == 1 ? Affine::scaling({-0.5, 0.5, 0.5})
+                                        : Affine::scaling(Vec3d(0.55));
+    const Affine map = Affine::translation({x, 0.62, z}) *
+                       Affine::rotation({1, 1, 0}, 35.0 * static_cast<double>(i)) * stretch;
+    all.meshes.push_back(put(ballOf(map, builder.add(kinds[i]))));
+  }
+  builder.place(std::move(all),
+                {Affine(), Affine::translation({0.4, 1.3, -2.5}) * Affine::rotation({0, 1, 0}, 20) *
+                               Affine::scaling({1, 1.2, -1})});
+  builder.add(floorAt(0, 6, builder.add(diffuseMaterial(0.5f))));
+  builder.sky(0.4f);
+  builder.description.lights = {lightAt({2, 5, 3}, 40)};
+  builder.description.cameras = {{.eye = {0, 2.5f, 5}, .at = {0, 0.8f, 0}}};
+  return builder.build();
+}
+
+class SpheresOfEveryKind : public testing::TestWithParam<TextureFilter> {
+ protected:
+  static RenderOptions options() {
+    RenderOptions o = smallOptions();
+    o.shading.textureFilter = GetParam();
+    return o;
+  }
+};
+
+TEST_P(SpheresOfEveryKind, AgreeWithTheReferenceOnEveryTarget) {
+  expectTheReferenceOnEveryTarget(ballsOfEveryKind(), options());
+}
+
+// Facets of a thirtieth of a pixel: what differs are outlines, and fields that end in a pixel.
+TEST_P(SpheresOfEveryKind, LookLikeFineTriangles) {
+  const ImageDifference d = compareImages(render(ballsOfEveryKind(), options()).image,
+                                          render(ballsOfEveryKind(512), options()).image);
+  EXPECT_LE(d.pixelsGe2CodesPct, 4);
+  EXPECT_LE(d.rmse, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, SpheresOfEveryKind,
+                         testing::Values(TextureFilter::nearest, TextureFilter::bilinear,
+                                         TextureFilter::trilinear));
+
+TEST(Spheres, KeepTheirBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(ballsOfEveryKind(), smallOptions());
+}
+
+// --- Where something else is in the way.
+
+// Of spheres in one place light meets the opaque one, of two opaque ones the later.
+TEST(Spheres, InOnePlaceTheOpaqueOneIsMetThenTheLater) {
+  for (const bool glassFirst : {true, false}) {
+    SceneBuilder builder;
+    const auto early = builder.add(emittingMaterial(0.25f)),
+               late = builder.add(emittingMaterial(0.75f)),
+               glass = builder.add(glassMaterial(1.5f, 3));
+    const Affine place = placedBall({0, 0, 0}, 1);
+    if (glassFirst) builder.add(ballOf(place, glass));
+    builder.add(ballOf(place, early));
+    builder.add(ballOf(place, late));
+    if (!glassFirst) builder.add(ballOf(place, glass));
+    builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 20}};
+    const Scene scene = builder.build();
+    for (const int packet : {1, 4, 8, 16}) {
+      RenderOptions o = smallOptions();
+      o.packet = packet;
+      for (const Rgb& pixel : render(scene, o).image.pixels) {
+        ASSERT_TRUE(pixel.x == 0.75f || pixel.x == 0) << packet << ' ' << double{pixel.x};
+      }
+    }
+  }
+}
+
+TEST(Spheres, LeftOutAreNotThereInEitherMode) {
+  const Scene scene = ballsOfEveryKind();
+  RenderOptions o = smallOptions();
+  o.disable = EffectSet().with(Effect::spheres);
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0.1);
+}
+
+// An eye on the sphere sees what lies beyond it, whichever way it looks.
+TEST(Spheres, TheEyeSeesNothingOfWhatItLiesIn) {
+  for (const float z : {3.0f, -3.0f, 1.0f}) {
+    SceneBuilder builder;
+    builder.add(ballOf(placedBall({0, 0, 1}, 1), builder.add(emittingMaterial(0.25f))));
+    builder.add(floorAt(-40, 100, builder.add(emittingMaterial(0.5f))));
+    builder.sky(0.75f);
+    builder.description.cameras = {{.eye = {0, 1, 1}, .at = {0, 4, z}, .up = {1, 0, 0}, .fov = 5}};
+    for (const Rgb& pixel : render(builder.build(), smallOptions()).image.pixels) {
+      ASSERT_EQ(pixel.x, 0.75f) << z;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
