@@ -41,7 +41,11 @@ class EmbreeScene {
 
   RTCScene top() const { return scenes_[0].get(); }
   RTCDevice device() const { return device_.get(); }
-  std::uint64_t memoryBytes() const { return bytes_; }
+  std::uint64_t memoryBytes() const {
+    std::uint64_t bytes = bytes_;
+    for (const auto& spheres : spheres_) bytes += spheres->memoryBytes();
+    return bytes;
+  }
 
   // The number of the first triangle that an Embree geometry holds, by class, for the world and for
   // each instance (at 4 * (1 + instance)).

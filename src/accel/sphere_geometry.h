@@ -21,6 +21,9 @@ class SphereGeometry {
   // Makes `geometry`, which this must outlive, answer for the spheres.
   void attachTo(RTCGeometry geometry);
 
+  // Without what Embree needs for their boxes.
+  std::uint64_t memoryBytes() const { return spheres_.capacity() * sizeof(Sphere); }
+
  private:
   struct Sphere {
     simd::SphereInverse inverse;
