@@ -27,6 +27,11 @@ HWY_INLINE hn::Vec<D> DotOf(const Vec3Of<D>& a, const Vec3Of<D>& b) {
 
 template <class D>
 HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v) {
+  if (sphere.diagonal) {
+    return {hn::Mul(v.x, hn::Set(d, sphere.rows[0][0])),
+            hn::Mul(v.y, hn::Set(d, sphere.rows[1][1])),
+            hn::Mul(v.z, hn::Set(d, sphere.rows[2][2]))};
+  }
   const auto row = [&](const double* r) HWY_ATTR {
     return DotOf<D>({hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2])}, v);
   };
@@ -39,7 +44,7 @@ HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits
   const hn::Rebind<float, D> df;
   const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
   const auto sum = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
-  const auto x = hn::Div(p.x, sum), y = hn::Div(p.y, sum);
+  const auto inverse = hn::Div(one, sum), x = hn::Mul(p.x, inverse), y = hn::Mul(p.y, inverse);
   const auto below = hn::Lt(p.z, zero);
   const auto flatX = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
   const auto flatY = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
@@ -67,19 +72,25 @@ HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, 
                         load(packet_column::dirZ)};
   const Vec3Of<D> f = ToUnit(d, sphere, from), v = ToUnit(d, sphere, along);
   const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
-  const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), middle = hn::Div(b, a);
+  const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), inverse = hn::Div(one, a);
+  const auto middle = hn::Mul(b, inverse);
   const Vec3Of<D> nearest{hn::MulAdd(v.x, middle, f.x), hn::MulAdd(v.y, middle, f.y),
                           hn::MulAdd(v.z, middle, f.z)};
   const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
   const auto met = hn::Ge(inside, zero);
+  if (hn::AllFalse(d, met)) {
+    hn::StoreU(hn::NaN(df), df, to.t + i);
+    return;
+  }
   const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(met, inside)));
   const auto q = hn::Add(b, hn::CopySign(root, b));
-  const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Div(q, a);
+  const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Mul(q, inverse);
   const auto low = hn::Min(first, second), high = hn::Max(first, second);
   const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
   const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
   const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
   hn::StoreU(hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d))), df, to.t + i);
+  if (!to.u) return;
   StoreWeights(d, {hn::MulAdd(v.x, t, f.x), hn::MulAdd(v.y, t, f.y), hn::MulAdd(v.z, t, f.z)}, i,
                to);
 }

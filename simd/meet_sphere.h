@@ -9,10 +9,11 @@ namespace whit::simd {
 struct SphereInverse {
   double rows[3][3];
   double center[3];
+  bool diagonal;  // nothing else in the rows
 };
 
 // A ray's hit: its distance, NaN where there is none, and the weights of the point
-// (scene/sphere.h).
+// (scene/sphere.h), unless nobody asks for them (null).
 struct SphereHits {
   float *t, *u, *v;
 };

@@ -74,8 +74,7 @@ HWY_INLINE V3 SphereNormal(const SphereLanes& s) {
 
 // The triangle that touches the sphere there, as touchingTriangle in src/scene/sphere.cpp has it,
 // and the weights of its first corner.
-HWY_INLINE void TouchSpheres(const SphereLanes& s, const V3& position, Surface& surface,
-                             TriangleLanes& t, Weights& w) {
+HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V3& q = s.unit;
@@ -97,7 +96,6 @@ HWY_INLINE void TouchSpheres(const SphereLanes& s, const V3& position, Surface& 
   const auto put = [&](VF value, VF& to) HWY_ATTR { to = hn::IfThenElse(s.on, value, to); };
   surface.edge1 = Select3(s.on, Select3(mirrored, across, along), surface.edge1);
   surface.edge2 = Select3(s.on, Select3(mirrored, along, across), surface.edge2);
-  t.p0 = Select3(s.on, position, t.p0);
   put(u, t.uv.u0);
   put(v, t.uv.v0);
   put(hn::Add(u, hn::IfThenElse(mirrored, zero, edge)), t.uv.u1);
@@ -107,6 +105,15 @@ HWY_INLINE void TouchSpheres(const SphereLanes& s, const V3& position, Surface& 
   put(one, w.w0);
   put(zero, w.w1);
   put(zero, w.w2);
+}
+
+// Whether anything is looked up by the texture coordinates of a sphere.
+HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
+                          const TriangleLanes& t) {
+  constexpr size_t kFlags = offsetof(MaterialRecord, flags);
+  const VU flags =
+      hn::BitCast(UintTag(), GatherMember<kFlags>(tables.materials.data(), t.material));
+  return !hn::AllFalse(FloatTag(), hn::And(s.on, HasFlags(flags, kMaterialMapped)));
 }
 
 // Before CarryToWorld. The scalar twin is placeOnSphere in src/reference/find_intersections.cpp.
@@ -120,7 +127,10 @@ HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits
       MulAdd3(Abs3(s.x), q.x, MulAdd3(Abs3(s.y), q.y, Scale3(Abs3(s.z), q.z))), Abs3(s.center));
   const V3 position = Add3(FromUnit(s, s.unit), s.center);
   const V3 normal = SphereNormal(s);
-  TouchSpheres(s, position, surface, t, w);
+  const V3 axes = Add3(Add3(Abs3(s.x), Abs3(s.y)), Abs3(s.z));
+  if (AnyMapped(tables, s, t)) TouchSpheres(s, surface, t, w);
+  t.p0 = Select3(s.on, position, t.p0);
+  surface.spans = Select3(s.on, Scale3(axes, hn::Set(d, kSphereSpan)), surface.spans);
   surface.position = Select3(s.on, position, surface.position);
   surface.magnitude = Select3(s.on, magnitude, surface.magnitude);
   surface.ng = Select3(s.on, normal, surface.ng);

@@ -188,6 +188,7 @@ HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, MF valid, size_t i
 
 struct Surface {
   V3 position, edge1, edge2;
+  V3 spans;      // what edges add to the error of a position, per axis; of no use on instances
   V3 magnitude;  // of all that went into the position
   VF across;     // by so many roundings it may be off, also along the surface
   MF inDoubt;    // more than that may have gone into what rays that start there meet again
@@ -200,6 +201,7 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
                                       VI triangle, const Weights& w, Reciprocal how) {
   Surface s;
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
+  s.spans = Add3(Abs3(s.edge1), Abs3(s.edge2));
   s.position = InterpolatePosition(w, t.p0, t.p1, t.p2);
   const NormalLanes found = GeometricNormal(s.edge1, s.edge2, how);
   s.ng = found.normal;
@@ -216,7 +218,7 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
 // src/reference/find_intersections.cpp.
 HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
   const FloatTag d;
-  const V3 edges = Add3(Abs3(s.edge1), Abs3(s.edge2)), n = Abs3(s.ng);
+  const V3 edges = s.spans, n = Abs3(s.ng);
   const VF point = SumOf(s.magnitude), sides = SumOf(edges);
   const VF most = hn::Mul(point, hn::Set(d, 0x1p-19f));
   const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
@@ -256,7 +258,7 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
 HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF distance, size_t i,
                           Surface& s) {
   const FloatTag d;
-  const V3 edges = Add3(Abs3(s.edge1), Abs3(s.edge2));
+  const V3 edges = s.spans;
   const VF sides = SumOf(edges);
   const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
   s.across = hn::MulAdd(SumOf(s.magnitude), two, sides);

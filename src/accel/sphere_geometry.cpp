@@ -28,6 +28,9 @@ simd::SphereInverse inverseOf(const Affine& map) {
     for (int column = 0; column < 3; ++column) inverse.rows[row][column] = rows[row][column];
     inverse.center[row] = map.p[row];
   }
+  const auto& r = inverse.rows;
+  inverse.diagonal =
+      r[0][1] == 0 && r[0][2] == 0 && r[1][0] == 0 && r[1][2] == 0 && r[2][0] == 0 && r[2][1] == 0;
   return inverse;
 }
 
@@ -85,20 +88,23 @@ template <float Mask::*kCutoff, typename Accept>
 void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, const int* valid,
                           const Accept& accept) const {
   const Sphere& sphere = spheres_[primitive];
-  std::array<float, kWidest> t, u, v, after{};
-  for (unsigned i = 0; i < width; ++i) after[i] = words[kNearColumn * width + i];
-  meeter_(sphere.inverse, words, width, valid, after.data(), {t.data(), u.data(), v.data()});
+  std::array<float, kWidest> t, u, v;
+  const bool asksWhere = kCutoff == &Mask::cutoff || sphere.mask;
+  const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
+  const float* const tNear = words + kNearColumn * width;
+  meeter_(sphere.inverse, words, width, valid, tNear, hits);
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
     return !isOpaqueAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r));
   };
   const float* const tFar = words + packet_column::tFar * width;
   if (sphere.mask) {
+    std::array<float, kWidest> after{};
     for (unsigned i = 0; i < width; ++i) {
       const bool cut = valid[i] != 0 && t[i] <= tFar[i] && isCut(i);
-      after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : after[i];
+      after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : tNear[i];
     }
-    meeter_(sphere.inverse, words, width, valid, after.data(), {t.data(), u.data(), v.data()});
+    meeter_(sphere.inverse, words, width, valid, after.data(), hits);
   }
   for (unsigned i = 0; i < width; ++i) {
     if (valid[i] == 0 || !(t[i] <= tFar[i])) continue;

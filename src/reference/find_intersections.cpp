@@ -77,21 +77,22 @@ bool isNarrow(const Edges& e) {
   return sumOf(area) <= 0x1p-14 * sumOf(abs(e.e1)) * sumOf(abs(e.e2));
 }
 
-// Where the ray meets the plane, if that is more than the weights say: of a triangle that is larger
-// than its distance from the ray's start the weights of a hit found in floats say less.
-std::optional<Vec3d> pointOnRay(const Edges& e, const Vec3d& inPlane, double t, const Ray& ray,
-                                const Vec3d& normal) {
-  if (!(8 * t < sumOf(abs(e.e1) + abs(e.e2)))) return std::nullopt;
-  const Vec3d point = ray.origin + ray.direction * t;
-  return point - normal * dot(point - inPlane, normal);
-}
-
 // What a position follows from, in the space of the geometry.
 struct Placement {
   Vec3d position, magnitude;
-  Edges edges;    // of the triangle, or of one that touches the sphere
-  Vec3d inPlane;  // some point of its plane
+  Vec3d spans;    // along the edges, or of a sphere kSphereSpan of its axes
+  Vec3d inPlane;  // some point of the triangle's plane, or of the one that touches the sphere
+  bool isNarrow = false;
 };
+
+// Where the ray meets the plane, if that is more than the weights say: of a triangle that is larger
+// than its distance from the ray's start the weights of a hit found in floats say less.
+std::optional<Vec3d> pointOnRay(const Placement& place, double t, const Ray& ray,
+                                const Vec3d& normal) {
+  if (!(8 * t < sumOf(place.spans))) return std::nullopt;
+  const Vec3d point = ray.origin + ray.direction * t;
+  return point - normal * dot(point - place.inPlane, normal);
+}
 
 // The position, and how far from it rays start, in the arithmetic of floats. What a point is added
 // up from is off by an ulp or two of itself along each axis (pbrt-v4, section 6.8.5), the edges and
@@ -107,11 +108,10 @@ void placeSurfel(const Placement& place, double t, const Ray& ray, const Affine*
   if (toWorld) s.position = toWorld->point(s.position);
   s.offset = 32 * kUnitRoundOff * sumOf(point);
   s.retreat = std::min(s.offset, t) / 2;
-  const Edges& e = place.edges;
-  if (inDoubt || toWorld || isNarrow(e)) return;
-  const Vec3d edges = abs(e.e1) + abs(e.e2), n = abs(s.geometricNormal);
+  if (inDoubt || toWorld || place.isNarrow) return;
+  const Vec3d edges = place.spans, n = abs(s.geometricNormal);
   double across = sumOf(point * 2.0 + edges);
-  if (const auto onRay = pointOnRay(e, place.inPlane, t, ray, s.geometricNormal)) {
+  if (const auto onRay = pointOnRay(place, t, ray, s.geometricNormal)) {
     s.position = *onRay;
     across = 2 * sumOf(abs(s.position)) + 8 * t + 2 * dot(n, edges);
   }
@@ -216,14 +216,15 @@ void findNormals(const Scene& scene, EffectSet effects, const Candidate& candida
 }
 
 // Position and normals of a hit on a sphere.
-void placeOnSphere(const TriangleRecord& record, const Textured& at, const TriangleHit& hit,
-                   const Ray& ray, const Affine* toWorld, bool inDoubt, Surfel& s) {
+void placeOnSphere(const TriangleRecord& record, const TriangleHit& hit, const Ray& ray,
+                   const Affine* toWorld, bool inDoubt, Surfel& s) {
   const Affine own = sphereMap(record);
   const Vec3d unit = spherePoint(hit.u, hit.v), point = own.point(unit);
   const Vec3d normal = own.normal(unit);
   s.geometricNormal = normalized(toWorld ? toWorld->normal(normal) : normal, s.view);
   s.shadingNormal = s.geometricNormal;
-  const Placement place{point, magnitudeOnSphere(own, unit), edgesOf(at.triangle), point};
+  const Vec3d spans = (abs(own.x) + abs(own.y) + abs(own.z)) * double{kSphereSpan};
+  const Placement place{point, magnitudeOnSphere(own, unit), spans, point};
   placeSurfel(place, hit.t, ray, toWorld, inDoubt, s);
 }
 
@@ -364,11 +365,12 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   s.cone = lookup.cone;
   const Textured textured = texturedAt(scene, candidate.triangle, hit);
   if (scene.isSphere(candidate.triangle)) {
-    placeOnSphere(triangle, textured, hit, ray, toWorld, sharesPlace, s);
+    placeOnSphere(triangle, hit, ray, toWorld, sharesPlace, s);
   } else {
     findNormals(scene, effects, candidate, hit, toWorld, s);
+    const Edges e = edgesOf(triangle);
     const Placement place{interpolate(triangle.position, hit), magnitudeOnTriangle(triangle, hit),
-                          edgesOf(triangle), triple(triangle.position)};
+                          abs(e.e1) + abs(e.e2), triple(triangle.position), isNarrow(e)};
     placeSurfel(place, hit.t, ray, toWorld, sharesPlace, s);
   }
   const double cosine = dot(ray.direction, s.geometricNormal);

@@ -51,6 +51,10 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
   r.flags = flagsOf(m, onOthers, effects);
+  for (const std::int32_t map :
+       {r.diffuseMap, r.specularMap, r.emissionMap, r.normalMap, r.roughnessMap, r.coverageMap}) {
+    if (map != kNoTexture) r.flags |= kMaterialMapped;
+  }
   r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
   if (effects.has(Effect::mirror)) {
     copy3(m.mirror, r.mirror);

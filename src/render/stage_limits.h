@@ -118,32 +118,37 @@ inline double bySliver(const Place<SurfelRow>& p) {
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
   return length(a) * length(b) / std::max(length(cross(a, b)), 1e-300);
 }
+// The map that makes the sphere of the unit sphere, in the world; none on triangles.
+inline std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
+  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
+  if (!p.world.scene.isSphere(candidate.triangle)) return {};
+  return reference::sphereInWorld(p.world.scene, candidate.triangle, candidate.instance);
+}
+inline Vec3d axesOf(const Affine& map) { return abs(map.x) + abs(map.y) + abs(map.z); }
 // What a position found along the ray is made of (placeSurfel); none where the corners make it.
 inline std::optional<double> alongRay(const Place<SurfelRow>& p) {
   const double t = double{p.chunk.hits.t[p.slot]};
   const Corners c = cornersAt(p);
-  const Vec3d edges = abs(c[1] - c[0]) + abs(c[2] - c[0]);
+  const auto sphere = sphereAt(p);
+  const Vec3d edges =
+      sphere ? axesOf(*sphere) * double{kSphereSpan} : abs(c[1] - c[0]) + abs(c[2] - c[0]);
   const bool placed = reference::candidateOf(p.chunk, p.slot).instance != reference::kNoHit;
   const bool shared = reference::alsoCrossedAt(p.chunk, p.slot) >= kSharesPlace;
-  if (placed || shared || bySliver(p) > 0x1p11 || !(8 * t < edges.x + edges.y + edges.z)) return {};
+  if (placed || shared || (!sphere && bySliver(p) > 0x1p11) ||
+      !(8 * t < edges.x + edges.y + edges.z))
+    return {};
   const SurfelRow& s = p.twin;
   const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
   return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
-}
-// What a position on a sphere is made of; none on triangles.
-inline std::optional<double> onSphere(const Place<SurfelRow>& p) {
-  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
-  if (!p.world.scene.isSphere(candidate.triangle)) return {};
-  const Affine map =
-      reference::sphereInWorld(p.world.scene, candidate.triangle, candidate.instance);
-  const Vec3d size = abs(map.x) + abs(map.y) + abs(map.z) + abs(map.p);
-  return size.x + size.y + size.z;
 }
 // By the corners, which may be far larger than the place that a ray found; of an instance the
 // offset is 32 units in the last place of all that went into the position.
 inline double byMagnitude(const Place<SurfelRow>& p) {
   if (const auto found = alongRay(p)) return *found;
-  if (const auto found = onSphere(p)) return *found;
+  if (const auto sphere = sphereAt(p)) {
+    const Vec3d size = axesOf(*sphere) + abs(sphere->p);
+    return size.x + size.y + size.z;
+  }
   Vec3d largest;
   for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
   return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);

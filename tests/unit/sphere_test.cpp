@@ -18,7 +18,7 @@ using stress::blackMaterial;
 using stress::SceneBuilder;
 
 // Of numbers of the order of 1 in double.
-constexpr double kRounding = 1e-14;
+constexpr double kDoubleRounding = 1e-14;
 
 Vec3d anyDirection(std::mt19937_64& random) {
   std::normal_distribution<double> gauss;
@@ -37,14 +37,14 @@ TEST(ExactSphere, WeightsNameEachPointOfTheUnitSphere) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3d q = anyDirection(random);
     const auto [u, v] = sphereWeights(q);
-    EXPECT_LE(length(spherePoint(u, v) - q), kRounding);
+    EXPECT_LE(length(spherePoint(u, v) - q), kDoubleRounding);
     // As inside a triangle, away from its edges.
     EXPECT_GE(std::min({u, v, 1 - u - v}), 0x1p-11);
   }
   for (const Vec3d& axis : {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
     for (const Vec3d& q : {axis, -axis}) {
       const auto [u, v] = sphereWeights(q);
-      EXPECT_LE(length(spherePoint(u, v) - q), kRounding);
+      EXPECT_LE(length(spherePoint(u, v) - q), kDoubleRounding);
     }
   }
 }
