@@ -14,9 +14,6 @@
 
 namespace whit {
 
-// Spheres follow the four classes of world triangles in a scene, instances follow those in the
-// top-level one.
-inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
 // Ray masks: shadow rays do not see triangles that cast no shadow.
 inline constexpr unsigned kSeenMask = 1, kShadowMask = 2;
 

@@ -34,6 +34,8 @@ simd::SphereInverse inverseOf(const Affine& map) {
   return inverse;
 }
 
+// Of spheres in one place the highest is met: what is opaque before a sheet, that before a
+// dielectric, then by priority.
 int rankOf(const Material& material) {
   if (!material.passesLight()) return std::numeric_limits<int>::max();
   return material.boundsMedium() ? std::min(material.priority, kHighest) : kHighest + 1;
@@ -42,7 +44,8 @@ int rankOf(const Material& material) {
 }  // namespace
 
 SphereGeometry::SphereGeometry(const Scene& scene, const AlphaMaps& maps, const Geometry& of)
-    : records_(scene.triangles.data() + of.firstSphere),
+    : scene_(scene),
+      records_(scene.triangles.data() + of.firstSphere),
       firstPrimitive_(of.firstSphere - of.firstTriangle) {
   for (const Material& material : scene.materials) masks_.push_back(maskOf(material, maps));
   spheres_.reserve(of.spheres);
@@ -51,7 +54,6 @@ SphereGeometry::SphereGeometry(const Scene& scene, const AlphaMaps& maps, const 
     Sphere& sphere = spheres_.emplace_back();
     sphere.inverse = inverseOf(sphereMap(records_[i]));
     sphere.castsShadow = material.castsShadow;
-    sphere.rank = rankOf(material);
     const Mask& mask = masks_[records_[i].material];
     if (mask.map) sphere.mask = &mask;
   }
@@ -73,12 +75,25 @@ void SphereGeometry::bound(const RTCBoundsFunctionArguments* args) {
   to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
 }
 
+// In Scene::triangles.
+std::uint32_t SphereGeometry::numberOf(const Met& met) const {
+  const bool inWorld = met.instance == RTC_INVALID_GEOMETRY_ID;
+  const std::uint32_t geometry =
+      inWorld ? 0 : scene_.instances[met.instance - kFirstInstanceId].geometry;
+  return scene_.geometries[geometry].firstTriangle + met.primitive;
+}
+
 // Whether a sphere is met rather than what the ray has met at the same distance, if that is a
-// sphere of this geometry, too: of equals the later. So it does not matter which is asked first.
+// sphere, too, be it one of another geometry: of equals the later. So it does not matter which is
+// asked first.
 bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
-  const unsigned own = sphere.primitive - firstPrimitive_, its = other.primitive - firstPrimitive_;
-  if (other.geometry != sphere.geometry || its >= spheres_.size()) return false;
-  if (spheres_[own].rank != spheres_[its].rank) return spheres_[own].rank > spheres_[its].rank;
+  if (other.geometry != sphere.geometry) return false;
+  const std::uint32_t own = numberOf(sphere), its = numberOf(other);
+  if (!scene_.isSphere(its)) return false;
+  const auto rank = [&](std::uint32_t number) {
+    return rankOf(scene_.materials[scene_.triangles[number].material]);
+  };
+  if (rank(own) != rank(its)) return rank(own) > rank(its);
   return std::tie(sphere.instance, own) > std::tie(other.instance, its);
 }
 

@@ -11,6 +11,10 @@
 
 namespace whit {
 
+// Spheres follow the four classes of world triangles in a scene, instances follow those in the
+// top-level one.
+inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
+
 // The spheres of one of the scene's geometries, in their order. A hit looks as if it were on the
 // first triangle class of that geometry: the primitive's number is counted from there.
 class SphereGeometry {
@@ -29,9 +33,6 @@ class SphereGeometry {
     simd::SphereInverse inverse;
     const Mask* mask = nullptr;  // none: opaque everywhere
     bool castsShadow = true;
-    // Of spheres in one place the highest is met: what is opaque before a sheet, that before a
-    // dielectric, then by priority.
-    int rank = 0;
   };
   // As Embree's packets have it.
   struct Met {
@@ -44,9 +45,11 @@ class SphereGeometry {
   template <float Mask::*kCutoff, typename Accept>
   void meet(unsigned primitive, float* words, unsigned width, const int* valid,
             const Accept& accept) const;
+  std::uint32_t numberOf(const Met& met) const;
   bool comesBefore(const Met& sphere, const Met& other) const;
 
   simd::SphereMeeter meeter_ = simd::findMeetSphere();
+  const Scene& scene_;
   const TriangleRecord* records_ = nullptr;  // of the first sphere
   std::uint32_t firstPrimitive_ = 0;         // as hits have it
   std::vector<Mask> masks_;                  // one a material of the scene
