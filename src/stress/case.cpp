@@ -35,7 +35,9 @@ std::vector<Family> families() {
           {"exact laws", invarianceCases()},
           {"recursion", recursionCases()},
           {"lights, textures, film, camera", lightAndFilmCases()},
-          {"faces in one plane", flushFaceCases()}};
+          {"faces in one plane", flushFaceCases()},
+          {"exact spheres", sphereCases()},
+          {"paths through spheres", spherePathCases()}};
 }
 
 std::vector<Setup> setupsOf(Runs runs) {

@@ -94,6 +94,8 @@ std::span<const Case> invarianceCases();
 std::span<const Case> recursionCases();
 std::span<const Case> lightAndFilmCases();
 std::span<const Case> flushFaceCases();
+std::span<const Case> sphereCases();
+std::span<const Case> spherePathCases();
 
 struct Family {
   std::string_view name;
