@@ -133,6 +133,25 @@ mutations() {
     'options.retry && isEnclosed(scene, *accel_)' 'false && isEnclosed(scene, *accel_)'
   plant eye-in-vacuum src/render/frame_setup.cpp '.media = camera.media,' '.media = 0,'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
+  plant sphere-in-floats simd/meet_sphere.cpp \
+    'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \
+    'const auto inside = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Mul(b, middle),
+                                                                    hn::Sub(DotOf<D>(f, f), one))));'
+  plant sphere-without-far-side simd/meet_sphere.cpp \
+    'hn::IfThenElse(hn::Gt(low, start), low, high)' 'hn::IfThenElse(hn::Gt(low, start), low, low)'
+  plant sphere-without-lower-half simd/sphere-inl.h \
+    '{hn::IfThenElse(below, foldedU, u), hn::IfThenElse(below, foldedV, v), height}' \
+    '{u, v, height}; (void)foldedU, (void)foldedV, (void)below'
+  plant sphere-inverse-transposed src/accel/sphere_geometry.cpp \
+    'inverse.rows[row][column] = rows[row][column]' 'inverse.rows[row][column] = rows[column][row]'
+  plant sphere-mirrored-inside-out src/scene/sphere.cpp \
+    'record.outward = toGeometry.determinant() < 0 ? -1.0f : 1.0f;' 'record.outward = 1.0f;'
+  plant sphere-without-offset simd/sphere-inl.h \
+    'surface.magnitude = Select3(s.on, magnitude, surface.magnitude);' \
+    'surface.magnitude = Select3(s.on, Scale3(magnitude, hn::Zero(d)), surface.magnitude);'
+  plant spheres-in-any-order src/accel/sphere_geometry.cpp \
+    'if (other.geometry != sphere.geometry) return false;' \
+    'if (other.geometry <= sphere.geometry) return false;'
 }
 
 mode=run
