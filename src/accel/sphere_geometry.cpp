@@ -15,6 +15,10 @@ namespace {
 
 // Where Embree's packets have what kernels do not look at.
 constexpr std::size_t kNearColumn = 3, kInstanceColumn = 19, kWidest = 16;
+static_assert(offsetof(RTCRayHit8, ray) + offsetof(RTCRay8, tnear) ==
+              kNearColumn * 8 * sizeof(float));
+static_assert(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, instID) ==
+              kInstanceColumn * 8 * sizeof(float));
 
 // Of a dielectric; nobody asks for more.
 constexpr int kHighest = std::numeric_limits<int>::max() - 2;

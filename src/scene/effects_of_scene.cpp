@@ -64,10 +64,13 @@ class Gatherer {
       triangles += uses_[i];
     }
     set(effect, count > 0,
-        counted(count, "material") + " " + what + ", " + counted(triangles, "triangle") +
+        counted(count, "material") + " " + what + ", " + counted(triangles, surface()) +
             (triangles == 1 ? " uses " : " use ") + (count == 1 ? "it" : "them"),
         "no mesh uses a material " + what);
   }
+
+  // What is counted.
+  std::string surface() const { return scene_.instancedSpheres > 0 ? "surface" : "triangle"; }
 
   void materials();
   void impulses();
@@ -153,7 +156,7 @@ void Gatherer::lights() {
   set(Effect::directionalLights, directional > 0, counted(directional, "directional light"),
       "no light is directional");
   set(Effect::shadows, shining > 0 && casting > 0,
-      counted(shining, "light") + ", " + counted(casting, "triangle") +
+      counted(shining, "light") + ", " + counted(casting, surface()) +
           (casting == 1 ? " casts shadows" : " cast shadows"),
       shining > 0 ? "no triangle casts a shadow" : dark);
   set(Effect::softShadows, wide > 0 && casting > 0, counted(wide, "light") + " with a radius",
