@@ -1,7 +1,4 @@
 // H71, continued: paths that leave exact spheres and go through them, and spheres in one place.
-#include <array>
-#include <functional>
-
 #include "stress/balls.h"
 
 namespace whit::stress {
