@@ -62,8 +62,8 @@ struct Tally {
   int pixels = 0, leftOut = 0, wrong = 0;
   double worst = 0;  // of those that are not left out
   std::string firstWrong;
-  std::map<const Triangle*, Sum> sums;  // by what the pixels show
-  Sum sampled;                          // the pixels that have samples
+  std::map<const Face*, Sum> sums;  // by what the pixels show
+  Sum sampled;                      // the pixels that have samples
 };
 
 class Agreement : public testing::Test {
@@ -193,7 +193,7 @@ class Agreement : public testing::Test {
         if (largest(wanted.variance) > 0) all.sampled.add(got, wanted, rounding, seen.brightest);
       }
     }
-    for (const auto& [triangle, sum] : tally.sums) expectNoBias(sum, mode + " of " + file);
+    for (const auto& [face, sum] : tally.sums) expectNoBias(sum, mode + " of " + file);
     EXPECT_EQ(tally.wrong, 0) << "of " << tally.pixels << " pixels of " << mode << " of " << file
                               << ", the worst off by " << tally.worst << "; the first is "
                               << tally.firstWrong;

@@ -1,7 +1,8 @@
 #include "oracle/geometry.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "oracle/placement.h"
 
 namespace oracle {
 
@@ -11,81 +12,30 @@ namespace {
 // no scene has gaps as narrow as this.
 constexpr double kSelf = 1e-9;
 
-// Triangles that are no farther behind another one than this, in parts of 1 and the way, lie in one
+// Faces that are no farther behind another one than this, in parts of 1 and the way, lie in one
 // place: in scenes that have such, their corners are whole numbers of some power of two.
 constexpr double kSamePlace = 1e-9;
 
 // Where so little is there rays pass, as through a hole.
 constexpr double kClear = 1.0 / 1024;
 
-Vec turned(const Vec& v, const Transform& transform) {
-  const Vec k = normalized(transform.axis);
-  const double angle = transform.degrees * std::numbers::pi / 180;
-  const double c = std::cos(angle), s = std::sin(angle);
-  return v * c + cross(k, v) * s + k * (dot(k, v) * (1 - c));  // Rodrigues
+// The face as the material has it.
+template <typename Shape>
+void addFace(std::vector<Shape>& faces, Shape face, const Material& material, int number,
+             int order) {
+  face.material = number;
+  face.opaque = !material.passesLight();
+  face.sheet = material.passesLight() && !material.isDielectric();
+  face.priority = material.priority;
+  face.order = order;
+  face.alphaMap = material.alphaMap;
+  face.alphaCutoff = material.alphaCutoff;
+  face.coverageMap = material.coverageMap;
+  face.coverage = material.coverage;
+  faces.push_back(std::move(face));
 }
 
-// By the last of the transforms first.
-Vec placed(Vec point, std::span<const Transform> transforms) {
-  for (std::size_t i = transforms.size(); i-- > 0;) {
-    point = turned(point * transforms[i].scale, transforms[i]) + transforms[i].translate;
-  }
-  return point;
-}
-
-// Normals go with the inverse transpose, which keeps them outside of what is mirrored.
-Vec placedNormal(Vec n, std::span<const Transform> transforms) {
-  for (std::size_t i = transforms.size(); i-- > 0;) {
-    const Vec& s = transforms[i].scale;
-    n = normalized(turned({n.x / s.x, n.y / s.y, n.z / s.z}, transforms[i]));
-  }
-  return n;
-}
-
-bool areMirroring(std::span<const Transform> transforms) {
-  bool mirroring = false;
-  for (const auto& [scale, axis, degrees, translate] : transforms) {
-    mirroring = mirroring != (scale.x * scale.y * scale.z < 0);
-  }
-  return mirroring;
-}
-
-Triangle placedTriangle(const Mesh& mesh, const std::array<int, 3>& indices, int material,
-                        std::span<const Transform> transforms) {
-  Triangle triangle;
-  triangle.material = material;
-  triangle.smooth = !mesh.normals.empty();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto index = static_cast<std::size_t>(indices[i]);
-    Corner& corner = triangle.corners[i];
-    corner.position = placed(mesh.positions[index], transforms);
-    if (triangle.smooth) corner.normal = placedNormal(mesh.normals[index], transforms);
-    corner.color = mesh.colors.empty() ? gray(1) : mesh.colors[index];
-    if (!mesh.uvs.empty()) corner.uv = mesh.uvs[index];
-  }
-  const auto& [a, b, c] = triangle.corners;
-  const double mirrored = areMirroring(transforms) ? -1 : 1;
-  triangle.outward = normalized(cross(b.position - a.position, c.position - a.position)) * mirrored;
-  return triangle;
-}
-
-// Moeller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
-std::optional<Hit> meet(const Ray& ray, const Triangle& triangle) {
-  const auto& [a, b, c] = triangle.corners;
-  const Vec e1 = b.position - a.position, e2 = c.position - a.position;
-  const Vec p = cross(ray.direction, e2);
-  const double determinant = dot(e1, p);
-  if (determinant == 0) return std::nullopt;
-  const Vec from = ray.origin - a.position;
-  const double u = dot(from, p) / determinant;
-  if (u < 0 || u > 1) return std::nullopt;
-  const Vec q = cross(from, e1);
-  const double v = dot(ray.direction, q) / determinant;
-  if (v < 0 || u + v > 1) return std::nullopt;
-  return Hit{dot(e2, q) / determinant, &triangle, {1 - u - v, u, v}};
-}
-
-bool comesFirst(const Triangle& a, const Triangle& b) {
+bool comesFirst(const Face& a, const Face& b) {
   if (a.opaque != b.opaque) return a.opaque;
   if (a.sheet != b.sheet) return a.sheet;
   if (!a.opaque && !a.sheet && a.priority != b.priority) return a.priority > b.priority;
@@ -120,51 +70,63 @@ void Geometry::addList(const Scene& scene, std::span<const Body> bodies,
 
 void Geometry::addShape(const Scene& scene, const Object& object,
                         std::span<const Transform> transforms) {
+  Part part = object.radius > 0 ? spherePart(scene, object, transforms)
+                                : meshPart(scene, object, transforms);
+  part.radius *= 1 + kSelf;
+  part.castsShadow = scene.materials[static_cast<std::size_t>(object.material)].castsShadow;
+  parts_.push_back(std::move(part));
+}
+
+Geometry::Part Geometry::meshPart(const Scene& scene, const Object& object,
+                                  std::span<const Transform> transforms) {
   const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
   const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
   Part part;
   for (const auto& indices : mesh.triangles) {
-    Triangle triangle = placedTriangle(mesh, indices, object.material, transforms);
-    triangle.opaque = !material.passesLight();
-    triangle.sheet = material.passesLight() && !material.isDielectric();
-    triangle.priority = material.priority;
-    triangle.order = triangles_++;
-    triangle.alphaMap = material.alphaMap;
-    triangle.alphaCutoff = material.alphaCutoff;
-    triangle.coverageMap = material.coverageMap;
-    triangle.coverage = material.coverage;
-    part.triangles.push_back(triangle);
+    addFace(part.triangles, placedTriangle(mesh, indices, transforms), material, object.material,
+            faces_++);
   }
   for (const Vec& p : mesh.positions) part.center += placed(p, transforms);
   part.center = part.center / static_cast<double>(mesh.positions.size());
   for (const Vec& p : mesh.positions) {
     part.radius = std::max(part.radius, length(placed(p, transforms) - part.center));
   }
-  part.radius *= 1 + kSelf;
-  part.castsShadow = material.castsShadow;
-  parts_.push_back(std::move(part));
+  return part;
+}
+
+Geometry::Part Geometry::spherePart(const Scene& scene, const Object& object,
+                                    std::span<const Transform> transforms) {
+  const Sphere sphere = placedSphere(object.radius, transforms);
+  const auto& [x, y, z] = sphere.axes;
+  Part part;
+  part.center = sphere.center;
+  part.radius = std::sqrt(dot(x, x) + dot(y, y) + dot(z, z));  // no point is farther away
+  addFace(part.spheres, sphere, scene.materials[static_cast<std::size_t>(object.material)],
+          object.material, faces_++);
+  return part;
 }
 
 Color Geometry::texel(int map, const Hit& hit) const {
-  double u = 0, v = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& uv = hit.triangle->corners[i].uv;
-    u += uv[0] * hit.weights[i], v += uv[1] * hit.weights[i];
-  }
+  const auto& [u, v] = hit.uv;
   return textures_[static_cast<std::size_t>(map)].at(u, v, Filter::bilinear, 1);
 }
 
 bool Geometry::isCutAway(const Hit& hit) const {
-  const Triangle& triangle = *hit.triangle;
-  if (triangle.alphaMap != kNone) return texel(triangle.alphaMap, hit).x < triangle.alphaCutoff;
-  return triangle.coverageMap != kNone && texel(triangle.coverageMap, hit).x < kClear;
+  const Face& face = *hit.face;
+  if (face.alphaMap != kNone) return texel(face.alphaMap, hit).x < face.alphaCutoff;
+  return face.coverageMap != kNone && texel(face.coverageMap, hit).x < kClear;
 }
 
 // All or nothing, where a map says how much is there.
 bool Geometry::castsShadow(const Hit& hit) const {
-  const Triangle& triangle = *hit.triangle;
-  if (triangle.coverageMap == kNone) return true;
-  return triangle.coverage * texel(triangle.coverageMap, hit).x >= 0.5;
+  const Face& face = *hit.face;
+  if (face.coverageMap == kNone) return true;
+  return face.coverage * texel(face.coverageMap, hit).x >= 0.5;
+}
+
+bool Geometry::counts(const Ray& ray, const Hit& hit) const {
+  if (!(hit.t * length(ray.direction) > kSelf * (1 + length(ray.origin)))) return false;
+  return !isCutAway(hit);
 }
 
 // visit(part, hit) for every hit in front, until it answers false.
@@ -174,9 +136,12 @@ void Geometry::visit(const Ray& ray, const Visit& visit) const {
     if (!passes(ray, part.center, part.radius)) continue;
     for (const Triangle& triangle : part.triangles) {
       const std::optional<Hit> hit = meet(ray, triangle);
-      if (!hit || !(hit->t * length(ray.direction) > kSelf * (1 + length(ray.origin)))) continue;
-      if (isCutAway(*hit)) continue;
-      if (!visit(part, *hit)) return;
+      if (hit && counts(ray, *hit) && !visit(part, *hit)) return;
+    }
+    for (const Sphere& sphere : part.spheres) {
+      for (const Hit& hit : meet(ray, sphere)) {
+        if (counts(ray, hit) && !visit(part, hit)) return;
+      }
     }
   }
 }
@@ -194,12 +159,12 @@ std::optional<Meeting> Geometry::nearest(const Ray& ray) const {
   if (hits.empty()) return std::nullopt;
   Meeting meeting{hits[0], {}};
   for (const Hit& hit : hits) {
-    if (comesFirst(*hit.triangle, *meeting.hit.triangle)) meeting.hit = hit;
+    if (comesFirst(*hit.face, *meeting.hit.face)) meeting.hit = hit;
   }
-  if (meeting.hit.triangle->opaque) return meeting;
+  if (meeting.hit.face->opaque) return meeting;
   for (const Hit& hit : hits) {
-    if (hit.triangle == meeting.hit.triangle || hit.triangle->sheet) continue;
-    meeting.alsoCrossed.push_back(hit.triangle);
+    if (hit.face == meeting.hit.face || hit.face->sheet) continue;
+    meeting.alsoCrossed.push_back(hit);
   }
   return meeting;
 }

@@ -29,6 +29,15 @@ int SceneMaker::addObject(Mesh mesh, const Material& material) {
   return static_cast<int>(scene.objects.size()) - 1;
 }
 
+int SceneMaker::addSphere(double radius, const Material& material) {
+  Object object;
+  object.mesh = kNone;
+  object.material = add(material);
+  object.radius = asFloat(radius);
+  scene.objects.push_back(object);
+  return static_cast<int>(scene.objects.size()) - 1;
+}
+
 void SceneMaker::room() {
   scene.sky.zenith = random.color(0.1, 0.6);
   scene.sky.horizon = random.color(0.3, 0.8);

@@ -42,6 +42,7 @@ class SceneMaker {
   int add(Mesh mesh);
   int add(const Material& material);
   int addObject(Mesh mesh, const Material& material);
+  int addSphere(double radius, const Material& material);
   void place(int object, const Transform& transform, bool inPlace = false) {
     scene.bodies.push_back({object, transform, inPlace});
   }

@@ -78,11 +78,12 @@ struct Body {
   bool inPlace = false;  // what the object holds is written where the body stands
 };
 
-// A mesh of one material, among uses of other objects. Where several bodies show one object, whit
-// makes instances of it, but for those that are written in place.
+// A mesh or an exact sphere of one material, among uses of other objects. Where several bodies show
+// one object, whit makes instances of it, but for those that are written in place.
 struct Object {
   int mesh = 0, material = 0;
   std::vector<Body> before, after;
+  double radius = 0;  // above 0: of a sphere instead of the mesh
 };
 
 struct Light {

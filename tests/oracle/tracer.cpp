@@ -29,8 +29,8 @@ constexpr int kPointsASide = 12, kFewerPointsASide = 6, kFewestPointsASide = 2;
 // A point of a surface, everything turned to the side that the ray comes from.
 struct Tracer::Surface {
   Vec position, toViewer;
-  Vec plane, normal;  // unit: of the triangle, and interpolated
-  Vec lift;           // from the triangle to the surface that its vertex normals stand for
+  Vec plane, normal;  // unit: of the face, and interpolated
+  Vec lift;           // from a triangle to the surface that its vertex normals stand for
   bool smooth = false, entering = false;
   Material material;  // textures and vertex colors applied
 };
@@ -60,9 +60,9 @@ Sight Tracer::look(double x, double y) const {
   return trace(ray, {0, 1, false, width, mediaAround(ray.origin)}, random);
 }
 
-const Triangle* Tracer::nearest(double x, double y) const {
+const Face* Tracer::nearest(double x, double y) const {
   const std::optional<Meeting> meeting = geometry_.nearest(eyeRay(x, y));
-  return meeting ? meeting->hit.triangle : nullptr;
+  return meeting ? meeting->hit.face : nullptr;
 }
 
 double Tracer::pixelSize() const {
@@ -96,10 +96,10 @@ Media Tracer::mediaAround(const Vec& point) const {
   const Ray ray{point, normalized({-0.5377, 0.7161, -0.4453})};
   std::vector<Medium> left, entered;
   for (const Hit& hit : geometry_.all(ray)) {
-    const Material& material = scene_.materials[static_cast<std::size_t>(hit.triangle->material)];
+    const Material& material = scene_.materials[static_cast<std::size_t>(hit.face->material)];
     if (!material.isDielectric()) continue;
     const Medium medium = mediumOf(material);
-    if (dot(ray.direction, hit.triangle->outward) < 0) {
+    if (dot(ray.direction, hit.outward) < 0) {
       entered.push_back(medium);
       continue;
     }
@@ -120,50 +120,33 @@ namespace {
 // How much of texture space, of which a repeat is 1, a cone of this width covers: its section by
 // the plane is longer than wide, and counts as if it were as wide as long (Akenine-Moeller et al.
 // 2019, "Texture level of detail strategies for real-time ray tracing", section 20.3.4).
-double footprintOf(const Triangle& triangle, double width, double cosine) {
-  const auto& [a, b, c] = triangle.corners;
-  const double inTexture = std::abs((b.uv[0] - a.uv[0]) * (c.uv[1] - a.uv[1]) -
-                                    (c.uv[0] - a.uv[0]) * (b.uv[1] - a.uv[1]));
-  const double inWorld = length(cross(b.position - a.position, c.position - a.position));
-  return inTexture / inWorld * std::pow(width / cosine, 2);
+double footprintOf(const Hit& hit, double width, double cosine) {
+  const double repeat = length(cross(hit.alongU, hit.alongV));  // in the world
+  return repeat > 0 ? std::pow(width / cosine, 2) / repeat : 0;
 }
 
 // A normal map's: x along growing u, y along growing v, both turned into the plane of `normal`,
 // which like the result is on the outside.
-Vec mappedNormal(const Triangle& triangle, const Color& texel, const Vec& normal) {
-  const auto& [a, b, c] = triangle.corners;
-  const Vec e1 = b.position - a.position, e2 = c.position - a.position;
-  const double u1 = b.uv[0] - a.uv[0], u2 = c.uv[0] - a.uv[0];
-  const double v1 = b.uv[1] - a.uv[1], v2 = c.uv[1] - a.uv[1];
-  const double area = u1 * v2 - u2 * v1;
-  const Vec alongU = (e1 * v2 - e2 * v1) / area, alongV = (e2 * u1 - e1 * u2) / area;
-  const Vec x = normalized(alongU - normal * dot(alongU, normal));
+Vec mappedNormal(const Hit& hit, const Color& texel, const Vec& normal) {
+  const Vec x = normalized(hit.alongU - normal * dot(hit.alongU, normal));
   Vec y = cross(normal, x);
-  if (dot(y, alongV) < 0) y = -y;
+  if (dot(y, hit.alongV) < 0) y = -y;
   return normalized(x * (2 * texel.x - 1) + y * (2 * texel.y - 1) + normal * (2 * texel.z - 1));
 }
 
 }  // namespace
 
-Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) const {
-  const Triangle& triangle = *hit.triangle;
-  Surface s;
-  s.position = ray.origin + ray.direction * hit.t;
-  s.toViewer = -ray.direction;
-  s.entering = dot(ray.direction, triangle.outward) < 0;
-  s.smooth = triangle.smooth;
-  s.material = scene_.materials[static_cast<std::size_t>(triangle.material)];
+// What a triangle's vertices say of the surface between them. A sphere is the surface.
+void Tracer::addVertices(Surface& s, const Hit& hit) {
+  if (hit.triangle == nullptr) return;
+  s.smooth = hit.triangle->smooth;
   const double side = s.entering ? 1 : -1;
-  s.plane = triangle.outward * side;
-  s.normal = s.plane;
   Vec normal;
   Color color;
-  double u = 0, v = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Corner& corner = triangle.corners[i];
+    const Corner& corner = hit.triangle->corners[i];
     const double weight = hit.weights[i];
     color += corner.color * weight;
-    u += corner.uv[0] * weight, v += corner.uv[1] * weight;
     if (!s.smooth) continue;
     normal += corner.normal * weight;
     // Hanika 2021: down to the tangent plane of each corner, weighed as the corners are.
@@ -172,11 +155,24 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   }
   if (s.smooth) s.normal = normalized(normal) * side;
   s.material.diffuse = s.material.diffuse * color;
-  const double footprint = footprintOf(triangle, width, -dot(ray.direction, s.plane));
+}
+
+Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) const {
+  Surface s;
+  s.position = ray.origin + ray.direction * hit.t;
+  s.toViewer = -ray.direction;
+  s.entering = dot(ray.direction, hit.outward) < 0;
+  s.material = scene_.materials[static_cast<std::size_t>(hit.face->material)];
+  const double side = s.entering ? 1 : -1;
+  s.plane = hit.outward * side;
+  s.normal = s.plane;
+  addVertices(s, hit);
+  const double footprint = footprintOf(hit, width, -dot(ray.direction, s.plane));
   const auto texel = [&](int map) {
     const Texture& texture = scene_.textures[static_cast<std::size_t>(map)];
     const double texels = footprint * texture.width * texture.height;
-    return textures_[static_cast<std::size_t>(map)].at(u, v, options_.filter, texels);
+    return textures_[static_cast<std::size_t>(map)].at(hit.uv[0], hit.uv[1], options_.filter,
+                                                       texels);
   };
   const auto textured = [&](int map, Color& what) {
     if (map != kNone) what = what * texel(map);
@@ -186,15 +182,15 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   textured(s.material.emissionMap, s.material.emission);
   if (s.material.coverageMap != kNone) s.material.coverage *= texel(s.material.coverageMap).x;
   if (s.material.normalMap != kNone) {
-    s.normal = mappedNormal(triangle, texel(s.material.normalMap), s.normal * side) * side;
+    s.normal = mappedNormal(hit, texel(s.material.normalMap), s.normal * side) * side;
     s.smooth = true;
   }
   return s;
 }
 
-void Tracer::pass(Media& media, const Ray& ray, const Triangle& triangle) const {
-  const Medium medium = mediumOf(scene_.materials[static_cast<std::size_t>(triangle.material)]);
-  dot(ray.direction, triangle.outward) < 0 ? media.enter(medium) : media.leave(medium);
+void Tracer::pass(Media& media, const Ray& ray, const Hit& hit) const {
+  const Medium medium = mediumOf(scene_.materials[static_cast<std::size_t>(hit.face->material)]);
+  dot(ray.direction, hit.outward) < 0 ? media.enter(medium) : media.leave(medium);
 }
 
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
@@ -214,8 +210,8 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   const Surface surface = surfaceAt(ray, meeting->hit, there.width);
   Media behind = branch.media;
   const bool isDielectric = surface.material.isDielectric();
-  if (isDielectric) pass(behind, ray, *meeting->hit.triangle);
-  for (const Triangle* other : meeting->alsoCrossed) pass(behind, ray, *other);
+  if (isDielectric) pass(behind, ray, meeting->hit);
+  for (const Hit& other : meeting->alsoCrossed) pass(behind, ray, other);
   if (isDielectric && behind.current() == branch.media.current()) {  // the surface is not there
     if (branch.depth == options_.depth) return {};
     ++there.depth;
@@ -290,7 +286,7 @@ Sight Tracer::lightFromSphere(const Surface& surface, const Light& light, const 
   return sight;
 }
 
-// Light comes neither from behind the triangle nor through anything that casts shadows.
+// Light comes neither from behind the face nor through anything that casts shadows.
 bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
   const bool lifted = options_.terminator && length(surface.lift) > 0;
   if (!lifted) {

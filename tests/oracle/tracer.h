@@ -22,7 +22,7 @@ class Tracer {
   // alike.
   Sight look(double x, double y) const;
   // What lies there.
-  const Triangle* nearest(double x, double y) const;
+  const Face* nearest(double x, double y) const;
 
  private:
   struct Surface;
@@ -39,10 +39,11 @@ class Tracer {
   static int pointsASide(const Branch& branch);
   Ray eyeRay(double x, double y) const;
   Media mediaAround(const Vec& point) const;
-  void pass(Media& media, const Ray& ray, const Triangle& triangle) const;
+  void pass(Media& media, const Ray& ray, const Hit& hit) const;
   Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
   double pixelSize() const;  // one away from the eye, or everywhere if rays are parallel
   double widthAfter(double width, double way) const;
+  static void addVertices(Surface& surface, const Hit& hit);
   Surface surfaceAt(const Ray& ray, const Hit& hit, double width) const;
   static Sight reflectedFrom(const Surface& surface, const Arrival& arrival);
   Sight lightFrom(const Surface& surface, const Branch& branch, Random& random) const;

@@ -168,14 +168,33 @@ std::string tga(const Texture& texture) {
   return file;
 }
 
+std::string shapeText(const Scene& scene, const Object& object) {
+  if (object.radius > 0) {
+    return R"({"shape": "sphere", "radius": )" + number(object.radius) +
+           R"(, "material": "material)" + std::to_string(object.material) + R"("})";
+  }
+  return R"({"model": "mesh)" + std::to_string(object.mesh) + R"(.ply", "materials": {"*": )" +
+         materialText(scene.materials[static_cast<std::size_t>(object.material)]) + "}}";
+}
+
+// Shapes name their materials.
+std::string materialsOfShapes(const Scene& scene) {
+  std::vector<std::string> members;
+  for (const Object& object : scene.objects) {
+    if (!(object.radius > 0)) continue;
+    members.push_back(R"("material)" + std::to_string(object.material) + R"(": )" +
+                      materialText(scene.materials[static_cast<std::size_t>(object.material)]));
+  }
+  return joined(members, [](const std::string& member, const std::string&) { return member; });
+}
+
 std::string itemText(const Scene& scene, const Body& body);
 
 // The items of an object's list.
 std::string contentText(const Scene& scene, const Object& object) {
   std::string text;
   for (const Body& body : object.before) text += itemText(scene, body) + ", ";
-  text += R"({"model": "mesh)" + std::to_string(object.mesh) + R"(.ply", "materials": {"*": )" +
-          materialText(scene.materials[static_cast<std::size_t>(object.material)]) + "}}";
+  text += shapeText(scene, object);
   for (const Body& body : object.after) text += ", " + itemText(scene, body);
   return text;
 }
@@ -199,7 +218,7 @@ std::string sceneText(const Scene& scene) {
                 [](const Texture&, const std::string& i) {
                   return "\"map" + i + "\": {\"image\": \"map" + i + ".tga\"}";
                 })
-      << "},\n  \"objects\": {"
+      << "},\n  \"materials\": {" << materialsOfShapes(scene) << "},\n  \"objects\": {"
       << joined(scene.objects,
                 [&](const Object& object, const std::string& i) {
                   return "\"object" + i + "\": [" + contentText(scene, object) + "]";

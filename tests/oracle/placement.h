@@ -1,0 +1,18 @@
+// Where transforms, one within the other, put what they hold.
+#pragma once
+
+#include <span>
+
+#include "oracle/scene.h"
+
+namespace oracle {
+
+// All by the last of the transforms first.
+Vec placed(Vec point, std::span<const Transform> transforms);
+// Differences of points are not moved.
+Vec placedDifference(Vec difference, std::span<const Transform> transforms);
+// Normals go with the inverse transpose, which keeps them outside of what is mirrored.
+Vec placedNormal(Vec n, std::span<const Transform> transforms);
+bool areMirroring(std::span<const Transform> transforms);
+
+}  // namespace oracle
