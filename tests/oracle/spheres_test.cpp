@@ -1,0 +1,392 @@
+// Exact spheres, and the ellipsoids that transforms make of them.
+#include "oracle/agreement.h"
+#include "oracle/shapes.h"
+
+namespace oracle {
+namespace {
+
+class Spheres : public Agreement {};
+
+void lampsAbove(SceneMaker& maker, int count) {
+  for (int i = 0; i < count; ++i) maker.scene.lights.push_back(maker.lamp());
+}
+
+// Of any axes, and mirrored now and then.
+Transform stretched(SceneMaker& maker, Transform transform) {
+  transform.scale = transform.scale * maker.random.color(0.5, 1);
+  if (maker.random.chance(0.5)) transform.scale.x = -transform.scale.x;
+  if (maker.random.chance(0.2)) transform.scale.z = -transform.scale.z;
+  transform.scale = asFloat(transform.scale);
+  return transform;
+}
+
+// In one of `count` places beside each other: some round, most not.
+Transform ballStanding(SceneMaker& maker, int place, int count) {
+  const Transform transform = maker.standing(place, count);
+  return maker.random.chance(0.3) ? transform : stretched(maker, transform);
+}
+
+double anyRadius(SceneMaker& maker) { return maker.random.between(0.5, 0.9); }
+
+// Turned and stretched within what is turned and stretched: the axes of the unit sphere become no
+// axes of the ellipsoid. It hangs on another ball, which is smaller.
+void addSheared(SceneMaker& maker, const Material& material, const Transform& transform) {
+  const int sheared = maker.addSphere(0.8, material);
+  const int holder = maker.addSphere(0.25, maker.matte());
+  Body within;
+  within.object = sheared;
+  within.transform = stretched(maker, maker.random.placement({0, 0.2, 0}, 1));
+  within.inPlace = maker.random.chance(0.5);
+  maker.scene.objects[static_cast<std::size_t>(holder)].after.push_back(within);
+  maker.place(holder, stretched(maker, transform), maker.random.chance(0.5));
+}
+
+// Four in a row, of which the last is sheared.
+void addBalls(SceneMaker& maker, const std::function<Material()>& material) {
+  for (int i = 0; i < 3; ++i) {
+    const int ball = maker.addSphere(anyRadius(maker), material());
+    maker.place(ball, ballStanding(maker, i, 4));
+  }
+  addSheared(maker, material(), maker.standing(3, 4));
+}
+
+Material anyFinish(SceneMaker& maker) {
+  Material material = maker.random.chance(0.3)   ? maker.mirror()
+                      : maker.random.chance(0.6) ? maker.glossy()
+                                                 : maker.matte();
+  if (maker.random.chance(0.3)) material.emission = maker.random.color(0, 1);
+  return material;
+}
+
+// Among boxes, so that shadows of either fall on the other.
+void opaqueBalls(SceneMaker& maker) {
+  maker.room();
+  addBalls(maker, [&] { return anyFinish(maker); });
+  maker.add(box(), maker.glossy(), maker.random.placement({-1, 2.2, 0.3}, 0.4));
+  maker.add(tetrahedron(), maker.matte(), maker.random.placement({1.2, 1, 1.2}, 0.5));
+  lampsAbove(maker, 2);
+}
+
+TEST_F(Spheres, OpaqueOnesAndTheirShadows) {
+  expectAgreement({"opaque spheres", opaqueBalls});
+  expectAgreement({"opaque spheres, --terminator on", opaqueBalls, {.terminator = true}});
+}
+
+// Eyes and lights within a ball that has no other side.
+TEST_F(Spheres, OpaqueOnesFromWithin) {
+  expectAgreement({"opaque spheres from within", [](SceneMaker& maker) {
+                     opaqueBalls(maker);
+                     const int shell = maker.addSphere(12, anyFinish(maker));
+                     maker.place(shell, stretched(maker, maker.random.placement({0, 1, 0}, 1)));
+                   }});
+}
+
+int addColors(SceneMaker& maker) {
+  Texture texture;
+  texture.width = 3 + maker.random.below(12), texture.height = 2 + maker.random.below(7);
+  for (int i = 0; i < texture.width * texture.height; ++i) {
+    const auto channel = [&] { return maker.random.chance(0.5) ? 255 : 0; };
+    texture.texels.push_back({channel(), channel(), channel()});
+  }
+  maker.scene.textures.push_back(texture);
+  return static_cast<int>(maker.scene.textures.size()) - 1;
+}
+
+Material painted(SceneMaker& maker) {
+  Material material = maker.glossy();
+  material.diffuseMap = addColors(maker);
+  if (maker.random.chance(0.3)) material.specularMap = addColors(maker);
+  if (maker.random.chance(0.3)) material.emission = maker.random.color(0.2, 1);
+  if (largest(material.emission) > 0) material.emissionMap = addColors(maker);
+  return material;
+}
+
+void paintedBalls(SceneMaker& maker) {
+  maker.room();
+  addBalls(maker, [&] { return painted(maker); });
+  maker.add(pane(), maker.mirror(), maker.random.placement({0.4, 2.3, -1.2}, 1.6));
+  lampsAbove(maker, 2);
+}
+
+TEST_F(Spheres, Textures) {
+  expectAgreement({"textured spheres", paintedBalls});
+  expectAgreement({"textured spheres, nearest texels", paintedBalls, {.filter = Filter::nearest}});
+  expectAgreement({"textured spheres, trilinear", paintedBalls, {.filter = Filter::trilinear}});
+}
+
+// Of a width and a height that are powers of two.
+int addDataBetween(SceneMaker& maker, const Color& low, const Color& high) {
+  Texture texture;
+  texture.width = 16, texture.height = 8, texture.isData = true;
+  for (int i = 0; i < texture.width * texture.height; ++i) {
+    const Vec texel = maker.random.inBox(low, high);
+    texture.texels.push_back(
+        {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
+  }
+  maker.scene.textures.push_back(texture);
+  return static_cast<int>(maker.scene.textures.size()) - 1;
+}
+
+// Matte: a lobe has no value for a viewer behind the normal.
+void bumpyBalls(SceneMaker& maker) {
+  maker.room();
+  addBalls(maker, [&] {
+    Material material = maker.matte();
+    material.normalMap = addDataBetween(maker, {80, 80, 200}, {176, 176, 255.99});
+    return material;
+  });
+  lampsAbove(maker, 2);
+}
+
+TEST_F(Spheres, NormalMaps) {
+  expectAgreement({"normal maps on spheres", bumpyBalls});
+  expectAgreement(
+      {"normal maps on spheres, nearest texels", bumpyBalls, {.filter = Filter::nearest}});
+  expectAgreement({"normal maps on spheres, trilinear", bumpyBalls, {.filter = Filter::trilinear}});
+}
+
+// The far side is seen through what is cut out of the near one.
+void maskedBalls(SceneMaker& maker) {
+  maker.room();
+  addBalls(maker, [&] {
+    Material material = maker.random.chance(0.7) ? maker.glossy() : maker.mirror();
+    material.alphaMap = addDataBetween(maker, {}, {255.99, 1, 1});
+    if (maker.random.chance(0.5)) material.alphaCutoff = maker.random.between(0.3, 0.7);
+    return material;
+  });
+  lampsAbove(maker, 2);
+}
+
+TEST_F(Spheres, AlphaMasks) { expectAgreement({"masked spheres", maskedBalls}); }
+
+Material anyPart(SceneMaker& maker) {
+  Material material = maker.random.chance(0.4) ? maker.mirror() : maker.glossy();
+  material.coverage = maker.random.between(0.1, 0.95);
+  if (maker.random.chance(0.5)) {
+    material.coverage = maker.random.between(0.5, 1);
+    material.coverageMap = addDataBetween(maker, {}, {255.99, 1, 1});
+  }
+  material.castsShadow = material.coverage >= 0.5;
+  return material;
+}
+
+Material film(SceneMaker& maker) {
+  Material material = maker.glass(maker.random.between(1.2, 1.9));
+  material.thin = true;
+  return material;
+}
+
+void ballsInPart(SceneMaker& maker) {
+  maker.room();
+  maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
+  addBalls(maker, [&] { return maker.random.chance(0.8) ? anyPart(maker) : film(maker); });
+  lampsAbove(maker, 2);
+}
+
+TEST_F(Spheres, ThereInPart) {
+  expectAgreement({"spheres that are there in part", ballsInPart, {.depth = 12}});
+  expectAgreement({"spheres that are there in part, trilinear",
+                   ballsInPart,
+                   {.depth = 12, .filter = Filter::trilinear}});
+}
+
+void roomBehindGlass(SceneMaker& maker) {
+  maker.room();
+  maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
+  maker.add(tetrahedron(), maker.matte(), maker.random.placement({1.2, 0.9, -1.8}, 1));
+  maker.place(maker.addSphere(0.4, anyFinish(maker)), maker.random.placement({0, 1.5, -2}, 1));
+  lampsAbove(maker, 2);
+}
+
+Material anyGlass(SceneMaker& maker, int priority) {
+  return maker.glass(maker.random.between(1.2, 1.9), priority);
+}
+
+// Within `reach` of the center, of some `radius`.
+void addGlassBall(SceneMaker& maker, const Vec& center, double reach, double radius,
+                  const Material& glass) {
+  const Vec at = center + maker.random.inBox(gray(-reach), gray(reach));
+  const Transform transform = maker.random.placement(at, 1);
+  const bool round = maker.random.chance(0.4);
+  maker.place(maker.addSphere(radius, glass), round ? transform : stretched(maker, transform));
+}
+
+TEST_F(Spheres, Glass) {
+  expectAgreement({"glass spheres", [](SceneMaker& maker) {
+                     roomBehindGlass(maker);
+                     for (int i = 0; i < 3; ++i) {
+                       Material glass = anyGlass(maker, 0);
+                       if (i == 1) glass.mirror = maker.random.color(0.05, 0.2);
+                       if (i == 1) glass.mirrorGrazing = maker.random.color(0.3, 0.6);
+                       addGlassBall(maker, {1.4 * i - 1.4, 1.1, 0.2}, 0.1, 0.6, glass);
+                     }
+                   }});
+}
+
+// One within the other, and two that overlap.
+void nestedBalls(SceneMaker& maker, int outer, int inner, int left, int right) {
+  roomBehindGlass(maker);
+  const Vec shells{-0.9, 1.1, 0.2}, pair{0.9, 1.1, 0.2};
+  maker.place(maker.addSphere(0.8, anyGlass(maker, outer)), maker.random.placement(shells, 1));
+  addGlassBall(maker, shells, 0.1, 0.5, anyGlass(maker, inner));
+  addGlassBall(maker, pair, 0.3, 0.7, anyGlass(maker, left));
+  addGlassBall(maker, pair, 0.2, 0.8, anyGlass(maker, right));
+}
+
+TEST_F(Spheres, NestedGlassOfEqualPriority) {
+  expectAgreement({"nested glass spheres, equal priorities",
+                   [](SceneMaker& maker) { nestedBalls(maker, 0, 0, 2, 2); }});
+}
+
+TEST_F(Spheres, NestedGlassOfUnequalPriority) {
+  expectAgreement({"nested glass spheres, unequal priorities", [](SceneMaker& maker) {
+                     const bool shell = maker.random.chance(0.5);
+                     nestedBalls(maker, shell ? -1 : 0, shell ? 3 : -2, 1, 2);
+                   }});
+}
+
+// A ball, a box and a ball, of any priorities.
+TEST_F(Spheres, GlassAcrossBoxes) {
+  expectAgreement({"glass spheres across a box", [](SceneMaker& maker) {
+                     roomBehindGlass(maker);
+                     const Vec center{0, 1.2, 0.3};
+                     for (int i = 0; i < 3; ++i) {
+                       Material glass = anyGlass(maker, maker.random.below(3));
+                       glass.absorption = glass.absorption * 2;
+                       if (i == 1) {
+                         maker.add(box(), glass, maker.random.placement(center, 1));
+                       } else {
+                         addGlassBall(maker, center, 0.4, 0.8, glass);
+                       }
+                     }
+                   }});
+}
+
+// Two balls about the eye, of unequal priorities: of equal ones the ray that looks for them
+// decides.
+TEST_F(Spheres, EyesInside) {
+  expectAgreement({"eyes in spheres of a medium", [](SceneMaker& maker) {
+                     opaqueBalls(maker);
+                     const int innerWins = maker.random.chance(0.5) ? 1 : -1;
+                     for (int i = 0; i < 2; ++i) {
+                       Material water = anyGlass(maker, i * innerWins);
+                       water.castsShadow = false;
+                       water.absorption = maker.random.color(0.1, 0.5);
+                       addGlassBall(maker, maker.scene.camera.eye, 0.2, 1.6 - 0.6 * i, water);
+                     }
+                   }});
+}
+
+// All that is seen lies in the ball: only absorption tells.
+TEST_F(Spheres, EyesUnderWater) {
+  expectAgreement({"eyes in a sphere of water", [](SceneMaker& maker) {
+                     opaqueBalls(maker);
+                     Material water = anyGlass(maker, 0);
+                     water.castsShadow = false;
+                     addGlassBall(maker, {0, 0, 0}, 2, 40, water);
+                   }});
+}
+
+// Each ray begins where it begins, in glass or beside it.
+TEST_F(Spheres, ParallelRaysFromWithinGlassAndFromBeside) {
+  expectAgreement({"parallel rays across a sphere", [](SceneMaker& maker) {
+                     opaqueBalls(maker);
+                     maker.scene.camera.orthographicHeight = 4;
+                     Material water = anyGlass(maker, 0);
+                     water.castsShadow = false;
+                     addGlassBall(maker, maker.scene.camera.eye, 0.6, 1.2, water);
+                   }});
+}
+
+// Turned, stretched and mirrored uses of a few balls, one of them among others of an object.
+void usedOften(SceneMaker& maker, const std::function<Material()>& material) {
+  maker.room();
+  const int balls[] = {maker.addSphere(anyRadius(maker), material()),
+                       maker.addSphere(anyRadius(maker), material()),
+                       maker.addSphere(0.4, material())};
+  Body within;
+  within.object = balls[1];
+  within.transform = stretched(maker, maker.random.placement({0.3, 0.5, 0}, 0.6));
+  within.inPlace = maker.random.chance(0.7);
+  maker.scene.objects[static_cast<std::size_t>(balls[2])].after.push_back(within);
+  for (int i = 0; i < 9; ++i) {
+    Transform transform = ballStanding(maker, i % 5, 5);
+    if (i >= 5) transform.translate.z -= 1.5, transform.translate.y += 0.5;
+    transform.translate = asFloat(transform.translate);
+    maker.place(balls[i % 3], transform);
+  }
+  lampsAbove(maker, 2);
+}
+
+void opaqueInstances(SceneMaker& maker) {
+  usedOften(maker, [&] { return anyFinish(maker); });
+}
+
+TEST_F(Spheres, Instances) { expectAgreement({"instances of spheres", opaqueInstances}); }
+
+TEST_F(Spheres, InstancesWithMaps) {
+  const auto mapped = [](SceneMaker& maker) {
+    usedOften(maker, [&] {
+      Material material = maker.matte();
+      material.diffuseMap = addColors(maker);
+      material.normalMap = addDataBetween(maker, {80, 80, 200}, {176, 176, 255.99});
+      if (maker.random.chance(0.4)) {
+        material.alphaMap = addDataBetween(maker, {}, {255.99, 1, 1});
+      }
+      return material;
+    });
+  };
+  expectAgreement({"instances of spheres with maps", mapped});
+  expectAgreement(
+      {"instances of spheres with maps, trilinear", mapped, {.filter = Filter::trilinear}});
+}
+
+TEST_F(Spheres, InstancesFarFromTheOrigin) {
+  const auto make = [](SceneMaker& maker) {
+    opaqueInstances(maker);
+    const Vec away{150, -90, 120};
+    const auto move = [&](Vec& p) { p = asFloat(p + away); };
+    for (Body& body : maker.scene.bodies) move(body.transform.translate);
+    for (Light& light : maker.scene.lights) move(light.position);
+    move(maker.scene.camera.eye);
+    move(maker.scene.camera.at);
+  };
+  expectAgreement({"instances of spheres far away", make, {}, 10, 10});
+}
+
+// Copies of one object are one medium, each with its own surface.
+TEST_F(Spheres, InstancesOfGlass) {
+  expectAgreement({"instances of glass spheres", [](SceneMaker& maker) {
+                     roomBehindGlass(maker);
+                     const int glass = maker.addSphere(0.6, anyGlass(maker, 1));
+                     const int other = maker.addSphere(0.5, anyGlass(maker, 0));
+                     for (int i = 0; i < 4; ++i) {
+                       const Vec at{0.8 * i - 1.2, 1.1, 0.3};
+                       const Vec beside = maker.random.inBox(gray(-0.2), gray(0.2));
+                       maker.place(i % 2 == 0 ? glass : other,
+                                   stretched(maker, maker.random.placement(at + beside, 1)));
+                     }
+                   }});
+}
+
+// Seen from near: what is sampled shall fill the picture.
+void roughBalls(SceneMaker& maker) {
+  maker.room();
+  maker.scene.camera.fov = maker.random.between(24, 30);
+  Light light = maker.lamp();
+  light.intensity = maker.random.color(2, 6);
+  light.radius = maker.random.between(0.2, 0.6);
+  maker.scene.lights.push_back(light);
+  addBalls(maker, [&] {
+    Material material = maker.glossy();
+    material.roughness = maker.random.between(0.55, 0.9);
+    return material;
+  });
+}
+
+TEST_F(Spheres, Sampled) {
+  expectAgreement({"sampled spheres", roughBalls, {.depth = 2, .glossy = 16, .lightSamples = 8}});
+}
+
+}  // namespace
+}  // namespace oracle
