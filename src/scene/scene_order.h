@@ -3,8 +3,8 @@
 // one class lie together. Of faces in one place the later in the scene is met.
 #pragma once
 
-#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "scene/flush_triangles.h"
@@ -18,7 +18,11 @@ struct WrittenPlace {
   std::uint64_t rank = 0;      // Instance::rank + Mesh::rank
   std::uint32_t instance = 0;  // in SceneDescription::instances
   std::uint32_t triangle = 0;  // in what the instance places
-  auto operator<=>(const WrittenPlace&) const = default;
+
+  bool operator<(const WrittenPlace& other) const {
+    return std::tie(rank, instance, triangle) <
+           std::tie(other.rank, other.instance, other.triangle);
+  }
 };
 
 // Filled while the scene is baked.

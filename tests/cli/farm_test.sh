@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 mkdir whole farmed slurm
 # A frame takes long enough to be killed in, a tenth of a second or so.
-options=(--size 64x40 --spp 16 --threads 1)
+options=(--size 64x40 --spp 128 --threads 1)
 "$whit" render whitted -o "whole/####.exr" --frames 0..7 "${options[@]}" --quiet
 
 farm() { WHIT=$whit JOBS=2 CHUNK=4 RETRIES=${1:-1} "$farm/parallel.sh" frames whitted "farmed/####.exr" 0..7 \
