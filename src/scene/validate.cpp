@@ -206,6 +206,7 @@ void checkObjects(const SceneDescription& d) {
       if (mesh.materials.size() != 1 && !mesh.triangles.empty()) {
         expect("materials", mesh.materials.size(), mesh.triangles.size());
       }
+      if (mesh.materials.empty() && !mesh.spheres.empty()) expect("materials", 0, 1);
       if (!mesh.order.empty()) expect("places", mesh.order.size(), mesh.triangles.size());
       for (const std::uint32_t m : mesh.materials) {
         if (m < d.materials.size()) continue;

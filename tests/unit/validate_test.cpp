@@ -131,6 +131,14 @@ const std::vector<Refusal>& refusals() {
       {"no material",
        [](auto& d) { d.objects[0].meshes[0].materials.clear(); },
        {"expected 2 materials, found 0"}},
+      {"spheres without a material",
+       [](auto& d) {
+         Mesh& mesh = d.objects[0].meshes[0];
+         mesh = {};
+         mesh.name = "balls";
+         mesh.spheres = {Affine()};
+       },
+       {"mesh 'balls'", "expected 1 materials, found 0"}},
       {"unknown material",
        [](auto& d) {
          d.objects[0].meshes[0].materials = {0, 1};
