@@ -30,5 +30,6 @@ Accel::~Accel() = default;
 int Accel::packet() const { return parts_->packet; }
 std::string Accel::description() const { return parts_->description; }
 std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }
+std::uint64_t Accel::sphereBytes() const { return parts_->embree.sphereBytes(); }
 
 }  // namespace whit

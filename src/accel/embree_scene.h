@@ -38,8 +38,9 @@ class EmbreeScene {
 
   RTCScene top() const { return scenes_[0].get(); }
   RTCDevice device() const { return device_.get(); }
-  std::uint64_t memoryBytes() const {
-    std::uint64_t bytes = bytes_;
+  std::uint64_t memoryBytes() const { return bytes_ + sphereBytes(); }
+  std::uint64_t sphereBytes() const {
+    std::uint64_t bytes = 0;
     for (const auto& spheres : spheres_) bytes += spheres->memoryBytes();
     return bytes;
   }

@@ -86,6 +86,11 @@ std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& optio
   return rows;
 }
 
+std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {
+  const std::uint64_t spheres = scene.triangles.size() - scene.firstSphere;
+  return spheres == 0 ? 0 : sizeof(TriangleRecord) + renderer.accel().sphereBytes() / spheres;
+}
+
 double memoryMb(const Scene& scene, const Renderer& renderer) {
   return static_cast<double>(scene.memoryBytes() + renderer.memoryBytes()) / 1e6;
 }

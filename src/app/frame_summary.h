@@ -62,6 +62,9 @@ struct EffectRow {
 // reason.
 std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options);
 
+// What one exact sphere takes beside its part of the BVH; 0 where there are none.
+std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);
+
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);
 

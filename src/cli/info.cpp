@@ -19,7 +19,9 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("%s\n", s.name.c_str());
   std::printf("  %-12s%llu\n", "triangles", static_cast<unsigned long long>(s.instancedTriangles));
   if (s.instancedSpheres > 0) {
-    std::printf("  %-12s%llu\n", "spheres", static_cast<unsigned long long>(s.instancedSpheres));
+    std::printf("  %-12s%llu, %llu bytes each beside the BVH\n", "spheres",
+                static_cast<unsigned long long>(s.instancedSpheres),
+                static_cast<unsigned long long>(bytesPerSphere(s, renderer)));
   }
   std::printf("  %-12s%zu\n", "instances", s.instances.size());
   std::printf("  %-12s(%g, %g, %g) to (%g, %g, %g)\n", "bounds", s.lower.x, s.lower.y, s.lower.z,

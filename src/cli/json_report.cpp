@@ -151,6 +151,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
   Json json{{"scene", scene.name},
             {"triangles", scene.instancedTriangles},
             {"spheres", scene.instancedSpheres},
+            {"bytes_per_sphere", bytesPerSphere(scene, renderer)},
             {"instances", scene.instances.size()},
             {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
             {"materials", scene.materials.size()},
