@@ -15,7 +15,8 @@ namespace whit::accuracy {
 // Of one scene and view.
 class ErrorMeter {
  public:
-  // `base` gives the samples that the exact picture at equal samples has, and the display.
+  // `scene` has exact spheres. `base` gives the samples that the exact picture at equal samples
+  // has, and the display.
   ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
              const Exactness& exactness, ReferenceCache& cache, int samples, Progress* progress);
 

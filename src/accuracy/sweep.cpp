@@ -21,20 +21,20 @@ constexpr double kPacketFrameWork = 0.1;
 
 class SceneSweeper {
  public:
-  SceneSweeper(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+  SceneSweeper(SceneVariants& scenes, const RenderOptions& base, const SweepSettings& settings,
                Progress* progress)
-      : scene_(scene),
+      : scenes_(scenes),
         base_(base),
         settings_(settings),
         scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp},
-        camera_(chooseCamera(scene, base)),
-        effects_(scene.effects.without(base.disable)),
+        camera_(chooseCamera(scenes.given(), base)),
+        effects_(scenes.with(0).effects.without(base.disable)),
         exactness_(exactnessFor(effects_, settings.full)),
-        cache_(scene, camera_, settings.cacheFolder, settings.program),
-        pace_(progress, scene.name) {}
+        cache_(scenes.with(0), camera_, settings.cacheFolder, settings.program),
+        pace_(progress, scenes.given().name) {}
 
   SceneSweep run() {
-    baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
+    baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
     baseline_->render();
     timer_.emplace(*baseline_, scope_);
     describe();
@@ -48,8 +48,12 @@ class SceneSweeper {
   }
 
  private:
+  const Scene& sceneFor(const RenderOptions& options) {
+    return scenes_.with(options.sphereSegments);
+  }
+
   void describe() {
-    sweep_.scene = scene_.name;
+    sweep_.scene = scenes_.given().name;
     sweep_.width = baseline_->film.image.windowWidth();
     sweep_.height = baseline_->film.image.windowHeight();
     sweep_.machine = baseline_->renderer.machine();
@@ -69,7 +73,8 @@ class SceneSweeper {
                                 settings_.seed);
     sweep_.idle = std::move(list.idle);
     for (Point& point : list.points) {
-      const std::string because = scope_.leavesOut(point);
+      std::string because = scope_.leavesOut(point);
+      if (because.empty()) because = scenes_.leavesOut(point.options.sphereSegments);
       if (because.empty()) {
         sweep_.points.push_back(std::move(point));
       } else {
@@ -88,7 +93,8 @@ class SceneSweeper {
     pace_.plan(work + base_.spp);
     for (const Point& point : sweep_.points) pace_.plan(workOf(point));
     pace_.begin("reference", work);
-    ErrorMeter meter(scene_, camera_, base_, exactness_, cache_, sweep_.referenceSamples, &pace_);
+    ErrorMeter meter(scenes_.with(0), camera_, base_, exactness_, cache_, sweep_.referenceSamples,
+                     &pace_);
     const ReferencePicture& reference = meter.reference();
     reference.fromFile ? pace_.skip() : pace_.end();
     sweep_.referenceDigest = reference.digest;
@@ -108,7 +114,7 @@ class SceneSweeper {
     pace_.begin(point.label(), workOf(point));
     meter.measure(point, *baseline_, scope_.comparesPaths(point));
     if (base_.mode == Mode::packets) {
-      const Film scratch = makeFilm(scene_, scope_.longFrames() ? middleQuarter() : base_);
+      const Film scratch = makeFilm(sceneFor(base_), scope_.longFrames() ? middleQuarter() : base_);
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
     meter.depict(point, baseline_->film.image);
@@ -162,7 +168,7 @@ class SceneSweeper {
 
   // False: in this view the point is the baseline under another name.
   bool measurePoint(Point& point, ErrorMeter& meter) {
-    FrameSource frames(scene_, camera_, point.options);
+    FrameSource frames(sceneFor(point.options), camera_, point.options);
     frames.render();  // allocates: its time counts only where there is none for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
@@ -223,7 +229,7 @@ class SceneSweeper {
     }
   }
 
-  const Scene& scene_;
+  SceneVariants& scenes_;
   RenderOptions base_;
   SweepSettings settings_;
   Scope scope_;
@@ -239,9 +245,9 @@ class SceneSweeper {
 
 }  // namespace
 
-SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
-                      Progress* progress) {
-  return SceneSweeper(scene, base, settings, progress).run();
+SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
+                      const SweepSettings& settings, Progress* progress) {
+  return SceneSweeper(scenes, base, settings, progress).run();
 }
 
 }  // namespace whit::accuracy

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
+#include "accuracy/scene_variants.h"
 
 namespace whit::accuracy {
 
@@ -29,9 +30,10 @@ struct SweepSettings {
   std::string program;  // what identifies the code that renders
 };
 
-// `base` is the baseline. The reference has 256 samples (full) or 64; fewer, but at least 8 or 2,
-// where its rays would exceed 400 or 30 million. Throws Error(io) when the cache cannot be written.
-SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
-                      Progress* progress);
+// `base` is the baseline, and scenes.given() has its --sphere-segments. The reference has 256
+// samples (full) or 64; fewer, but at least 8 or 2, where its rays would exceed 400 or 30 million.
+// Throws Error(io) when the cache cannot be written.
+SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
+                      const SweepSettings& settings, Progress* progress);
 
 }  // namespace whit::accuracy

@@ -124,6 +124,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
 void settleOptions(CommonOptions& common) {
   applyQuality(common.render, common.given);
   common.load.threads = common.render.threads;
+  common.load.sphereSegments = common.render.sphereSegments;
   common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
 }
 

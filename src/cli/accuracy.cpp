@@ -141,7 +141,13 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
     const auto open = openScene(name, job.common, progress.get());
     openFilm(open->scene, job.common);  // refuses a size that does not fit into memory
     const RenderOptions options = sweptOptions(*open, job.common);
-    sweeps.push_back(sweepScene(open->scene, options, settings, progress.get()));
+    accuracy::SceneVariants scenes(open->scene, options.sphereSegments, [&](int segments) {
+      CommonOptions other = job.common;
+      other.quiet = true;  // its warnings have been told
+      other.load.sphereSegments = segments;
+      return std::move(openScene(name, other, nullptr)->scene);
+    });
+    sweeps.push_back(sweepScene(scenes, options, settings, progress.get()));
   }
   return sweeps;
 }

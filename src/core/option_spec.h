@@ -17,6 +17,7 @@ enum class Rebuild {
   tables,   // the shading tables, if the plan calls for others
   workers,  // threads, their tiles and queues
   acceleration,
+  scene,  // which whoever loads it does
 };
 
 // What an inexact value costs the picture: rounding (the same rays, computed otherwise), rays and
@@ -43,6 +44,8 @@ inline constexpr Need kNeedsVertexNormals{EffectSet().with(Effect::smoothNormals
                                           "all surfaces are flat"};
 inline constexpr Need kNeedsBentNormals{kNeedsVertexNormals.oneOf.with(Effect::normalMaps),
                                         kNeedsVertexNormals.without};
+inline constexpr Need kNeedsSpheres{EffectSet().with(Effect::spheres),
+                                    "the scene has no exact sphere"};
 inline constexpr Need kNeedsTextures{EffectSet().with(Effect::textures).with(Effect::normalMaps),
                                      "the scene has no texture"};
 

@@ -48,6 +48,7 @@ struct Crop {
 };
 
 inline constexpr int kDepthLimit = 64;
+inline constexpr int kSphereSegmentsLimit = 4096;
 
 // In the order of their entries below.
 struct RenderOptions {
@@ -71,6 +72,7 @@ struct RenderOptions {
   Batch batch = Batch::tile;
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
+  int sphereSegments = 0;  // of the triangles in place of each sphere; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
   EffectSet disable;
@@ -274,6 +276,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
                                .values = "low medium high", .spare = "low high"}},
              o.bvh},
+      Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
+              .help = "triangles in place of the scene's exact spheres, so many around each and "
+                      "half as many from pole to pole, 4 or more; 0: they are exact",
+              .rebuilds = Rebuild::scene, .tab = Tab::none,
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
+                               .values = "0 16 48 192 384", .needs = {kNeedsSpheres}}},
+             o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for what the scene calls for, or every effect",
               .rebuilds = Rebuild::tables,

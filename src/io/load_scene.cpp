@@ -17,6 +17,8 @@
 #include "io/scene_settings.h"
 #include "io/scene_view.h"
 #include "io/supply_view.h"
+#include "scene/generation_limit.h"
+#include "scene/shapes/generators.h"
 
 namespace whit {
 namespace {
@@ -64,6 +66,19 @@ void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyS
   }
 }
 
+void replaceSpheres(int segments, SceneContext& context) {
+  constexpr int kLeast = 4;
+  if (segments == 0) return;
+  if (segments < kLeast) {
+    throwUsage("--sphere-segments expected 0 or at least " + std::to_string(kLeast) + ", found " +
+               std::to_string(segments));
+  }
+  const GenerationLimit limit(context.budget.left());
+  for (Object& object : context.scene.objects) {
+    for (Mesh& mesh : object.meshes) procedural::tessellateSpheres(mesh, segments);
+  }
+}
+
 SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   JsonDocument document;
@@ -85,6 +100,7 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   materials.checkUnused();
   file.finish();
   finishTextures(context, fromSky);
+  replaceSpheres(options.sphereSegments, context);
   return std::move(context.scene);
 }
 
@@ -157,6 +173,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   replaceSky(context);
   if (!ownAmbient && context.scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;
   finishTextures(context, fromSky);
+  replaceSpheres(options.sphereSegments, context);
   return std::move(context.scene);
 }
 

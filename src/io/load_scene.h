@@ -22,6 +22,9 @@ struct LoadOptions {
   // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
   // image. Empty: the scene's own; of a model, which has none, the studio.
   std::string sky;
+  // Segments of the triangles in place of each exact sphere, at least 4 (Error(usage) else); 0: the
+  // spheres stay.
+  int sphereSegments = 0;
 };
 
 // `name`: a scene file (.json), a model (model.h), or the bare name of a shipped scene, looked for

@@ -66,6 +66,7 @@ Scene loadScene(const std::string& name, const LoadOptions& options, const char*
     load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
     load.threads = options.threads;
     load.sky = options.sky;
+    load.sphereSegments = options.sphereSegments;
     load.shippedScenes = shippedScenes;
     auto data = std::make_shared<Scene::Data>(options.strict);
     data->scene =

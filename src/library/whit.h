@@ -42,6 +42,8 @@ struct LoadOptions {
   // In place of the scene's own sky: none, studio or the file of an image. Empty: the scene's own;
   // of a model the studio.
   std::string sky = {};
+  // Triangles in place of the scene's exact spheres, so many around each, 4 or more; 0: none.
+  int sphereSegments = 0;
 };
 
 // A scene that is ready to be rendered. A handle: copies share the scene, which never changes.

@@ -55,6 +55,9 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
       scheduler_(options.threads > 0 ? options.threads : usableThreads()),
       adaptive_(scheduler_) {
   const Stopwatch stopwatch;
+  if (options.sphereSegments > 0 && scene.effects.has(Effect::spheres)) {
+    throwUsage("sphere-segments is taken while a scene is loaded: this one has exact spheres");
+  }
   chooseSimd(options.simd);
   plan_ = makePlan(scene, options);
   const int threads = scheduler_.threads();

@@ -41,8 +41,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
         "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
-        "built "
-        "anew");
+        "built anew");
   }
   const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
   if (rebuildNeeded(options_, options) >= Rebuild::tables &&

@@ -162,6 +162,16 @@ TEST(Library, FailsWithTheProgramsStatus) {
   EXPECT_EQ(renderer.render().width(), 16);  // and goes on
 }
 
+TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
+  EXPECT_EQ(statusOf([] { smallRenderer().set("sphere-segments", "16").render(); }), 2);
+  EXPECT_EQ(statusOf([] { loadScene("whitted", {.sphereSegments = 3}); }), 2);
+  const Scene coarse = loadScene("whitted", {.sphereSegments = 16});
+  EXPECT_GT(coarse.triangles(), whittedScene().triangles());
+  Renderer renderer(coarse);
+  renderer.set("size", "40x24").set("sphere-segments", "16");
+  EXPECT_EQ(renderer.render().width(), 40);
+}
+
 TEST(Library, ScenesThatAreNotGoodSayWhere) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("whit-library-" + std::to_string(::getpid()) + ".json");

@@ -67,6 +67,9 @@ Shape makeSphere(ShapeParameters& parameters) {
 void tessellateSpheres(Mesh& mesh, int segments) {
   if (mesh.spheres.empty()) return;
   const Mesh unit = sphereMesh(1, segments, segments / 2);
+  GenerationLimit::charge(mesh.spheres.size(),
+                          unit.positions.size() * (2 * sizeof(Vec3f) + sizeof(Vec2f)) +
+                              unit.triangles.size() * sizeof(unit.triangles[0]));
   for (const Affine& map : std::exchange(mesh.spheres, {})) {
     Mesh sphere = unit;
     transform(sphere, map);
