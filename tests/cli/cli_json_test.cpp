@@ -145,6 +145,14 @@ TEST_F(JsonResults, Info) {
   for (const Json& stage : json["stages"]) EXPECT_NE(stage, "checkShadows");
   ASSERT_FALSE(json["kernels"].empty());
   for (const Json& kernel : json["kernels"]) expectKeys(kernel, {"stage", "variant", "target"});
+  EXPECT_EQ(json["spheres"], 0);
+  EXPECT_EQ(json["bytes_per_sphere"], 0);
+}
+
+TEST_F(JsonResults, InfoOfSpheres) {
+  const Json json = resultOf({"info", "whitted"});
+  EXPECT_EQ(json["spheres"], 3);
+  EXPECT_GE(json["bytes_per_sphere"], 64);
 }
 
 TEST_F(JsonResults, RenderWritesAFile) {
