@@ -37,7 +37,8 @@ CHOICES = ["--batch frame", "--robust off", "--threads 1", "--threads 8", "--mod
 ROUNDS = 3
 DEPTHS = [0, 1, 2, 4, 8, 64]
 TRIANGLES = [1000000, 20000000]
-LONG_PATHS = ["matte", "mirrors", "whitted", "glass"]
+LONG_PATHS = ["matte", "sponza-mirror", "mirrors", "whitted", "glass"]
+SEGMENTS = [0, 16, 48, 192]
 COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "sponza-mirror"]
 SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
@@ -107,6 +108,18 @@ def measure_viewer():
     keep("viewer.json", {"text": "\n".join(text.rstrip() for text in said)})
 
 
+def measure_spheres():
+    """Exact ones and triangles in turn; and POV-Ray's."""
+    keep("spheres.json",
+         merged([(bench("whitted", "--size", "480x300", "--depth", "8", "--frames", "9",
+                        "--sphere-segments", segments), {"segments": segments})
+                 for _ in range(ROUNDS) for segments in SEGMENTS]))
+    against = OUT / "spheres-povray.json"
+    if not shutil.which("povray"):
+        return complain("povray is not installed: spheres are not compared with its")
+    run([ROOT / "tests/bench/spheres_povray.py", "--rounds", "7", "--json", against])
+
+
 def measure_speed():
     for size in SIZES:
         keep(f"frames-{size}.json", bench(*here(FRAME_SCENES), "--size", size, *FRAME))
@@ -123,8 +136,9 @@ def measure_speed():
          merged([(bench(f"landscape?triangles={n}", "--size", "480x300", "--frames", "5"), {})
                  for n in TRIANGLES]))
     keep("long-paths.json",
-         merged([(bench(*LONG_PATHS, "--size", "480x300", "--frames", "3", "--quality", quality),
+         merged([(bench(*here(LONG_PATHS), "--size", "480x300", "--frames", "3", "--quality", quality),
                   {"quality": quality}) for quality in ["standard", "draft"]]))
+    measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
     keep("kernels.json", json.loads(run(
         [BUILD / "tests/kernels_bench", "--benchmark_format=json", "--benchmark_min_time=0.02"],
@@ -274,6 +288,28 @@ def long_path_table(data):
                  [[scene_of(r), number(r["frame_ms"]["median"]), number(million_rays(r), 2),
                    number(draft[r["scene"]]["frame_ms"]["median"])]
                   for r in data["runs"] if r["quality"] == "standard"])
+
+
+def sphere_table(data):
+    def median(segments):
+        return statistics.median(r["frame_ms"]["median"] for r in data["runs"]
+                                 if r["segments"] == segments)
+
+    rows = []
+    for segments in SEGMENTS:
+        one = next(r for r in data["runs"] if r["segments"] == segments)
+        rows.append([str(segments) if segments else "exact", number(one["triangles"], 0),
+                     number(median(segments)), number(median(segments) / median(0), 2),
+                     number(million_rays(one), 2)])
+    return table(["whitted, `--sphere-segments`", "triangles", "ms", "times the exact",
+                  "million rays"], rows)
+
+
+def povray_table(times):
+    own = statistics.median(times["whit"])
+    return table(["nine spheres", "ms", "times whit's"],
+                 [[name, number(statistics.median(ms)), number(statistics.median(ms) / own, 2)]
+                  for name, ms in times.items()])
 
 
 def compare_table(data):
@@ -432,7 +468,7 @@ def put(page, tables):
 
 def write_speed():
     made = {"widths": width_table, "choices": choice_table, "depths": depth_table,
-            "triangles": triangle_table, "long-paths": long_path_table}
+            "triangles": triangle_table, "long-paths": long_path_table, "spheres": sphere_table}
     files = {name: read(name + ".json") for name in [*made, "effects-kernels"]}
     frames = [(size, read(f"frames-{size}.json")) for size in SIZES]
     if not all(data for _, data in frames):
@@ -448,6 +484,9 @@ def write_speed():
         tables["effects-kernels"] = (
             f"With every effect compiled in, a frame of matte takes {ratio['frame']:.2f} times as "
             f"long, its part outside Embree {ratio['outside_embree']:.2f} times.")
+    against = read("spheres-povray.json")
+    if against:
+        tables["spheres-povray"] = povray_table(against)
     kernels = read("kernels.json")
     if kernels:
         tables["kernels"] = kernel_table(kernels)

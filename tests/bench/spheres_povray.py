@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Nine spheres of glass, air and mirrors over a checkered floor: whit and POV-Ray in turn.
 
-  tests/bench/spheres_povray.py [--rounds N] [--size WxH] [--pictures DIR]
+  tests/bench/spheres_povray.py [--rounds N] [--size WxH] [--pictures DIR] [--json FILE]
 
 Both have exact spheres, the same view, light, indices and reflectances, depth 8, the same smallest
 contribution (--cutoff, adc_bailout) and two threads; glass casts no shadow in either. Prints the
@@ -103,6 +103,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--size", default="480x300")
     parser.add_argument("--pictures", type=pathlib.Path)
+    parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
     if not shutil.which("povray") or not WHIT.exists():
         print("povray or build/whit is not there: nothing is compared", file=sys.stderr)
@@ -122,6 +123,8 @@ def main():
             times["POV-Ray"].append(
                 trace_povray(pov, width, height, pictures and pictures / "povray.png"))
             times[f"whit, {SEGMENTS} segments"].append(trace_whit(facets, given.size, None))
+    if given.json:
+        given.json.write_text(json.dumps(times, indent=1) + "\n")
     own = statistics.median(times["whit"])
     for name, measured in times.items():
         median = statistics.median(measured)
