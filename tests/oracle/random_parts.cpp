@@ -96,6 +96,18 @@ Material SceneMaker::glass(double ior, int priority) {
   return material;
 }
 
+int SceneMaker::addData(int width, int height, const Color& low, const Color& high) {
+  Texture texture;
+  texture.width = width, texture.height = height, texture.isData = true;
+  for (int i = 0; i < width * height; ++i) {
+    const Vec texel = random.inBox(low, high);
+    texture.texels.push_back(
+        {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
+  }
+  scene.textures.push_back(texture);
+  return static_cast<int>(scene.textures.size()) - 1;
+}
+
 Mesh SceneMaker::solid() {
   switch (random.below(3)) {
     case 0:

@@ -63,6 +63,9 @@ class SceneMaker {
   // Tinted and absorbing; `priority` as it is.
   Material glass(double ior, int priority = 0);
 
+  // A texture of numbers within the box, all three of a texel at once; its number.
+  int addData(int width, int height, const Color& low, const Color& high);
+
   Mesh solid();  // a box, a tetrahedron or a ball
   // In one of `count` places beside each other, so that nothing touches.
   Transform standing(int place, int count);

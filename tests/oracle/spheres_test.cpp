@@ -114,25 +114,12 @@ TEST_F(Spheres, Textures) {
   expectAgreement({"textured spheres, trilinear", paintedBalls, {.filter = Filter::trilinear}});
 }
 
-// Of a width and a height that are powers of two.
-int addDataBetween(SceneMaker& maker, const Color& low, const Color& high) {
-  Texture texture;
-  texture.width = 16, texture.height = 8, texture.isData = true;
-  for (int i = 0; i < texture.width * texture.height; ++i) {
-    const Vec texel = maker.random.inBox(low, high);
-    texture.texels.push_back(
-        {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
-  }
-  maker.scene.textures.push_back(texture);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
-}
-
 // Matte: a lobe has no value for a viewer behind the normal.
 void bumpyBalls(SceneMaker& maker) {
   maker.room();
   addBalls(maker, [&] {
     Material material = maker.matte();
-    material.normalMap = addDataBetween(maker, {80, 80, 200}, {176, 176, 255.99});
+    material.normalMap = maker.addData(16, 8, {80, 80, 200}, {176, 176, 255.99});
     return material;
   });
   lampsAbove(maker, 2);
@@ -150,7 +137,7 @@ void maskedBalls(SceneMaker& maker) {
   maker.room();
   addBalls(maker, [&] {
     Material material = maker.random.chance(0.7) ? maker.glossy() : maker.mirror();
-    material.alphaMap = addDataBetween(maker, {}, {255.99, 1, 1});
+    material.alphaMap = maker.addData(16, 8, {}, {255.99, 1, 1});
     if (maker.random.chance(0.5)) material.alphaCutoff = maker.random.between(0.3, 0.7);
     return material;
   });
@@ -164,7 +151,7 @@ Material anyPart(SceneMaker& maker) {
   material.coverage = maker.random.between(0.1, 0.95);
   if (maker.random.chance(0.5)) {
     material.coverage = maker.random.between(0.5, 1);
-    material.coverageMap = addDataBetween(maker, {}, {255.99, 1, 1});
+    material.coverageMap = maker.addData(16, 8, {}, {255.99, 1, 1});
   }
   material.castsShadow = material.coverage >= 0.5;
   return material;
@@ -329,9 +316,9 @@ TEST_F(Spheres, InstancesWithMaps) {
     usedOften(maker, [&] {
       Material material = maker.matte();
       material.diffuseMap = addColors(maker);
-      material.normalMap = addDataBetween(maker, {80, 80, 200}, {176, 176, 255.99});
+      material.normalMap = maker.addData(16, 8, {80, 80, 200}, {176, 176, 255.99});
       if (maker.random.chance(0.4)) {
-        material.alphaMap = addDataBetween(maker, {}, {255.99, 1, 1});
+        material.alphaMap = maker.addData(16, 8, {}, {255.99, 1, 1});
       }
       return material;
     });

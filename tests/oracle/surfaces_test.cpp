@@ -273,18 +273,6 @@ TEST_F(Surfaces, TexturesOfNearestAndMixedTexels) {
   expectAgreement({"textures of nearest texels", textured, {.filter = Filter::nearest}});
 }
 
-int addData(SceneMaker& maker, const Color& low, const Color& high) {
-  Texture texture;
-  texture.width = 8, texture.height = 4, texture.isData = true;
-  for (int k = 0; k < texture.width * texture.height; ++k) {
-    const Vec texel = maker.random.inBox(low, high);
-    texture.texels.push_back(
-        {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
-  }
-  maker.scene.textures.push_back(texture);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
-}
-
 Mesh mappedBall(SceneMaker& maker) {
   Mesh mesh = ball(16, 10);
   for (const Vec& p : mesh.positions) {
@@ -299,7 +287,7 @@ Mesh mappedBall(SceneMaker& maker) {
 void normalMapped(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.clear();
-  const int map = addData(maker, {80, 80, 200}, {176, 176, 255.99});
+  const int map = maker.addData(8, 4, {80, 80, 200}, {176, 176, 255.99});
   const auto bumpy = [&](Material material) {
     material.normalMap = map;
     return material;
