@@ -39,11 +39,11 @@ Mask maskOf(const Material& material, const AlphaMaps& maps);
 template <float Mask::*kCutoff>
 bool isOpaqueAt(const Mask& mask, float s, float t) noexcept {
   if (!mask.map) return true;
-  if (!mask.map->isOpaqueAt(s, t, mask.*kCutoff)) return false;
+  const bool opaque = mask.map->isOpaqueAt(s, t, mask.*kCutoff);
   if constexpr (kCutoff == &Mask::shadowCutoff) {
-    return !mask.coverage || mask.coverage->isOpaqueAt(s, t, mask.coverageCutoff);
+    if (mask.coverage) return opaque && mask.coverage->isOpaqueAt(s, t, mask.coverageCutoff);
   }
-  return true;
+  return opaque;
 }
 
 // The masked triangles of one Embree geometry, in its order.

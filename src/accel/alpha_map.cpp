@@ -82,8 +82,10 @@ bool AlphaMap::isOpaqueAt(float u, float v, float cutoff) const noexcept {
   const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
   const Bounds bounds = cells_[static_cast<std::size_t>(cell)];
   const float wanted = cutoff * 255.0f;
-  if (static_cast<float>(bounds.least) >= wanted + kRounding) return true;
-  if (static_cast<float>(bounds.most) < wanted - kRounding) return false;
+  // Which of the two a cell is cannot be predicted; that it is one of them nearly always can.
+  const bool everywhere = static_cast<float>(bounds.least) >= wanted + kRounding,
+             somewhere = static_cast<float>(bounds.most) >= wanted - kRounding;
+  if (everywhere == somewhere) return everywhere;
   const auto texel = [&](int row, int column) {
     return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
   };

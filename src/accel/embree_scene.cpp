@@ -51,7 +51,8 @@ void filterByAlpha(const RTCFilterFunctionNArguments* args) {
     if (args->valid[lane] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
     const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
-    if (!isOpaqueAt<kCutoff>(geometry, primitive, u, v)) args->valid[lane] = 0;
+    // Without a branch: nothing could predict it.
+    args->valid[lane] *= static_cast<int>(isOpaqueAt<kCutoff>(geometry, primitive, u, v));
   }
 }
 

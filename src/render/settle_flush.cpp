@@ -12,7 +12,7 @@ void settleFlush(Chunk& c) {
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);
   const bool instanced = c.has(Feature::instances);
   for (std::size_t i = 0; i < c.n; ++i) {
-    if (c.hits.triangle[i] == kMiss || !scene.flush.any(c.hits.triangle[i])) continue;
+    if (!scene.flush.any(c.hits.triangle[i])) continue;
     const PlacedTriangleId met{c.hits.triangle[i], instanced ? c.hits.instance[i] : kNoInstance};
     if (!scene.flush.anyAt(met, double{c.hits.u[i]}, double{c.hits.v[i]})) continue;
     const reference::Settled settled = reference::settleFlush(

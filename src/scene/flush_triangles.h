@@ -42,7 +42,8 @@ class FlushTriangles {
 
   bool empty() const { return partners_.empty(); }
 
-  // Whether the triangle is flush with another one in some placement of it.
+  // Whether the triangle is flush with another one in some placement of it. Numbers beyond the
+  // scene's are not.
   bool any(std::uint32_t triangle) const {
     const std::size_t word = triangle / 64;
     return word < any_.size() && (any_[word] >> triangle % 64 & 1) != 0;
