@@ -4,10 +4,11 @@
 #                          clang-format is: ten minutes on two cores
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
 #                          Clang (unit and reference with g++, too), fuzzing, MPI, the Debian package
-#                          in a clean system, Embree 4 with Clang in Release as well: forty minutes
-#   tests/run.sh --deep    both commands of README.md in fresh systems, every test of Clang's and
-#                          g++'s other builds, a deeper clang-tidy and 64-bit ARM under emulation as
-#                          well: more than an hour more
+#                          in a clean system, Embree 4 with Clang in Release as well, and both commands
+#                          of README.md in fresh systems: forty minutes
+#   tests/run.sh --deep    every test in the fresh systems a second time, as a user with sudo, and in
+#                          Clang's and g++'s other builds, a deeper clang-tidy and 64-bit ARM under
+#                          emulation as well: more than an hour more
 # What this system has no way to is named at the end.
 set -uo pipefail
 
@@ -133,9 +134,16 @@ elif $full; then
   step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
 fi
 # After the builds whose objects it shares, and before the one that shares its own.
-if $deep; then step "fresh systems" tests/fresh.sh; fi
-# Last, so that the last line is that of the tests as they are shipped.
-step "release" buildAndTest release -DWHIT_WERROR=ON
+if $deep; then
+  step "fresh systems" tests/fresh.sh
+elif $full; then
+  step "fresh systems" tests/fresh.sh --brief
+fi
+# Last, so that the last line is that of the tests as they are shipped. Those of fresh systems are the
+# same: once is enough where time counts.
+if ! $full || $deep || [[ " ${leftOut[*]-} " == *" fresh systems "* ]]; then
+  step "release" buildAndTest release -DWHIT_WERROR=ON
+fi
 
 if [ ${#leftOut[@]} -gt 0 ]; then
   echo "NOT CHECKED on this system: ${leftOut[*]}" >&2
