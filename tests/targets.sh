@@ -41,7 +41,7 @@ pictures_of() {
 echo "Targets here: ${targets[*]}"
 echo "As depth and cutoff are by default. Where mirrors face mirrors paths part by rounding; no bound."
 pictures_of
-echo "At depth 8, where few have parted. At most $bound % of pixels may be off by two codes or more."
+printf '\nAt depth 8, where few have parted. At most %s %% of pixels may be off by two codes or more.\n\n' "$bound"
 pictures_of --depth 8 --cutoff 3e-4
 awk -F '|' -v bound="$bound" '100 - $4 > bound { print "!! beyond the bound:" $2; bad = 1 }
   END { exit bad }' "$work/table" >&2
