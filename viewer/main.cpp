@@ -6,6 +6,7 @@
 #include "app/program.h"
 #include "app/progress_bar.h"
 #include "core/error.h"
+#include "core/version.h"
 #include "io/paths.h"
 #include "io/read_file.h"
 #include "viewer/app.h"
@@ -63,7 +64,10 @@ const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced 
 
 void showManual(const cli::OptionList& list) {
   std::fputs(cli::manOpening(kPage).c_str(), stdout);
-  std::fputs(cli::manTerms("OPTIONS", {{"--help", "the options"}, {"--man", "this page"}}).c_str(),
+  std::fputs(cli::manTerms(
+                 "OPTIONS",
+                 {{"--help", "the options"}, {"--version", "the version"}, {"--man", "this page"}})
+                 .c_str(),
              stdout);
   std::puts(".PP");
   std::fputs(cli::manOptions(kUsage, kSummary, list).c_str(), stdout);
@@ -79,6 +83,10 @@ int run(const std::vector<std::string>& words) {
   const cli::OptionList list = listOptions(options, scenes);
   if (words == std::vector<std::string>{"--man"}) {
     showManual(list);
+    return 0;
+  }
+  if (words == std::vector<std::string>{"--version"}) {
+    std::printf("whit-view %s\n", versionText());
     return 0;
   }
   if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;

@@ -106,4 +106,9 @@ std::string frameName(const std::string& pattern, int frame) {
   return (path.parent_path() / name).string();
 }
 
+void requireNoFrameName(const std::string& name) {
+  if (std::filesystem::path(name).filename().string().find("##") == std::string::npos) return;
+  throwUsage("'" + name + "': #### is the number of a frame, and there is no --frames A..B");
+}
+
 }  // namespace whit::cli

@@ -36,5 +36,7 @@ FrameRange parseFrameRange(const std::string& text);  // "3" or "0..47"; throws 
 // The run of '#' in the file's name becomes the frame's number, zero-padded to its length; throws
 // Error(usage) when the name has none.
 std::string frameName(const std::string& pattern, int frame);
+// Throws Error(usage) when the name is meant for frames: two '#' or more.
+void requireNoFrameName(const std::string& name);
 
 }  // namespace whit::cli

@@ -82,7 +82,9 @@ std::string manOptions(const std::string& usage, const std::string& summary,
   OptionList shared;
   listCommonOptions(shared, common);
   std::string text = ".B " + roff(usage) + "\n.PP\n" + roff(summary) + "\n";
-  text += ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + sentence(list.operand.help);
+  if (list.operand.most > 0) {
+    text += ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + sentence(list.operand.help);
+  }
   std::vector<std::string> references;
   for (const OptionList::Entry& entry : list.entries) {
     const bool common = std::any_of(shared.entries.begin(), shared.entries.end(),

@@ -18,7 +18,7 @@ class OptionList {
   };
   struct Operand {
     std::string placeholder, help;
-    std::size_t least = 1, most = 1;
+    std::size_t least = 0, most = 0;
     std::vector<std::string>* values = nullptr;
   };
 

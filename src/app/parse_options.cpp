@@ -44,7 +44,9 @@ std::string optionNames(const OptionList::Entry& entry) {
 std::vector<CLI::Option*> declare(CLI::App& app, const OptionList& list) {
   app.allow_extras();
   app.set_help_flag("-h,--help", "show this text");
-  app.footer("\n" + list.operand.placeholder + ": " + list.operand.help + ".");
+  if (list.operand.most > 0) {
+    app.footer("\n" + list.operand.placeholder + ": " + list.operand.help + ".");
+  }
   std::vector<CLI::Option*> options;
   for (const OptionList::Entry& entry : list.entries) {
     CLI::Option* option = nullptr;

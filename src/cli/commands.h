@@ -16,6 +16,7 @@ int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
 int accuracyCommand(const Words& words);
 int stressCommand(const Words& words);
+int scenesCommand(const Words& words);
 
 struct Command {
   const char *name, *summary;
@@ -27,6 +28,7 @@ inline constexpr Command kCommands[] = {
     {"bench", "how long a frame takes, by stage and by kind of ray", benchCommand},
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
+    {"scenes", "the shipped scenes, a line each", scenesCommand},
     {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
     {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
     {"stress", "the catalogue of hard cases on this machine", stressCommand},

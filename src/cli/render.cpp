@@ -15,6 +15,8 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/options.h"
+#include "core/printable.h"
+#include "core/stopwatch.h"
 #include "io/image_file.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
@@ -101,7 +103,10 @@ void checkJob(const RenderJob& job, const Farm& farm) {
     for (const std::string& output : job.outputs) requireWritable(output, {".exr", ".png"});
     requireJsonWritable(job.json);
   }
-  if (job.frames.empty()) return;
+  if (job.frames.empty()) {
+    for (const std::string& output : job.outputs) requireNoFrameName(output);
+    return;
+  }
   parseFrameRange(job.frames);
   for (const std::string& output : job.outputs) frameName(output, 0);
   if (job.common.given.contains("camera")) {
@@ -189,7 +194,13 @@ void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Pr
   }
 }
 
+void tellWritten(const std::vector<std::string>& files, double seconds) {
+  const std::string what = files.size() == 1 ? files[0] : std::to_string(files.size()) + " images";
+  std::fprintf(stderr, "wrote %s, %.1f s\n", printable(what).c_str(), seconds);
+}
+
 int render(const Words& words, Farm& farm) {
+  const Stopwatch stopwatch;
   RenderJob job;
   if (parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) == Parsed::helpShown)
     return 0;
@@ -213,6 +224,7 @@ int render(const Words& words, Farm& farm) {
     if (optionsFor(open->scene, job.common).exposure.automatic) {
       std::fprintf(stderr, "exposure %+g EV\n", static_cast<double>(writer.exposure().ev));
     }
+    tellWritten(writer.written(), stopwatch.ms() / 1000);
   }
   if (!job.json.empty()) {
     Json json = runJson(writer.run());

@@ -32,4 +32,11 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   return best == names.end() ? std::string() : *best;
 }
 
+std::string nearName(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t kMostEdits = 2;
+  const std::string nearest = nearestName(word, names);
+  const std::size_t edits = editDistance(word, nearest);
+  return edits <= kMostEdits && edits < word.size() ? nearest : std::string();
+}
+
 }  // namespace whit

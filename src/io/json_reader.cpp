@@ -166,7 +166,13 @@ std::optional<JsonValue> JsonObject::find(const std::string& key) {
 
 JsonValue JsonObject::need(const std::string& key) {
   if (const auto value = find(key)) return *value;
-  throwBadScene(value_.where(), "expected a member " + inQuotes(key));
+  std::vector<std::string> others;
+  for (const auto& [name, member] : value_.members()) {
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) others.push_back(name);
+  }
+  const std::string meant = nearName(key, others);
+  throwBadScene(value_.where(), "expected a member " + inQuotes(key) +
+                                    (meant.empty() ? "" : ", there is " + inQuotes(meant)));
 }
 
 float JsonObject::number(const std::string& key, double fallback, double low, double high) {

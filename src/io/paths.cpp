@@ -153,6 +153,12 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
                               : "; did you mean \"" + nearest + "\"?"));
 }
 
+std::vector<fs::path> shippedScenes() {
+  std::vector<fs::path> scenes;
+  for (const std::string& name : shippedNames(sceneFolders())) scenes.push_back(findScene(name));
+  return scenes;
+}
+
 std::vector<fs::path> hardScenes() {
   std::vector<fs::path> scenes;
   for (const fs::path& folder : sceneFolders()) {

@@ -44,6 +44,8 @@ SceneName parseSceneName(const std::string& name);
 // names, which are also looked for in `shippedScenes` unless that is empty. Throws Error(usage) for
 // a bare name that is not shipped, naming the nearest.
 std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
+// All of them that are found, in order of their names.
+std::vector<std::filesystem::path> shippedScenes();
 // The scenes of hard cases to look at, shipped in the folder `hard`; in order of their names.
 std::vector<std::filesystem::path> hardScenes();
 

@@ -45,6 +45,29 @@ TEST(Program, NamesTheNearestCommandAndOption) {
   expectFailure({"merge", "--stric", "a.exr", "b.exr"}, 2, "'--strict'");
 }
 
+TEST(Program, ListsTheShippedScenes) {
+  const Outcome outcome = runWhit({"scenes"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("atrium          A two-storeyed court with colonnades"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("\nwhitted         A glass sphere in front of a mirror sphere"),
+            std::string::npos)
+      << outcome.out;
+  expectFailure({"scenes", "--all"}, 2, "--all");
+  expectFailure({"scenes", "atrium"}, 2, "atrium");
+}
+
+TEST(Program, SaysWhatItWrote) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder), one = folder / "a.png",
+                    frames = folder / "f##.png";
+  const auto said = [](std::vector<std::string> words) { return runWhit(words).err; };
+  EXPECT_NE(said({"render", tiny, "-o", one}).find("\nwrote " + one + ", "), std::string::npos);
+  EXPECT_NE(said({"render", tiny, "-o", frames, "--frames", "0..2"}).find("\nwrote 3 images, "),
+            std::string::npos);
+}
+
 TEST(Program, WithoutWordsShowsHelpAndFails) {
   const Outcome outcome = runWhit({});
   EXPECT_EQ(outcome.status, 2);
@@ -58,6 +81,7 @@ TEST(Program, RefusesWrongUsage) {
   expectFailure({"render", tiny, "-o", folder / "a.jpg"}, 2, ".exr or .png");
   expectFailure({"render", tiny, "-o", folder / "a.exr", "--frames", "0..1"}, 2, "####");
   expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "2..1"}, 2, "--frames");
+  expectFailure({"render", tiny, "-o", folder / "a####.exr"}, 2, "no --frames A..B");
   expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "1", "--camera", "side"}, 2,
                 "--camera");
   expectFailure({"render", tiny, "-o", folder / "a.exr", "--camera", "sid"}, 2, "side");

@@ -55,6 +55,13 @@ TEST_F(SceneSyntax, UnknownKeysNameTheNearest) {
             "3 s.json#/scene/0/radiuss: unknown key; is \"radius\" meant?");
 }
 
+TEST_F(SceneSyntax, NeededKeysThatAreMisspeltAreNamed) {
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1], \"att\": [0,0,0]}}"),
+            "3 s.json#/cameras/a: expected a member \"at\", there is \"att\"");
+  EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1], \"fov\": 30}}"),
+            "3 s.json#/cameras/a: expected a member \"at\"");
+}
+
 // British spelling was a scene file's once. It is refused, never taken for a key that is not given.
 TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
   EXPECT_EQ(errorOfMembers("\"sky\": {\"colour\": 1}"),

@@ -21,7 +21,17 @@ TEST(NearestName, TheFirstOfEquallyNearOnes) {
   EXPECT_EQ(nearestName("", {"long", "a"}), "a");
 }
 
-TEST(NearestName, NothingToChooseFrom) { EXPECT_EQ(nearestName("x", {}), ""); }
+TEST(NearestName, NothingToChooseFrom) {
+  EXPECT_EQ(nearestName("x", {}), "");
+  EXPECT_EQ(nearName("x", {}), "");
+}
+
+TEST(NearestName, OnlyANearOneCanBeMeant) {
+  EXPECT_EQ(nearName("at", {"att", "fov"}), "att");
+  EXPECT_EQ(nearName("shape", {"shaep"}), "shaep");
+  EXPECT_EQ(nearName("at", {"up"}), "");
+  EXPECT_EQ(nearName("sphere", {"spiral"}), "");
+}
 
 }  // namespace
 }  // namespace whit

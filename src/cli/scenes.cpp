@@ -1,0 +1,50 @@
+// whit scenes: what there is to render without a file of one's own.
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "app/option_list.h"
+#include "app/parse_options.h"
+#include "cli/commands.h"
+#include "core/printable.h"
+#include "io/paths.h"
+#include "io/read_file.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr std::uint64_t kSceneBytesLimit = 1u << 20;
+
+// A scene file opens with a comment that says what it is.
+std::string openingComment(const std::string& text) {
+  std::string comment;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line) && line.starts_with("//");) {
+    comment += line.substr(2);
+  }
+  return comment.empty() ? comment : comment.substr(1);
+}
+
+// As far as the first colon or the end of the first sentence.
+std::string firstClause(const std::string& text) {
+  return text.substr(0, std::min({text.find(": "), text.find(". "), text.find_last_of('.')}));
+}
+
+}  // namespace
+
+int scenesCommand(const Words& words) {
+  const OptionList list;
+  if (parseOptions("whit scenes", "The shipped scenes, a line each.", list, words) ==
+      Parsed::helpShown) {
+    return 0;
+  }
+  for (const std::filesystem::path& scene : shippedScenes()) {
+    const std::string about =
+        firstClause(openingComment(readTextFile(scene.string(), kSceneBytesLimit)));
+    std::printf("%-16s%s\n", printable(scene.stem().string()).c_str(), printable(about).c_str());
+  }
+  return 0;
+}
+
+}  // namespace whit::cli
