@@ -264,16 +264,17 @@ void Baker::dropEmptyGeometries() {
 }
 
 void Baker::reserveTables() {
-  std::uint64_t total = 0;
-  for (const Geometry& geometry : scene_.geometries) total += geometry.classBegin.back();
+  std::uint64_t triangles = 0;
+  for (const Geometry& geometry : scene_.geometries) triangles += geometry.classBegin.back();
+  std::uint64_t total = triangles;
   for (const auto& spheres : spheres_) total += spheres.size();
   if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
   scene_.triangles.reserve(total);
   if (withNormals_) scene_.normals.reserve(total);
   if (withColors_) scene_.colors.reserve(total);
   if (withSecondUvs_) scene_.secondUvs.reserve(total);
-  isSearched_ = total <= kMostSearched;
-  if (isSearched_) order_.triangles.reserve(total);
+  isSearched_ = triangles <= kMostSearched;
+  if (isSearched_) order_.triangles.reserve(triangles);
   boxes_.resize(scene_.geometries.size());
 }
 

@@ -299,7 +299,7 @@ std::uint64_t FlushTriangles::bytes() const {
 }
 
 FlushTriangles findFlushTriangles(const Scene& scene, int threads) {
-  if (scene.triangles.size() > kMostSearched) return {};
+  if (scene.firstSphere > kMostSearched) return {};
   return FlushFinder(scene, threads).find();
 }
 
