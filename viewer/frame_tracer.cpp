@@ -77,7 +77,6 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
-  frame.triangles = scene_->scene.instancedTriangles;
   if (request.measureKnobs) {
     sizeFilm(band_, request.options.size.value(), frame.film.image.window);
     frame.costs = measureKnobs(*renderer_, options_, request.camera, band_, superseded);

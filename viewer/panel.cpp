@@ -276,8 +276,9 @@ void Panel::remember(const TracedFrame& frame) {
 
 void Panel::drawTimes(const TracedFrame& frame) const {
   const FrameStats& stats = frame.stats;
-  ImGui::Text("%s, %llu triangles", frame.scene->scene.name.c_str(),
-              static_cast<unsigned long long>(frame.triangles));
+  const Scene& scene = frame.scene->scene;
+  ImGui::Text("%s, %s", scene.name.c_str(),
+              cli::surfacesText(scene.instancedTriangles, scene.instancedSpheres).c_str());
   const Image& image = frame.film.image;
   ImGui::Text("%d x %d, %d sample%s a pixel", image.width, image.height, frame.request.spp,
               frame.request.spp == 1 ? "" : "s");

@@ -73,7 +73,6 @@ struct TracedFrame {
   std::string legend;                    // of a debug view
   std::optional<Comparison> comparison;  // where the request is with the reference
   std::vector<KnobCost> costs;           // where the request is to measure them
-  std::uint64_t triangles = 0;
 };
 
 }  // namespace whit::view

@@ -14,6 +14,7 @@ RunSummary summarize(const Scene& scene, const RenderOptions& options, const Ren
   run.machine = renderer.machine();
   run.effects = renderer.plan().effects;
   run.triangles = scene.instancedTriangles;
+  run.spheres = scene.instancedSpheres;
   run.loadMs = loadMs;
   run.buildMs = renderer.buildMs();
   return run;
@@ -84,6 +85,15 @@ std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& optio
     row.because += ", " + std::string(a.otherwise);
   }
   return rows;
+}
+
+std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
+  const auto counted = [](std::uint64_t count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  if (spheres == 0) return counted(triangles, "triangle");
+  if (triangles == 0) return counted(spheres, "sphere");
+  return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
 }
 
 std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {

@@ -19,7 +19,7 @@ struct RunSummary {
   RenderOptions options;
   Machine machine;
   EffectSet effects;
-  std::uint64_t triangles = 0;  // as seen, instances multiplied out
+  std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
   std::vector<FrameStats> frames;  // counted ones; none: all images were there
   std::vector<double> floorMs;     // empty without --floor
@@ -61,6 +61,9 @@ struct EffectRow {
 // Every effect, in the order of core/effects.h; "disabled by --disable" overrides the scene's
 // reason.
 std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options);
+
+// "2 triangles", "3 spheres" or both.
+std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
 
 // What one exact sphere takes beside its part of the BVH; 0 where there are none.
 std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);

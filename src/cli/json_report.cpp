@@ -98,6 +98,7 @@ Json runJson(const RunSummary& run) {
   json["effects"] = effectNames(run.effects);
   json["exposure_ev"] = run.options.exposure.ev;
   json["triangles"] = run.triangles;
+  json["spheres"] = run.spheres;
   json["frames"] = run.frames.size();
   json["build_ms"] = run.buildMs;
   json["load_ms"] = run.loadMs;

@@ -8,8 +8,8 @@ namespace {
 
 void appendSettings(std::string& text, const RunSummary& run) {
   const bool packets = run.options.mode == Mode::packets;
-  text += formatted("%s  %dx%d  %llu triangles  %d thread%s  ", run.scene.c_str(), run.width,
-                    run.height, static_cast<unsigned long long>(run.triangles), run.machine.threads,
+  text += formatted("%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), run.width, run.height,
+                    surfacesText(run.triangles, run.spheres).c_str(), run.machine.threads,
                     run.machine.threads == 1 ? "" : "s");
   if (!run.shares.empty()) text += formatted("on each of %d ranks  ", run.shares[0].ranks);
   if (packets) {

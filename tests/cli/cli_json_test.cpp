@@ -149,6 +149,13 @@ TEST_F(JsonResults, Info) {
   EXPECT_EQ(json["bytes_per_sphere"], 0);
 }
 
+TEST_F(JsonResults, BenchCountsSpheres) {
+  const Outcome outcome =
+      runWhit({"bench", "whitted", "--size", "16x10", "--frames", "1", "--json", "-"});
+  EXPECT_NE(outcome.err.find("2 triangles, 3 spheres  "), std::string::npos) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["runs"][0]["spheres"], 3);
+}
+
 TEST_F(JsonResults, InfoOfSpheres) {
   const Json json = resultOf({"info", "whitted"});
   EXPECT_EQ(json["spheres"], 3);
