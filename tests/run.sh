@@ -3,9 +3,9 @@
 #   tests/run.sh           Release with warnings as errors and every test of it; formatting where
 #                          clang-format is: ten minutes on two cores
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
-#                          Clang (unit and reference with g++, too), fuzzing, MPI, the Debian package
-#                          in a clean system, Embree 4 with Clang in Release as well, and both commands
-#                          of README.md in fresh systems: forty minutes
+#                          Clang, fuzzing, MPI, the Debian package in a clean system, Embree 4 with Clang
+#                          in Release as well, and both commands of README.md in fresh systems: forty
+#                          minutes
 #   tests/run.sh --deep    every test in the fresh systems a second time, as a user with sudo, and in
 #                          Clang's and g++'s other builds, a deeper clang-tidy and 64-bit ARM under
 #                          emulation as well: more than an hour more
@@ -130,8 +130,6 @@ if $deep; then
 elif $full; then
   # Neither is that of the Release build below: both at once save a build.
   step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
-  # The rest is left to Clang's: g++ takes as long again for each.
-  step "g++ sanitizers" tests/areas.sh gcc-sanitize unit reference
 fi
 # After the builds whose objects it shares, and before the one that shares its own.
 if $deep; then
