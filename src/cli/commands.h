@@ -14,6 +14,7 @@ int compareCommand(const Words& words);
 int infoCommand(const Words& words);
 int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
+int explainCommand(const Words& words);
 int accuracyCommand(const Words& words);
 int stressCommand(const Words& words);
 int scenesCommand(const Words& words);
@@ -29,6 +30,7 @@ inline constexpr Command kCommands[] = {
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
     {"scenes", "the shipped scenes, a line each", scenesCommand},
+    {"explain", "the tree of rays of one pixel", explainCommand},
     {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
     {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
     {"stress", "the catalogue of hard cases on this machine", stressCommand},

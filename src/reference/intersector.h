@@ -6,6 +6,7 @@
 
 #include "core/vec3.h"
 #include "scene/camera.h"
+#include "stages/stage.h"
 
 namespace whit::reference {
 
@@ -24,6 +25,8 @@ struct Candidate {
   double u = 0, v = 0;
 };
 
+struct Impulse;
+
 class Intersector {
  public:
   virtual ~Intersector() = default;
@@ -31,6 +34,9 @@ class Intersector {
   virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
   // Told of each triangle that a path goes on from: of those in one place, the one that counts.
   virtual void met(const Candidate&) const {}
+  // Told of each impulse that is followed, and of what it brought back before its weight counts.
+  virtual void began(const Impulse&, RayKind) const {}
+  virtual void ended(const RgbD& /*radiance*/) const {}
   // Whether something that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };

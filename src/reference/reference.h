@@ -65,8 +65,8 @@ class Tracer {
                           Path path) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
                        std::uint32_t media, RayCounts& counts, Path path) const;
-  RgbD follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
-              RayCounts& counts, Path path) const;
+  RgbD follow(const Impulse& impulse, RayKind kind, int depth, double throughput, RayCounts& counts,
+              Path path) const;
 
   const Scene& scene_;
   const Intersector& intersector_;

@@ -68,11 +68,11 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
     const float kept = crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare();
     const double counted = left * double{kept};
-    RgbD reflected = follow(children.reflected, depth + 1, counted, counts.reflection, counts,
+    RgbD reflected = follow(children.reflected, RayKind::reflection, depth + 1, counted, counts,
                             childOf(path, kMirroredBranch));
     reflected += reflectGlossily(surfel, crossing, depth, counted, media, counts, path);
-    const RgbD refracted = follow(children.refracted, depth + 1, counted, counts.refraction, counts,
-                                  childOf(path, kRefractedBranch));
+    const RgbD refracted = follow(children.refracted, RayKind::refraction, depth + 1, counted,
+                                  counts, childOf(path, kRefractedBranch));
     radiance += reflected;
     radiance += refracted;
   }
@@ -106,21 +106,23 @@ RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = lobePoint(path.number, sampling, k);
-    sum += follow(glossyImpulse(surfel, media, at, options_.shading), depth + 1, throughput,
-                  counts.reflection, counts, childOf(path, kFirstGlossyBranch + k));
+    sum += follow(glossyImpulse(surfel, media, at, options_.shading), RayKind::reflection,
+                  depth + 1, throughput, counts, childOf(path, kFirstGlossyBranch + k));
   }
   return sum / rays;
 }
 
 // What an impulse brings back, if it is worth following.
-RgbD Tracer::follow(const Impulse& impulse, int depth, double throughput, std::uint64_t& counter,
+RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
                     RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
   if (!(largest > 0 && contribution >= options_.cutoff)) return {};
-  ++counter;
-  return impulse.weight *
-         traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
+  ++(kind == RayKind::reflection ? counts.reflection : counts.refraction);
+  intersector_.began(impulse, kind);
+  const RgbD radiance = traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
+  intersector_.ended(radiance);
+  return impulse.weight * radiance;
 }
 
 // Each point of a light is looked at as if it were the whole light, so that their number does not

@@ -1,0 +1,360 @@
+// whit explain: the tree of rays of one pixel, as text, as JSON and drawn over the scene.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/image_output.h"
+#include "app/open_scene.h"
+#include "app/progress_bar.h"
+#include "cli/commands.h"
+#include "cli/json_report.h"
+#include "cli/ray_diagram.h"
+#include "core/display.h"
+#include "core/error.h"
+#include "core/formatted.h"
+#include "core/printable.h"
+#include "io/atomic_file.h"
+#include "io/image_file.h"
+#include "reference/media.h"
+#include "render/auto_exposure.h"
+#include "render/ray_tree.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kExplainUsage = "whit explain SCENE --pixel x,y [options]";
+constexpr const char* kExplainSummary =
+    "Follows the rays of one pixel: what each meets, what it adds and where it ends, in packets "
+    "and\n"
+    "in the scalar reference.";
+constexpr ImageSize kDiagramSize{960, 600};
+
+struct ExplainJob {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string pixel, json, svg;
+  std::optional<Vec3f> seenFrom;
+  double least = 0.01;
+};
+
+OptionList listOptions(ExplainJob& job) {
+  OptionList list;
+  list.group("Explaining");
+  list.value({"pixel", "x,y"}, "the pixel, from the top left", job.pixel);
+  list.value({"least", "X", 0, 1}, "smallest share of the pixel's radiance that is listed",
+             job.least);
+  list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene", job.svg);
+  list.value({"seen-from", "x,y,z"},
+             "where that picture is taken from (default: from aside and above)", job.seenFrom);
+  list.value({"json", "FILE"}, "the whole trees for machines; - is standard output", job.json);
+  listCommonOptions(list, job.common);
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
+  return list;
+}
+
+struct PixelPlace {
+  int x = 0, y = 0;
+};
+PixelPlace readPixel(const std::string& text, const Image& image) {
+  PixelPlace place;
+  int used = 0;
+  const bool read = std::sscanf(text.c_str(), "%d,%d%n", &place.x, &place.y, &used) == 2 &&
+                    static_cast<std::size_t>(used) == text.size();
+  if (!read) throwUsage("--pixel expected x,y, as in 240,150; found '" + text + "'");
+  const bool inside =
+      place.x >= 0 && place.y >= 0 && place.x < image.width && place.y < image.height;
+  if (!inside) {
+    throwUsage("--pixel " + text + " is not in the picture of " + std::to_string(image.width) +
+               "x" + std::to_string(image.height));
+  }
+  return place;
+}
+
+// What the two ways to trace have found, and of which scene.
+struct Explained {
+  const Scene& scene;
+  const RenderOptions& options;
+  PixelPlace place;
+  RayTree packets, reference;
+  std::vector<std::size_t> counterpart;  // of the packets' nodes in the reference
+
+  // Where the two part: the surface, shadows or impulses differ, and did not before.
+  bool partsAt(std::size_t node) const {
+    return counterpart[node] == kNoCounterpart ||
+           !agree(packets.nodes[node], reference.nodes[counterpart[node]]);
+  }
+};
+
+std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
+  return name.empty() ? kind + (" " + std::to_string(number)) : printable(name);
+}
+
+std::string materialName(const Scene& scene, std::uint32_t material) {
+  return nameOf(scene.materials[material].name, "material", material);
+}
+
+// Of the medium that fills the space.
+std::string mediumName(const Scene& scene, std::uint32_t media) {
+  const std::uint32_t medium = reference::currentMedium(scene, media);
+  if (medium == 0) return "air";
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+    if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
+  }
+  return "medium " + std::to_string(medium);
+}
+
+const char* nameOf(PathEnd end) {
+  switch (end) {
+    case PathEnd::depth:
+      return "depth";
+    case PathEnd::cutoff:
+      return "cutoff";
+    case PathEnd::totalReflection:
+      return "total reflection";
+    case PathEnd::none:
+      break;
+  }
+  return "";
+}
+
+std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
+
+std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
+  return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve, o.srgb);
+}
+
+// What a node adds to the pixel by itself, without its children.
+RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own) {
+  return weightAtEye(tree, node) * own * (1.0 / static_cast<double>(tree.primaries.size()));
+}
+
+// Lists what adds more than so much, and counts the rest.
+class TreeText {
+ public:
+  TreeText(const Explained& e, double least) : e_(e) {
+    least_ = least * std::max(1e-12, double{maxComponent(e.packets.pixel)});
+  }
+
+  std::string text() {
+    for (const std::size_t primary : e_.packets.primaries) appendNode(primary);
+    if (leftOut_ > 0) {
+      text_ += formatted("%zu more rays, which add %s\n", leftOut_, textOf(restAdds_).c_str());
+    }
+    return std::move(text_);
+  }
+
+ private:
+  std::string indent(const RayNode& n, int more = 0) const {
+    return std::string(2 * static_cast<std::size_t>(n.depth + more), ' ');
+  }
+
+  void appendNode(std::size_t number) {
+    const RayNode& n = e_.packets.nodes[number];
+    if (maxComponent(addedBy(e_.packets, number, n.radiance)) < least_) {
+      leaveOut(number);
+      return;
+    }
+    text_ +=
+        indent(n) + formatted("%s, weight %s, in %s: ",
+                              std::string(kRayKindNames[static_cast<std::size_t>(n.kind)]).c_str(),
+                              textOf(n.weight).c_str(), mediumName(e_.scene, n.media).c_str());
+    text_ += met(n) + "\n";
+    if (e_.partsAt(number)) appendParting(number);
+    appendOwn(number);
+    for (const std::size_t child : n.children) appendNode(child);
+  }
+
+  std::string met(const RayNode& n) const {
+    if (n.triangle == kMiss) return "leaves the scene";
+    return formatted("%s, %.6g away%s", materialName(e_.scene, n.material).c_str(), n.distance,
+                     n.hidden ? ", hidden in another medium" : "");
+  }
+
+  void appendParting(std::size_t number) {
+    const RayNode& n = e_.packets.nodes[number];
+    const std::size_t other = e_.counterpart[number];
+    // Only where they part first.
+    if (n.parent != number && e_.partsAt(n.parent)) return;
+    text_ += indent(n, 1) + "here the reference parts: ";
+    if (other == kNoCounterpart) {
+      text_ += "it does not follow this ray\n";
+    } else {
+      text_ += met(e_.reference.nodes[other]) + "\n";
+    }
+  }
+
+  void appendOwn(std::size_t number) {
+    const RayNode& n = e_.packets.nodes[number];
+    const RgbD emitted = addedBy(e_.packets, number, n.emitted);
+    if (maxComponent(emitted) > 0) {
+      text_ += indent(n, 1) + (n.triangle == kMiss ? "sky" : "emission and ambient") + " adds " +
+               textOf(emitted) + "\n";
+    }
+    for (const LightOfRay& light : n.lights) {
+      const std::string name = nameOf(e_.scene.lights[light.light].name, "light", light.light);
+      text_ += indent(n, 1) + name +
+               (light.visible ? " adds " + textOf(addedBy(e_.packets, number, light.radiance))
+                              : std::string(" is in shadow")) +
+               "\n";
+    }
+    appendEnd(n, "reflection", n.reflectionEnd);
+    appendEnd(n, "refraction", n.refractionEnd);
+  }
+
+  void appendEnd(const RayNode& n, const char* what, PathEnd end) {
+    if (end != PathEnd::none) {
+      text_ += indent(n, 1) + formatted("no %s: %s\n", what, nameOf(end));
+    }
+  }
+
+  void leaveOut(std::size_t number) {
+    const RayNode& n = e_.packets.nodes[number];
+    ++leftOut_;
+    restAdds_ += addedBy(e_.packets, number, n.local);
+    for (const std::size_t child : n.children) leaveOut(child);
+  }
+
+  const Explained& e_;
+  double least_ = 0;
+  std::string text_;
+  std::size_t leftOut_ = 0;
+  RgbD restAdds_;
+};
+
+std::string headOf(const Explained& e) {
+  const auto line = [&](const char* name, const Rgb& pixel) {
+    const auto codes = codesOf(pixel, e.options);
+    return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
+                     double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
+  };
+  std::size_t shadowRays = 0, parted = 0;
+  for (std::size_t i = 0; i < e.packets.nodes.size(); ++i) {
+    for (const LightOfRay& light : e.packets.nodes[i].lights) shadowRays += light.traced;
+    parted += e.partsAt(i);
+  }
+  return formatted("%s, pixel %d,%d: %zu rays and %zu shadow rays\n",
+                   printable(e.scene.name).c_str(), e.place.x, e.place.y, e.packets.nodes.size(),
+                   shadowRays) +
+         line("packets", e.packets.pixel) + line("reference", e.reference.pixel) +
+         (parted == 0 ? "" : "  their paths part\n") + "\n";
+}
+
+Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json lightJson(const Scene& scene, const LightOfRay& light) {
+  Json json{{"light", nameOf(scene.lights[light.light].name, "light", light.light)},
+            {"sample", light.sample},
+            {"shadow", !light.traced   ? "none"
+                       : light.visible ? "lit"
+                                       : "blocked"},
+            {"radiance", jsonOf(light.radiance)}};
+  if (light.traced) {
+    json["origin"] = jsonOf(light.origin);
+    json["to_light"] = jsonOf(light.toLight);
+  }
+  return json;
+}
+
+Json surfaceJson(const Scene& scene, const RayNode& n) {
+  if (n.triangle == kMiss) return nullptr;
+  Json json{{"material", materialName(scene, n.material)},
+            {scene.isSphere(n.triangle) ? "sphere" : "triangle", n.triangle},
+            {"distance", n.distance},
+            {"position", jsonOf(n.position)},
+            {"hidden", n.hidden}};
+  if (n.instance != kMiss) json["instance"] = n.instance;
+  return json;
+}
+
+Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool ofPackets) {
+  const RayNode& n = tree.nodes[number];
+  Json json{{"kind", kRayKindNames[static_cast<std::size_t>(n.kind)]},
+            {"origin", jsonOf(n.origin)},
+            {"direction", jsonOf(n.direction)},
+            {"weight", jsonOf(n.weight)},
+            {"medium", mediumName(scene, n.media)},
+            {"surface", surfaceJson(scene, n)},
+            {"radiance", jsonOf(n.radiance)}};
+  if (ofPackets) {
+    json["emitted"] = jsonOf(n.emitted);
+    json["local"] = jsonOf(n.local);
+    json["adds"] = jsonOf(addedBy(tree, number, n.local));
+    json["lights"] = Json::array();
+    for (const LightOfRay& light : n.lights) json["lights"].push_back(lightJson(scene, light));
+    json["ends"] = {{"reflection", nameOf(n.reflectionEnd)},
+                    {"refraction", nameOf(n.refractionEnd)}};
+  }
+  json["children"] = Json::array();
+  for (const std::size_t child : n.children) {
+    json["children"].push_back(nodeJson(scene, tree, child, ofPackets));
+  }
+  return json;
+}
+
+Json treeJson(const Explained& e, const RayTree& tree, bool ofPackets) {
+  Json json{{"radiance", jsonOf(RgbD(tree.pixel))}, {"codes", codesOf(tree.pixel, e.options)}};
+  json["samples"] = Json::array();
+  for (const std::size_t primary : tree.primaries) {
+    json["samples"].push_back(nodeJson(e.scene, tree, primary, ofPackets));
+  }
+  return json;
+}
+
+void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
+                 const Camera& camera) {
+  Camera seen = diagramCamera(e.packets, camera);
+  if (job.seenFrom) seen.eye = *job.seenFrom;
+  RenderOptions options = e.options;
+  options.size = kDiagramSize;
+  options.crop.reset();
+  Film film = makeFilm(e.scene, options, job.common.load.maxMemoryBytes);
+  renderer.render(seen, film);
+  const std::string picture =
+      encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
+  writeTextFile(job.svg,
+                rayDiagram(e.packets, seen, kDiagramSize.width, kDiagramSize.height, picture));
+}
+
+}  // namespace
+
+int explainCommand(const Words& words) {
+  ExplainJob job;
+  if (parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words) == Parsed::helpShown) {
+    return 0;
+  }
+  settleOptions(job.common);
+  if (job.pixel.empty()) throwUsage("whit explain expected --pixel x,y");
+  if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
+  requireJsonWritable(job.json);
+  auto progress = makeProgressBar(job.common);
+  const auto open = openScene(job.scenes[0], job.common, progress.get());
+  RenderOptions options = optionsFor(open->scene, job.common);
+  const Film film = openFilm(open->scene, job.common);
+  const PixelPlace place = readPixel(job.pixel, film.image);
+  Renderer renderer(open->scene, options, progress.get());
+  const Camera camera = chooseCamera(open->scene, options);
+  settleExposure(renderer, camera, options);
+  progress.reset();
+
+  Explained e{open->scene,
+              options,
+              place,
+              traceRayTree(renderer, camera, film, place.x, place.y),
+              traceReferenceTree(renderer, camera, film, place.x, place.y),
+              {}};
+  e.counterpart = counterparts(e.packets, e.reference);
+  if (!job.svg.empty()) drawDiagram(job, e, renderer, camera);
+  if (!job.json.empty()) {
+    writeJson(job.json, Json{{"scene", open->scene.name},
+                             {"size", {film.image.width, film.image.height}},
+                             {"pixel", {place.x, place.y}},
+                             {"packets", treeJson(e, e.packets, true)},
+                             {"reference", treeJson(e, e.reference, false)}});
+  }
+  if (job.json != "-") std::fputs((headOf(e) + TreeText(e, job.least).text()).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace whit::cli

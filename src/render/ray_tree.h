@@ -1,0 +1,79 @@
+// The rays of one pixel as the tree that Whitted drew (1980, figure 2): what each of them met, what
+// it brought back, and where it ended. Written down by observers, so that frames pay nothing for
+// it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/image.h"
+#include "core/vec3.h"
+#include "render/renderer.h"
+#include "stages/stage.h"
+
+namespace whit {
+
+// What a light, or one of its samples, adds to a surfel's radiance.
+struct LightOfRay {
+  std::uint32_t light = 0, sample = 0;
+  Vec3d origin, toLight;  // of the shadow ray: it reaches from one to their sum
+  bool traced = false;    // else no shadow was looked for
+  bool visible = true;
+  RgbD radiance;
+};
+
+// Why a surface sends on less than its material would.
+enum class PathEnd { none, depth, cutoff, totalReflection };
+
+struct RayNode {
+  RayKind kind = RayKind::primary;
+  std::size_t parent = 0;  // itself for a primary ray
+  int depth = 0;
+  Vec3d origin, direction;
+  RgbD weight{1, 1, 1};     // what it brings back, times this, is part of the parent's radiance
+  std::uint32_t media = 0;  // around it, a byte each (reference/media.h)
+  std::uint32_t triangle = kMiss, instance = kMiss;  // kMiss: it left the scene
+  std::uint32_t material = kMiss;
+  double u = 0, v = 0;  // of the hit
+  double distance = std::numeric_limits<double>::infinity();
+  Vec3d position;
+  bool hidden = false;  // a surface inside a dielectric of higher priority: not there
+  RgbD emitted;         // with the reflective ambient; of rays that left the scene the sky
+  std::vector<LightOfRay> lights;
+  RgbD local;     // of emission, ambient and lights
+  RgbD radiance;  // with what its children brought back
+  PathEnd reflectionEnd = PathEnd::none, refractionEnd = PathEnd::none;
+  std::vector<std::size_t> children;
+};
+
+// Parents come before their children.
+struct RayTree {
+  std::vector<RayNode> nodes;
+  std::vector<std::size_t> primaries;  // one a sample of the pixel
+  Rgb pixel;                           // as the film has it
+};
+
+// By the pipeline, of a film of that size. The pixel is the mean, over the samples, of a primary
+// ray's weight times its radiance; radiance is a node's local one and then, child by child in
+// order, weight times theirs: the same sums in the same order, to the last bit.
+RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
+
+// By the scalar reference. What a node's own lights add is not told apart: `local` and `emitted`
+// stay 0, and weights do not hold what is absorbed on the way, which is in the radiance.
+RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x,
+                           int y);
+
+// What a node's own radiance counts at the eye: the product of the weights as far as there. The
+// mean over the samples is not part of it.
+RgbD weightAtEye(const RayTree& tree, std::size_t node);
+
+// For each node of `a` its counterpart in `b`, by kind and order among siblings; kNoCounterpart
+// where there is none.
+inline constexpr std::size_t kNoCounterpart = std::numeric_limits<std::size_t>::max();
+std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
+
+// Whether both met the same surface, saw the same lights and sent on the same impulses.
+bool agree(const RayNode& a, const RayNode& b);
+
+}  // namespace whit

@@ -1,0 +1,80 @@
+// whit explain from the outside.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+// What a node and all below it add to the first channel of the pixel.
+double addedBelow(const nlohmann::json& node) {
+  double sum = node["adds"][0].get<double>();
+  for (const nlohmann::json& child : node["children"]) sum += addedBelow(child);
+  return sum;
+}
+
+TEST(Explain, TellsTheTreeOfAPixel) {
+  const TemporaryFolder folder;
+  const std::string svg = folder / "rays.svg";
+  const Outcome outcome = runWhit({"explain", "whitted", "--size", "96x60", "--pixel", "30,20",
+                                   "--svg", svg, "--json", folder / "rays.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("pixel 30,20: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n  packets    "), std::string::npos);
+  EXPECT_NE(outcome.out.find("\n  reference  "), std::string::npos);
+  EXPECT_NE(outcome.out.find("\nprimary, weight 1.00000 1.00000 1.00000, in air: "),
+            std::string::npos);
+  EXPECT_NE(outcome.out.find("\n  refraction, weight "), std::string::npos);
+  EXPECT_NE(outcome.out.find("sky adds "), std::string::npos);
+
+  const nlohmann::json json = nlohmann::json::parse(readFile(folder / "rays.json"));
+  const nlohmann::json& packets = json["packets"];
+  const double radiance = packets["radiance"][0].get<double>();
+  EXPECT_NEAR(addedBelow(packets["samples"][0]), radiance, 1e-6 * radiance);
+  EXPECT_NEAR(json["reference"]["radiance"][0].get<double>(), radiance, 1e-3 * radiance);
+  EXPECT_EQ(packets["samples"][0]["surface"]["material"], "glass");
+  EXPECT_TRUE(packets["samples"][0]["surface"].contains("sphere"));
+  EXPECT_FALSE(json["reference"]["samples"][0]["children"].empty());
+
+  const std::string drawing = readFile(svg);
+  EXPECT_EQ(drawing.rfind("<svg ", 0), 0u);
+  EXPECT_NE(drawing.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(drawing.find("<line "), std::string::npos);
+  EXPECT_NE(drawing.find("</svg>"), std::string::npos);
+}
+
+TEST(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
+  const auto said = [](const char* least) {
+    return runWhit({"explain", "whitted", "--size", "96x60", "--pixel", "30,20", "--spp", "2",
+                    "--least", least})
+        .out;
+  };
+  const std::string all = said("0"), most = said("0.2");
+  EXPECT_EQ(all.find("more rays, which add"), std::string::npos) << all;
+  EXPECT_NE(most.find("more rays, which add"), std::string::npos) << most;
+  EXPECT_NE(all.find("primary"), all.rfind("primary"));
+  EXPECT_LT(most.size(), all.size());
+}
+
+TEST(Explain, RefusesWrongUsage) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const auto refused = [&](std::vector<std::string> words, const std::string& because) {
+    words.insert(words.begin(), {"explain", tiny});
+    const Outcome outcome = runWhit(words);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(because), std::string::npos) << outcome.err;
+  };
+  refused({}, "expected --pixel x,y");
+  for (const char* pixel : {"3", "3,", "a,b", "3,4,5", "3,4 ", ""}) {
+    refused({"--pixel", pixel}, "expected");
+  }
+  refused({"--pixel", "48,0"}, "not in the picture of 48x32");
+  refused({"--pixel", "0,-1"}, "not in the picture");
+  refused({"--pixel", "0,0", "--svg", folder / "a.png"}, ".svg");
+}
+
+}  // namespace
+}  // namespace whit::cli

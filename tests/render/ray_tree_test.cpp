@@ -1,0 +1,127 @@
+// The tree of a pixel's rays against the pixel: its sum is the radiance of the picture, to the last
+// bit, and the reference's likewise.
+#include "render/ray_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "render/row_of_tiles.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+// As the frame sums: floats, products rounded.
+Rgb sumOf(const RayTree& tree, std::size_t node) {
+  Rgb sum(tree.nodes[node].local);
+  for (const std::size_t child : tree.nodes[node].children) {
+    sum += Rgb(tree.nodes[child].weight) * sumOf(tree, child);
+  }
+  return sum;
+}
+
+Rgb pixelOf(const RayTree& tree) {
+  RgbD sum;
+  for (const std::size_t primary : tree.primaries) {
+    sum += RgbD(Rgb(tree.nodes[primary].weight) * sumOf(tree, primary));
+  }
+  return Rgb(sum / static_cast<double>(tree.primaries.size()));
+}
+
+class ShippedRayTree : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedRayTree, SumsUpToThePixel) {
+  const Scene scene = load(GetParam());
+  RenderOptions options;
+  options.size = ImageSize{60, 40};
+  options.depth = 10;
+  Renderer renderer(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  Film film = makeFilm(scene, options), reference = film;
+  renderer.render(camera, film);
+  renderer.renderReference(camera, reference);
+  std::mt19937 random(7);
+  for (int i = 0; i < 40; ++i) {
+    const int x = static_cast<int>(random() % 60), y = static_cast<int>(random() % 40);
+    const RayTree tree = traceRayTree(renderer, camera, film, x, y);
+    EXPECT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
+    EXPECT_EQ(pixelOf(tree), film.image.at(x, y)) << x << "," << y;
+    EXPECT_EQ(traceReferenceTree(renderer, camera, film, x, y).pixel, reference.image.at(x, y))
+        << x << "," << y;
+  }
+}
+
+std::string nameOfScene(const testing::TestParamInfo<const char*>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
+                         testing::Values("matte", "whitted", "mirrors", "glass", "effects",
+                                         "glossy"),
+                         nameOfScene);
+
+// A mirror sees a wall that glows.
+Scene mirrorAndWall() {
+  SceneBuilder builder;
+  const auto wallAt = [&](float z, const Material& material) {
+    Mesh wall;
+    wall.positions = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    wall.materials = {builder.add(material)};
+    builder.add(std::move(wall));
+  };
+  wallAt(0, mirrorMaterial(0.5f));
+  wallAt(4, emittingMaterial(0.8f));
+  builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
+  return builder.build();
+}
+
+TEST(RayTree, OfAMirror) {
+  const Scene scene = mirrorAndWall();
+  RenderOptions options;
+  options.size = ImageSize{9, 9};
+  Renderer renderer(scene, options);
+  const Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  const RayTree tree = traceRayTree(renderer, camera, film, 4, 4);
+  ASSERT_EQ(tree.nodes.size(), 2u);
+  EXPECT_EQ(tree.nodes[0].kind, RayKind::primary);
+  EXPECT_NEAR(tree.nodes[0].distance, 2, 1e-6);
+  EXPECT_EQ(tree.nodes[1].kind, RayKind::reflection);
+  EXPECT_NEAR(tree.nodes[1].distance, 4, 1e-5);
+  EXPECT_NEAR(tree.nodes[1].weight.x, 0.5, 1e-6);
+  EXPECT_NEAR(tree.nodes[1].radiance.x, 0.8, 1e-6);
+  EXPECT_NEAR(double{tree.pixel.x}, 0.4, 1e-6);
+  EXPECT_EQ(tree.nodes[0].reflectionEnd, PathEnd::none);
+
+  const RayTree reference = traceReferenceTree(renderer, camera, film, 4, 4);
+  ASSERT_EQ(reference.nodes.size(), 2u);
+  const std::vector<std::size_t> counterpart = counterparts(tree, reference);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(counterpart[i], i);
+    EXPECT_TRUE(agree(tree.nodes[i], reference.nodes[i]));
+    EXPECT_NEAR(length(tree.nodes[i].position - reference.nodes[i].position), 0, 1e-5);
+  }
+}
+
+TEST(RayTree, SaysWhyPathsEnd) {
+  const Scene scene = mirrorAndWall();
+  RenderOptions options;
+  options.size = ImageSize{9, 9};
+  const auto endWith = [&] {
+    Renderer renderer(scene, options);
+    const Film film = makeFilm(scene, options);
+    return traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4).nodes[0].reflectionEnd;
+  };
+  options.depth = 0;
+  EXPECT_EQ(endWith(), PathEnd::depth);
+  options.depth = 8;
+  options.cutoff = 0.6f;
+  EXPECT_EQ(endWith(), PathEnd::cutoff);
+}
+
+}  // namespace
+}  // namespace whit::test
