@@ -80,7 +80,6 @@ within() {
     # The objects are root's.
     if [ "$user" != root ]; then settings+=(CCACHE_READONLY=1 CCACHE_TEMPDIR=/tmp/ccache); fi
   fi
-  if [ -n "${CI:-}" ]; then settings+=("CI=$CI"); fi
   if [ -n "${WHIT_DATA:-}" ]; then settings+=(WHIT_DATA=/data); fi
   apart bash "$enter" "$system" "$work/archives" "$objects" "${WHIT_DATA:-}" --userspec="$user:$user" "$system" \
     /usr/bin/env -i --chdir="$home" HOME="$home" USER="$user" DEBIAN_FRONTEND=noninteractive \

@@ -52,8 +52,15 @@ shows() {
   look
   [ "$(option size)" = "$1" ]
 }
-# changed OPTION BEFORE WHAT
-changed() { [ "$(option "$1")" != "$2" ] || fail "$3 did not change --$1 $2"; }
+# acts OPTION BEFORE WORDS...: whether what xdotool does changes the option of the view.
+acts() {
+  local name=$1 before=$2
+  shift 2
+  xdotool "$@"
+  look
+  [ "$(option "$name")" != "$before" ]
+}
+# A key that goes up again before a busy machine has shown a frame moves nothing: it is held once more.
 
 # -noreset: when its only client leaves, as xdotool does, the server would otherwise begin anew and drop a
 # window manager that is just connecting.
@@ -73,24 +80,12 @@ window=$(timeout 60 xdotool search --sync --onlyvisible --name '^whit' | head -n
 xdotool windowactivate --sync "$window"
 
 look
-before=$(option eye)
-xdotool keydown w sleep 0.3 keyup w
-look
-changed eye "$before" "holding W"
-before=$(option eye)
-xdotool keydown shift keydown d sleep 0.3 keyup d keyup shift
-look
-changed eye "$before" "holding Shift and D"
-before=$(option at)
-xdotool mousemove --window "$window" 200 150 mousedown 1 sleep 0.2 mousemove_relative -- 40 15 \
-  sleep 0.2 mouseup 1
-look
-changed at "$before" "dragging with the left button"
-before=$(option eye)
-xdotool mousemove --window "$window" 200 150 mousedown 3 sleep 0.2 mousemove_relative -- 60 0 \
-  sleep 0.2 mouseup 3
-look
-changed eye "$before" "dragging with the right button"
+within acts eye "$(option eye)" keydown w sleep 0.3 keyup w
+within acts eye "$(option eye)" keydown shift keydown d sleep 0.3 keyup d keyup shift
+within acts at "$(option at)" mousemove --window "$window" 200 150 mousedown 1 sleep 0.2 \
+  mousemove_relative -- 40 15 sleep 0.2 mouseup 1
+within acts eye "$(option eye)" mousemove --window "$window" 200 150 mousedown 3 sleep 0.2 \
+  mousemove_relative -- 60 0 sleep 0.2 mouseup 3
 
 first=$(size)
 xdotool key f
