@@ -140,7 +140,8 @@ class TreeText {
   std::string text() {
     for (const std::size_t primary : e_.packets.primaries) appendNode(primary);
     if (leftOut_ > 0) {
-      text_ += formatted("%zu more rays, which add %s\n", leftOut_, textOf(restAdds_).c_str());
+      text_ += formatted("%zu more ray%s, adding %s\n", leftOut_, leftOut_ == 1 ? "" : "s",
+                         textOf(restAdds_).c_str());
     }
     return std::move(text_);
   }
@@ -234,9 +235,10 @@ std::string headOf(const Explained& e) {
     for (const LightOfRay& light : e.packets.nodes[i].lights) shadowRays += light.traced;
     parted += e.partsAt(i);
   }
-  return formatted("%s, pixel %d,%d: %zu rays and %zu shadow rays\n",
-                   printable(e.scene.name).c_str(), e.place.x, e.place.y, e.packets.nodes.size(),
-                   shadowRays) +
+  const std::size_t rays = e.packets.nodes.size();
+  return formatted("%s, pixel %d,%d: %zu ray%s and %zu shadow ray%s\n",
+                   printable(e.scene.name).c_str(), e.place.x, e.place.y, rays,
+                   rays == 1 ? "" : "s", shadowRays, shadowRays == 1 ? "" : "s") +
          line("packets", e.packets.pixel) + line("reference", e.reference.pixel) +
          (parted == 0 ? "" : "  their paths part\n") + "\n";
 }
