@@ -74,6 +74,7 @@ StepFunction findLookUpCoverage(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
+StepFunction findDecideShadows(std::size_t index);
 StepFunction findAddShading(std::size_t index);
 StepFunction findAddReflections(std::size_t index);
 StepFunction findAddGlossyReflections(std::size_t index);
@@ -137,6 +138,14 @@ inline constexpr Kernel kFindRadianceAndShadowRays{
     {Part::unshadowed, Part::shadows},
     EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
 
+// Takes the rays whose verdict is known out of the shadow rays; `visible` is 1 where that is lit.
+inline constexpr Kernel kDecideShadows{"decideShadows",
+                                       Stage::checkShadows,
+                                       findDecideShadows,
+                                       {Part::hits, Part::shadows},
+                                       {Part::shadows, Part::unshadowed},
+                                       {}};
+
 inline constexpr Kernel kPackShadowRays{
     "packShadowRays", Stage::checkShadows, nullptr, {Part::shadows}, {}, {}};
 inline constexpr Kernel kUnpackVisibility{
@@ -187,6 +196,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,
+                                     kDecideShadows,
                                      kPackShadowRays,
                                      kUnpackVisibility,
                                      kAddShading,

@@ -1,5 +1,7 @@
 #include "cli/bench_run.h"
 
+#include <limits>
+
 #include "accuracy/digest.h"
 #include "render/auto_exposure.h"
 #include "render/floor.h"
@@ -13,7 +15,8 @@ BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& c
       options_(options),
       renderer_(open_->scene, options, progress),
       camera_(chooseCamera(open_->scene, options)),
-      film_(openFilm(open_->scene, common)) {
+      film_(openFilm(open_->scene, common)),
+      maxMemoryBytes_(common.load.maxMemoryBytes) {
   settleExposure(renderer_, camera_, options_);
   summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
 }
@@ -23,7 +26,21 @@ FrameStats BenchRun::frame() {
                : renderFrame(renderer_, options_.mode, camera_, film_);
 }
 
-void BenchRun::warmUp() { frame(); }
+// The first frame knows nothing of shadows; after it, all that it has asked for is found out.
+void BenchRun::warmUp() {
+  const bool shared = farm_ && farm_->ranks() > 1;
+  if (summary_.verdicts || shared || options_.mode == Mode::reference) {
+    frame();
+    return;
+  }
+  renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_));
+  const FrameStats first = frame();
+  if (!renderer_.decidesShadows()) return;
+  VerdictUse& use = summary_.verdicts.emplace();
+  use.coldMs = first.frameMs;
+  use.fillMs = renderer_.fillVerdicts(1, std::numeric_limits<double>::infinity()).ms;
+  use.bytes = renderer_.verdictBytes();
+}
 
 void BenchRun::measure(bool floor) {
   summary_.frames.push_back(frame());

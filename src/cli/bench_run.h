@@ -23,6 +23,9 @@ class BenchRun {
   const RunSummary& summary() const { return summary_; }
   // Of the scene and of what the renderer has allocated, in 10^6 bytes. Complete after a frame.
   double memoryMb() const;
+  // The last frame, and the options that made it.
+  const Film& film() const { return film_; }
+  const RenderOptions& options() const { return options_; }
 
  private:
   FrameStats frame();
@@ -33,6 +36,7 @@ class BenchRun {
   Renderer renderer_;
   Camera camera_;
   Film film_;
+  std::uint64_t maxMemoryBytes_;
   RunSummary summary_;
 };
 

@@ -29,6 +29,14 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
+  const VerdictOutlook verdicts = verdictOutlook(s, renderer.options());
+  if (verdicts.lights > 0) {
+    std::printf(
+        "  %-12swhere a view is rendered again: %zu of the lights, %zu parts of triangles\n",
+        "verdicts", verdicts.lights, verdicts.parts);
+  } else {
+    std::printf("  %-12snone: %s\n", "verdicts", verdicts.because.c_str());
+  }
   std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");
   for (const Camera& camera : s.cameras) std::printf("%s ", printable(camera.name).c_str());

@@ -71,6 +71,19 @@ void addFrames(const RunSummary& run, Json& json) {
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["rays"][std::string(kRayKindNames[i])] = frame.meter.tally[i].rays;
   }
+  const auto [lit, dark] = frame.meter.shadows;
+  const std::uint64_t traced = frame.of(RayKind::shadow).rays;
+  // All of them, so that frames with and without verdicts have the same rays.
+  json["rays"]["shadow"] = traced + lit + dark;
+  if (run.verdicts) {
+    const double cold = run.verdicts->coldMs;
+    json["verdicts"] = {{"lit", lit},
+                        {"dark", dark},
+                        {"traced", traced},
+                        {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
+                        {"fill_ms", run.verdicts->fillMs},
+                        {"bytes", run.verdicts->bytes}};
+  }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.meter.tally[i]);
@@ -81,6 +94,11 @@ void addFrames(const RunSummary& run, Json& json) {
     const double floor = quantile(run.floorMs, 0.5);
     json["floor_ms"] = floor;
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
+  }
+  if (!run.writingMs.empty()) {
+    json["writing_ms"] = {{"spent", quantile(run.writingMs, 0.5)},
+                          {"waited", quantile(run.waitedMs, 0.5)}};
+    json["written_per_s"] = writtenPerSecond(run);
   }
   if (!run.shares.empty()) json["farm"] = farmJson(run.shares[medianFrameIndex(run)]);
 }
@@ -160,6 +178,8 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
+  const VerdictOutlook verdicts = verdictOutlook(scene, options);
+  json["verdicts"] = {{"lights", verdicts.lights}, {"parts", verdicts.parts}};
   json["cameras"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
   json["warnings"] = Json::object();

@@ -17,8 +17,10 @@ namespace whit::cli {
 using Json = nlohmann::ordered_json;
 
 Json machineJson(const Machine& machine);
-// `stages_ms`, `embree_ms`, `rays` and what follows are those of the median frame; a run of no
-// frames, whose images were all there, has none of what is measured on frames.
+// `writing_ms`, where images were written, has the medians of what writing one took and of what the
+// tracing waited for it; `written_per_s` is the rate of both together. `stages_ms`, `embree_ms`,
+// `rays` and what follows are those of the median frame; a run of no frames, whose images were all
+// there, has none of what is measured on frames.
 Json runJson(const RunSummary& run);
 // `abEffects`: the runs come in pairs, the scene's effects and all of them; adds the latter over
 // the former as `all_over_auto`.

@@ -1,5 +1,7 @@
 #include "cli/stage_table.h"
 
+#include <utility>
+
 #include "core/formatted.h"
 
 namespace whit::cli {
@@ -21,15 +23,38 @@ void appendSettings(std::string& text, const RunSummary& run) {
   }
 }
 
+// In the unit in which it is not 0.0.
+std::string rateText(double perSecond) {
+  if (perSecond >= 1) return formatted("%.1f a second", perSecond);
+  if (perSecond * 60 >= 1) return formatted("%.1f a minute", perSecond * 60);
+  return formatted("%.1f an hour", perSecond * 3600);
+}
+
 void appendFrames(std::string& text, const RunSummary& run) {
   const std::vector<double> times = frameTimes(run);
   const double median = quantile(times, 0.5);
-  text += formatted("  frame %.2f ms (%.1f a second)", median, median > 0 ? 1e3 / median : 0);
+  std::string rates = rateText(median > 0 ? 1e3 / median : 0);
+  if (run.writingMs.size() > 1) {
+    rates += " traced, " + rateText(writtenPerSecond(run)) + " traced and written";
+  }
+  text += formatted("  frame %.2f ms (%s)", median, rates.c_str());
   if (times.size() > 1) {
     text += formatted(", least %.2f, 95 %% within %.2f, of %zu frames", quantile(times, 1e-9),
                       quantile(times, 0.95), times.size());
   }
   text += formatted("; load %.0f ms, build %.0f ms\n", run.loadMs, run.buildMs);
+}
+
+void appendVerdicts(std::string& text, const RunSummary& run) {
+  if (!run.verdicts) return;
+  const FrameStats& frame = medianFrame(run);
+  const auto [lit, dark] = frame.meter.shadows;
+  const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
+  text += formatted("  warm: verdicts for %.1f %% of the shadow rays; ",
+                    rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
+  if (run.verdicts->coldMs > 0) text += formatted("first frame %.2f ms, ", run.verdicts->coldMs);
+  text += formatted("tables filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
+                    static_cast<double>(run.verdicts->bytes) / 1e6);
 }
 
 void appendStages(std::string& text, const FrameStats& frame) {
@@ -47,6 +72,12 @@ void appendStages(std::string& text, const FrameStats& frame) {
                     100 * frame.embreeMs() / whole);
 }
 
+void appendWriting(std::string& text, const RunSummary& run) {
+  if (run.writingMs.empty()) return;
+  text += formatted("  %-34s%10.3f%8s  %.3f waited for\n", "writing the image",
+                    quantile(run.writingMs, 0.5), "", quantile(run.waitedMs, 0.5));
+}
+
 void appendRays(std::string& text, const FrameStats& frame) {
   text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
@@ -60,6 +91,13 @@ void appendRays(std::string& text, const FrameStats& frame) {
       text += formatted("%16s\n", "-");
     }
   }
+  const DecidedShadows& decided = frame.meter.shadows;
+  for (const auto& [name, rays] :
+       {std::pair{"shadow, lit", decided.lit}, std::pair{"shadow, dark", decided.dark}}) {
+    if (decided.lit + decided.dark == 0) continue;
+    text += formatted("  %-14s%12llu%10s%16s\n", name, static_cast<unsigned long long>(rays), "-",
+                      "proved");
+  }
   text +=
       formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
                 mraysPerSecond(frame.allRays(), frame.frameMs));
@@ -71,9 +109,11 @@ std::string stageTable(const RunSummary& run) {
   std::string text;
   appendSettings(text, run);
   appendFrames(text, run);
+  appendVerdicts(text, run);
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
+  appendWriting(text, run);
   appendRays(text, frame);
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);

@@ -8,7 +8,8 @@
 namespace whit::cli {
 
 // One line about the run's settings, one about its frame times, the eight stages and the rays of
-// the median frame, and the floor if it was measured.
+// the median frame, what writing its image took if it was written, and the floor if it was
+// measured.
 std::string stageTable(const RunSummary& run);
 
 // What it costs to compile in every effect: the ratios of two runs of one scene, whose frames took

@@ -22,7 +22,7 @@ class HugePageAllocator {
   HugePageAllocator(const HugePageAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
 
   T* allocate(std::size_t n) {
-    if (n > static_cast<std::size_t>(-1) / sizeof(T) - kHugePage) throw std::bad_array_new_length();
+    if (n > kMostBytes / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = n * sizeof(T);
     // Small tables would waste most of a page.
     const std::size_t alignment = bytes >= kHugePage ? kHugePage : kCacheLine;
@@ -43,6 +43,7 @@ class HugePageAllocator {
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{2} << 20, kCacheLine = 64;
+  static constexpr std::size_t kMostBytes = (static_cast<std::size_t>(-1) >> 1) - kHugePage;
 };
 
 template <typename T>

@@ -17,7 +17,7 @@ enum class Rebuild {
   tables,   // the shading tables, if the plan calls for others
   workers,  // threads, their tiles and queues
   acceleration,
-  scene,  // which whoever loads it does
+  scene,  // it is loaded again, which no renderer does
 };
 
 // What an inexact value costs the picture: rounding (the same rays, computed otherwise), rays and
@@ -86,6 +86,8 @@ struct OptionSpec {
   // The value that the viewer measures the cost of others against: the cheapest that still makes a
   // picture of the scene. Empty: not measured.
   std::string_view cheapest = {};
+  // Whether --help has it; the others are in --help-all.
+  bool everyday = false;
   std::optional<KnobSpec> knob = {};
 };
 

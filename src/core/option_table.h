@@ -27,6 +27,11 @@ void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
 // Sets what options.quality stands for, leaving alone the options named in `given` (as in
 // forEachOption): what the user says counts for more than a preset.
 void applyQuality(RenderOptions& options, const std::set<std::string>& given);
+// What a preset changes of the defaults, as on the command line; empty for those themselves.
+struct QualityPreset {
+  std::string name, options;
+};
+std::vector<QualityPreset> qualityPresets();
 // Likewise what is better for a model without a scene file: nobody has looked at its picture.
 void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given);
 

@@ -26,6 +26,9 @@ enum class FilmPrecision { single, half, eightBit };
 enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
+// Of shadows, proved beforehand (verdicts/verdict_tables.h): where a view is rendered again and
+// again; never; or traced all the same, and the frame fails where one is wrong.
+enum class Verdicts { automatic, off, audit };
 
 inline constexpr Need kNeedsSoftShadows{EffectSet().with(Effect::softShadows),
                                         "no light has a radius and a shadow"};
@@ -72,6 +75,7 @@ struct RenderOptions {
   Batch batch = Batch::tile;
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
+  Verdicts verdicts = Verdicts::automatic;
   int sphereSegments = 0;  // of the triangles in place of each sphere; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
@@ -106,24 +110,24 @@ decltype(auto) withOptions(Options& o, Use&& use) {
   return use(
       Option{{.name = "size", .words = "WxH",
               .help = "image size in pixels (default: the scene's, else 480x300)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.size},
       Option{{.name = "camera", .words = "NAME",
               .help = "one of the scene's cameras (default: the first)",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.camera},
       Option{{.name = "eye", .words = "x,y,z", .help = "viewpoint",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.eye},
       Option{{.name = "at", .words = "x,y,z", .help = "point looked at",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.at},
       Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image",
               .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.up},
       Option{{.name = "fov", .words = "DEG", .low = 0.001, .high = 179,
               .help = "vertical field of view",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.fov},
       Option{{.name = "ortho", .words = "HEIGHT", .low = 0, .high = 1e18,
               .help = "parallel rays; height of the picture in the scene (0: perspective)",
@@ -131,10 +135,11 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.ortho},
       Option{{.name = "crop", .words = "x0,y0,x1,y1",
               .help = "pixels traced; the EXR's data window",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.crop},
       Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
               .help = "samples per pixel",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
                                .values = "1 2 4 8 16", .crossed = "1 4 16", .spare = "2"}},
              o.spp},
@@ -143,6 +148,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "adaptive", .words = "on|off",
               .help = "--spp samples only where neighbors differ in surface or contrast, elsewhere "
                       "one",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
                                .alongside = "--spp 24"}},
              o.adaptive},
@@ -154,6 +160,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "deepest impulse",
               .cheapest = "0",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
                                .values = "0 1 2 3 4 8 16 32 64", .crossed = "4 8 64",
                                .spare = "1 3 16 32", .needs = {kNeedsImpulses}}},
@@ -164,6 +171,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "such a ray or by an impulse; 0: rough surfaces reflect lights only",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 4 16", .needs = {kNeedsGlossyReflection}}},
              o.glossy},
@@ -180,6 +188,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "shadow ray; 1: its center",
               .rebuilds = Rebuild::tables,
               .cheapest = "1",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
                                .needs = {kNeedsSoftShadows}}},
              o.lightSamples},
@@ -201,6 +210,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
               .rebuilds = Rebuild::tables,
               .cheapest = "nearest",
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
                                .values = "bilinear nearest trilinear", .needs = {kNeedsTextures}}},
              o.shading.textureFilter},
@@ -236,7 +246,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.shading.reciprocal},
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "workers (default: what affinity and cgroup quota allow)",
-              .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none},
+              .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
              o.threads},
       Option{{.name = "packet", .words = "auto|1|4|8|16",
               .help = "rays per packet (auto: widest the CPU runs natively)",
@@ -251,6 +261,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "mode", .words = "packets|reference",
               .help = "vector pipeline in float, or the scalar recursive reference in double",
               .rebuilds = Rebuild::nothing, .tab = Tab::none,
+              .everyday = true,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "reference",
                                .values = "packets reference", .spare = "reference"}},
              o.mode},
@@ -276,6 +287,11 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
                                .values = "low medium high", .spare = "low high"}},
              o.bvh},
+      Option{{.name = "verdicts", .words = "auto|off|audit",
+              .help = "shadows proved beforehand, where bench renders a view again: their rays are not "
+                      "traced; audit: they are all the same, and a wrong one ends the run",
+              .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
+             o.verdicts},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of the scene's exact spheres, so many around each and "
                       "half as many from pole to pole, 4 or more; 0: they are exact",
@@ -292,7 +308,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.effects},
       Option{{.name = "quality", .words = "draft|standard|fine|reference",
               .help = "presets of the other options",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.quality},
       Option{{.name = "disable", .words = "a,b",
               .help = "effects left out (the names that whit info prints)",
@@ -301,11 +317,11 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
               .help = "exposure of 8-bit output; auto: what the view calls for (default: 0, of "
                       "models without a scene file auto)",
-              .tab = Tab::picture},
+              .tab = Tab::picture, .everyday = true},
              o.exposure},
       Option{{.name = "tonemap", .words = "none|filmic|reinhard",
               .help = "tone curve of 8-bit output",
-              .tab = Tab::picture},
+              .tab = Tab::picture, .everyday = true},
              o.toneCurve},
       Option{{.name = "film", .words = "float|half|8bit",
               .help = "numbers that the picture is kept in before exposure; 8bit: sRGB codes",

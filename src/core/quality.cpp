@@ -1,5 +1,6 @@
 // Presets of the options that trade time for accuracy.
 #include "core/option_table.h"
+#include "core/option_values.h"
 
 namespace whit {
 
@@ -45,6 +46,23 @@ void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
     if (!given.contains("light-cutoff")) options.shading.lightCutoff = preset.lightCutoff;
     if (!given.contains("mode")) options.mode = preset.mode;
   }
+}
+
+std::vector<QualityPreset> qualityPresets() {
+  std::vector<QualityPreset> all;
+  for (const Preset& preset : kPresets) {
+    RenderOptions options;
+    options.quality = preset.quality;
+    applyQuality(options, {});
+    QualityPreset said{optionText(options, "quality"), ""};
+    forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+      const std::string name(spec.name), value = formatValue(spec, field);
+      if (name == "quality" || value == optionText(kDefaults, name)) return;
+      said.options += (said.options.empty() ? "--" : " --") + name + " " + value;
+    });
+    all.push_back(std::move(said));
+  }
+  return all;
 }
 
 void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given) {

@@ -12,6 +12,9 @@ void FrameStats::add(const FrameStats& worker) {
     meter.tally[i].rays += worker.meter.tally[i].rays;
     meter.tally[i].lanes += worker.meter.tally[i].lanes;
   }
+  meter.shadows.lit += worker.meter.shadows.lit;
+  meter.shadows.dark += worker.meter.shadows.dark;
+  if (!meter.wrongVerdict) meter.wrongVerdict = worker.meter.wrongVerdict;
   meter.embreeMs += worker.meter.embreeMs;
   nonFinitePixels += worker.nonFinitePixels;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
+#include "render/audit_shadows.h"
 #include "render/initial_media.h"
 #include "render/settle_flush.h"
 #include "render/update_image.h"
@@ -89,9 +90,16 @@ Step embreeStep(const char* name, const char* call, StepFunction run, const simd
   return step;
 }
 
+// Whether shadow rays start and travel as proofs take for granted.
+bool canDecide(const Plan& plan, const RenderOptions& options) {
+  return plan.effects.has(Effect::shadows) && options.robust && !plan.features.has(Feature::lift) &&
+         options.shading.offset == OffsetMethod::bound;
+}
+
 class Planner {
  public:
-  Planner(const Scene& scene, const RenderOptions& options) : scene_(scene), options_(options) {
+  Planner(const Scene& scene, const RenderOptions& options, bool verdicts)
+      : scene_(scene), options_(options), verdicts_(verdicts) {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects = consistent(called.without(options.disable).without(notAskedFor(options)));
@@ -167,6 +175,10 @@ class Planner {
           simd::kFindRadianceAndShadowRays.functionFor(effects.without(Effect::glossy));
     }
     if (has(Effect::shadows)) {
+      if (verdicts_ && samples == 1 && canDecide(plan_, options_)) {
+        lightSteps.steps.push_back(stepOf(simd::kDecideShadows, plan_.effects));
+        if (options_.verdicts == Verdicts::audit) lightSteps.steps.back().run = auditShadows;
+      }
       lightSteps.steps.push_back(embreeStep("checkShadows", "occluded", checkShadows,
                                             simd::kPackShadowRays, simd::kUnpackVisibility,
                                             inPackets()));
@@ -245,6 +257,7 @@ class Planner {
 
   const Scene& scene_;
   const RenderOptions& options_;
+  bool verdicts_;
   Plan plan_;
 };
 
@@ -284,10 +297,21 @@ std::vector<Stage> Plan::stages() const {
   return list;
 }
 
-Plan makePlan(const Scene& scene, const RenderOptions& options) {
-  Plan plan = Planner(scene, options).make();
+Plan makePlan(const Scene& scene, const RenderOptions& options, bool verdicts) {
+  Plan plan = Planner(scene, options, verdicts).make();
   requireOrder(plan);
   return plan;
+}
+
+std::vector<std::size_t> lightsWithVerdicts(const Plan& plan) {
+  std::vector<std::size_t> lights;
+  for (const LightSteps& light : plan.perLight) {
+    const bool decides = std::any_of(light.steps.begin(), light.steps.end(), [](const Step& step) {
+      return step.name == simd::kDecideShadows.name;
+    });
+    if (decides) lights.push_back(light.light);
+  }
+  return lights;
 }
 
 std::vector<KernelUse> kernelsOf(const Plan& plan) {

@@ -89,8 +89,13 @@ struct Plan {
   std::vector<Stage> stages() const;
 };
 
-// For kernels of the target that is chosen (simd::chooseTarget).
-Plan makePlan(const Scene& scene, const RenderOptions& options);
+// For kernels of the target that is chosen (simd::chooseTarget). `verdicts`: there are tables of
+// them for the frames, or will be.
+Plan makePlan(const Scene& scene, const RenderOptions& options, bool verdicts = false);
+
+// The lights whose shadows it decides: those taken as points, if shadow rays start at their surfels
+// and go through robust traversal.
+std::vector<std::size_t> lightsWithVerdicts(const Plan& plan);
 
 std::vector<KernelUse> kernelsOf(const Plan& plan);
 

@@ -4,6 +4,7 @@
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
 #include "reference/initial_medium_stack.h"
+#include "render/audit_shadows.h"
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/enclosure.h"
@@ -71,7 +72,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
 
 std::uint64_t Renderer::memoryBytes() const {
   return accel_->memoryBytes() + tables_.texels.size() * sizeof(std::uint32_t) +
-         scheduler_.bytes() + adaptive_.bytes();
+         scheduler_.bytes() + adaptive_.bytes() + (verdicts_ ? verdicts_->bytes() : 0);
 }
 
 CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
@@ -91,7 +92,9 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
-  return {&scene_, &tables_, &*accel_, plan_.effects, plan_.features, options_, cameraRays(camera)};
+  const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
+  return {&scene_,       &tables_,       &*accel_, verdicts,
+          plan_.effects, plan_.features, options_, cameraRays(camera)};
 }
 
 Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
@@ -105,19 +108,22 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
 }
 
 FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch) {
-  const Frame frame = frameOf(
-      camera, film, adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
+  Frame frame = frameOf(camera, film,
+                        adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
+  if (watch) frame.constants.verdicts = nullptr;  // who looks on sees all rays
   const Stopwatch stopwatch;
   FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
                                 : scheduler_.trace(frame, scheduler_.allPixels(), watch);
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
+  requireRightVerdicts(stats, scene_);
   return stats;
 }
 
 FrameStats Renderer::observe(const Camera& camera, Film& film,
                              std::span<StageObserver* const> observers) {
-  const Frame frame = frameOf(camera, film, film.image.window);
+  Frame frame = frameOf(camera, film, film.image.window);
+  frame.constants.verdicts = nullptr;  // as above
   const Stopwatch stopwatch;
   FrameStats stats = scheduler_.observe(frame, observers);
   stats.frameMs = stopwatch.ms();

@@ -22,6 +22,7 @@
 #include "render/plan.h"
 #include "render/scheduler.h"
 #include "scene/scene.h"
+#include "verdicts/verdict_tables.h"
 
 namespace whit {
 
@@ -65,6 +66,15 @@ class Renderer {
   // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
   void shadingChanged();
 
+  // More frames of this scene are to come: shadows may have verdicts from now on (--verdicts), in
+  // tables of no more than so many bytes. Not while rendering.
+  void expectFrames(std::uint64_t mostBytes);
+  // Looks at parts of triangles where at least so many shadow rays found no verdict, for about so
+  // long. Not while rendering.
+  FillReport fillVerdicts(unsigned atLeast, double mostMs);
+  bool decidesShadows() const { return verdicts_ && !lightsWithVerdicts(plan_).empty(); }
+  std::uint64_t verdictBytes() const { return verdicts_ ? verdicts_->bytes() : 0; }
+
   const Scene& scene() const { return scene_; }
   const RenderOptions& options() const { return options_; }
   const Plan& plan() const { return plan_; }
@@ -87,12 +97,16 @@ class Renderer {
   bool adaptive() const { return options_.adaptive && options_.spp > 1; }
   Frame frameOf(const Camera& camera, Film& film, const Crop& window);
   void replan(Plan next);
+  bool wantsVerdicts(const RenderOptions& options) const;
+  void renewVerdicts();
 
   const Scene& scene_;
   RenderOptions options_;
   Plan plan_;
   ShadingTables tables_;
   std::optional<Accel> accel_;
+  std::uint64_t verdictBytes_ = 0;  // that tables may take; 0: no more frames are expected
+  std::optional<VerdictTables> verdicts_;
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;

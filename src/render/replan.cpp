@@ -26,18 +26,45 @@ void Renderer::replan(Plan next) {
   plan_ = std::move(next);
 }
 
+bool Renderer::wantsVerdicts(const RenderOptions& options) const {
+  return verdictBytes_ > 0 && options.verdicts != Verdicts::off;
+}
+
+void Renderer::expectFrames(std::uint64_t mostBytes) {
+  verdictBytes_ = mostBytes;
+  replan(makePlan(scene_, options_, wantsVerdicts(options_)));
+  renewVerdicts();
+}
+
+// Tables for the lights whose shadows the plan decides; what is known of the others goes.
+void Renderer::renewVerdicts() {
+  const std::vector<std::size_t> lights = lightsWithVerdicts(plan_);
+  if (lights.empty()) return;
+  if (verdicts_ && verdicts_->lights() == lights &&
+      verdicts_->views().size() == scene_.lights.size()) {
+    verdicts_->forgetMovedLights();
+  } else {
+    verdicts_.emplace(scene_, lights, verdictBytes_);
+  }
+}
+
+FillReport Renderer::fillVerdicts(unsigned atLeast, double mostMs) {
+  return decidesShadows() ? verdicts_->fill(scheduler_.pool(), atLeast, mostMs) : FillReport();
+}
+
 void Renderer::shadingChanged() {
-  Plan plan = makePlan(scene_, options_);
+  Plan plan = makePlan(scene_, options_, wantsVerdicts(options_));
   if (plan.effects == plan_.effects) {
     refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
   } else {
     tables_ = buildTables(scene_, plan.effects, options_.shading, machine_.threads);
   }
   replan(std::move(plan));
+  renewVerdicts();
 }
 
 void Renderer::setOptions(const RenderOptions& options) {
-  Plan plan = makePlan(scene_, options);
+  Plan plan = makePlan(scene_, options, wantsVerdicts(options));
   if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
         "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
@@ -50,6 +77,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   }
   replan(std::move(plan));
   takeOver(options, Rebuild::tables, options_);
+  renewVerdicts();
 }
 
 bool Renderer::canSetOptions(const RenderOptions& options) const {

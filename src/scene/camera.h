@@ -20,6 +20,12 @@ struct Camera {
   float orthographicHeight = 0;
 };
 
+// Whether both see the same: the name does not count.
+inline bool sameView(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov == b.fov &&
+         a.orthographicHeight == b.orthographicHeight;
+}
+
 struct Keyframe {
   float time = 0;  // seconds
   Camera camera;

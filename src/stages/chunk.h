@@ -14,6 +14,7 @@
 #include "stages/ray_tally.h"
 #include "stages/shading_tables.h"
 #include "stages/stage.h"
+#include "stages/verdict_view.h"
 
 namespace whit {
 
@@ -36,7 +37,8 @@ struct FrameConstants {
   const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
-  EffectSet effects;  // of the plan, for what the reference finds
+  const VerdictView* verdicts = nullptr;  // one a light; null: all rays are traced
+  EffectSet effects;                      // of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;
@@ -50,9 +52,24 @@ struct Segment {
 // The kinds that a queue may hold: at depth 0 primary rays, below it reflections, then refractions.
 inline constexpr std::size_t kSegmentLimit = kRayKindCount;
 
+// Shadow rays that were not traced, for their verdict was known.
+struct DecidedShadows {
+  std::uint64_t lit = 0, dark = 0;
+};
+
+// The first whose verdict turned out to be wrong (--verdicts audit).
+struct WrongVerdict {
+  bool found = false, saidLit = false;
+  std::uint32_t light = 0, triangle = 0;
+  Vec3f origin, direction;
+  explicit operator bool() const { return found; }
+};
+
 // What tracing adds up to.
 struct TraceMeter {
   std::array<RayTally, kRayKindCount> tally{};
+  DecidedShadows shadows;
+  WrongVerdict wrongVerdict;
   double embreeMs = 0;  // inside Embree's calls alone
 };
 

@@ -6,6 +6,7 @@
 
 #include "cli/run_program.h"
 #include "core/options.h"
+#include "io/image_file.h"
 
 namespace whit::cli {
 namespace {
@@ -16,7 +17,7 @@ TEST(InfoKernels, ListsEveryVariant) {
   const Outcome outcome = runWhit({"info", "--kernels"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const char* text : {"interpolateSurfels", "textures+normalMaps+smoothNormals", "glossy",
-                           "encodeDisplay", "variants of 18 kernels, each for:"}) {
+                           "encodeDisplay", "variants of 19 kernels, each for:"}) {
     EXPECT_NE(outcome.out.find(text), std::string::npos) << text << "\n" << outcome.out;
   }
   const Json json = Json::parse(runWhit({"info", "--kernels", "--json", "-"}).out);
@@ -72,7 +73,17 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   const auto kLines =
       static_cast<std::ptrdiff_t>(2 + kEffectCount - 2 - effectsAskedFor(RenderOptions()).size());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
-  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines) << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 4) << outcome.out;
+  const auto codes = [&](const char* name) {
+    Warnings warnings;
+    return readRawImage(folder / name, ImageLimits(), warnings).codes;
+  };
+  EXPECT_EQ(codes("made/00-matte.png").size(), 48u * 30 * 3);
+  EXPECT_NE(codes("made/00-matte.png"), codes("made/01-spotLights.png"));
+  const std::ptrdiff_t pictures = std::count_if(
+      std::filesystem::directory_iterator(folder / "made"), std::filesystem::directory_iterator(),
+      [](const auto& entry) { return entry.path().extension() == ".png"; });
+  EXPECT_EQ(pictures, kLines - 1);
   EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;
   EXPECT_EQ(readFile(folder / "made/effects.svg").rfind("<svg ", 0), 0u);
 }

@@ -169,6 +169,10 @@ TEST_F(JsonResults, RenderWritesAFile) {
   ASSERT_FALSE(json.is_discarded());
   checkRun(json);
   EXPECT_EQ(json["files"], Json({image}));
+  EXPECT_EQ(json["kept"], 0);
+  expectKeys(json["writing_ms"], {"spent", "waited"});
+  EXPECT_GT(json["writing_ms"]["spent"].get<double>(), 0);
+  EXPECT_GT(json["written_per_s"].get<double>(), 0);
 }
 
 TEST_F(JsonResults, RenderOfNothingButWhatIsThere) {
@@ -178,6 +182,7 @@ TEST_F(JsonResults, RenderOfNothingButWhatIsThere) {
   EXPECT_EQ(json["scene"], "tiny");
   EXPECT_EQ(json["frames"], 0);
   EXPECT_EQ(json["files"], Json::array());
+  EXPECT_EQ(json["kept"], 1);
   EXPECT_FALSE(json.contains("frame_ms"));
   expectKeys(json, {"size", "threads", "load_ms", "build_ms", "machine"});
 }

@@ -59,6 +59,16 @@ inline constexpr std::array kAccounted{
     Accounted{77, "transforms that flatten are refused", "tests/unit/validate_test.cpp",
               "Validate.RefusesNamingTheThingAtFault"},
     Accounted{78, "a real model", "tests/io/sponza_test.cpp", "Sponza.LoadsCompletely"},
+    Accounted{84, "verdicts of shadow, the light in a plane or at an edge",
+              "tests/render/verdicts_test.cpp", "Verdicts.H84_lightInAPlaneOrAtAnEdge"},
+    Accounted{85, "verdicts among touching and interpenetrating triangles",
+              "tests/render/verdicts_test.cpp",
+              "Verdicts.H85_touchingAndInterpenetratingTriangles"},
+    Accounted{86, "verdicts among slivers", "tests/render/verdicts_test.cpp",
+              "Verdicts.H86_slivers"},
+    Accounted{87, "verdicts far from the origin, far casters, a light inside a mesh",
+              "tests/render/verdicts_test.cpp",
+              "Verdicts.H87_farReceiversFarCastersAndLightsInside"},
 };
 
 }  // namespace whit::test

@@ -77,6 +77,17 @@ class Agreement : public testing::Test {
     if (!HasFailure()) std::filesystem::remove_all(folder_);
   }
 
+  void expectAgreementWithEachFilter(const Kind& kind) {
+    for (const auto& [filter, name] : {std::pair{Filter::bilinear, "bilinear"},
+                                       {Filter::nearest, "nearest texels"},
+                                       {Filter::trilinear, "trilinear"}}) {
+      Kind filtered = kind;
+      filtered.name += std::string(", ") + name;
+      filtered.options.filter = filter;
+      expectAgreement(filtered);
+    }
+  }
+
   void expectAgreement(const Kind& kind) {
     Tally reference, packets;
     const int scenes = scenesOf(kind);

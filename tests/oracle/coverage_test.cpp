@@ -157,12 +157,7 @@ TEST_F(Coverage, FaceInFace) { expectAgreement({"flush sheets", flushSheets, {.d
 
 // Of the lobe of what is there in part, and of lights upon it.
 void sampledSheets(SceneMaker& maker) {
-  maker.room();
-  maker.scene.camera.fov = maker.random.between(24, 30);
-  Light light = maker.lamp();
-  light.intensity = maker.random.color(2, 6);
-  light.radius = maker.random.between(0.2, 0.6);
-  maker.scene.lights.push_back(light);
+  maker.roomFromNear();
   for (int i = 0; i < 3; ++i) {
     Material material = maker.glossy();
     material.roughness = maker.random.between(0.55, 0.9);

@@ -50,6 +50,15 @@ void SceneMaker::room() {
   floor(matte());
 }
 
+void SceneMaker::roomFromNear() {
+  room();
+  scene.camera.fov = random.between(24, 30);
+  Light light = lamp();
+  light.intensity = random.color(2, 6);
+  light.radius = random.between(0.2, 0.6);
+  scene.lights.push_back(light);
+}
+
 void SceneMaker::floor(const Material& material) {
   Transform transform;
   transform.scale = {9, 1, 9};

@@ -53,6 +53,8 @@ class SceneMaker {
   // A floor, a sky that is nowhere black, ambient light, and an eye that looks at what stands about
   // (0, 1, 0), from some 6 away.
   void room();
+  // The same from near, so that what is sampled fills the picture, and a light with a radius.
+  void roomFromNear();
   void floor(const Material& material);
   // A point light somewhere above, on the eye's side.
   Light lamp();

@@ -108,11 +108,7 @@ void paintedBalls(SceneMaker& maker) {
   lampsAbove(maker, 2);
 }
 
-TEST_F(Spheres, Textures) {
-  expectAgreement({"textured spheres", paintedBalls});
-  expectAgreement({"textured spheres, nearest texels", paintedBalls, {.filter = Filter::nearest}});
-  expectAgreement({"textured spheres, trilinear", paintedBalls, {.filter = Filter::trilinear}});
-}
+TEST_F(Spheres, Textures) { expectAgreementWithEachFilter({"textured spheres", paintedBalls}); }
 
 // Matte: a lobe has no value for a viewer behind the normal.
 void bumpyBalls(SceneMaker& maker) {
@@ -126,10 +122,7 @@ void bumpyBalls(SceneMaker& maker) {
 }
 
 TEST_F(Spheres, NormalMaps) {
-  expectAgreement({"normal maps on spheres", bumpyBalls});
-  expectAgreement(
-      {"normal maps on spheres, nearest texels", bumpyBalls, {.filter = Filter::nearest}});
-  expectAgreement({"normal maps on spheres, trilinear", bumpyBalls, {.filter = Filter::trilinear}});
+  expectAgreementWithEachFilter({"normal maps on spheres", bumpyBalls});
 }
 
 // The far side is seen through what is cut out of the near one.
@@ -356,14 +349,8 @@ TEST_F(Spheres, InstancesOfGlass) {
                    }});
 }
 
-// Seen from near: what is sampled shall fill the picture.
 void roughBalls(SceneMaker& maker) {
-  maker.room();
-  maker.scene.camera.fov = maker.random.between(24, 30);
-  Light light = maker.lamp();
-  light.intensity = maker.random.color(2, 6);
-  light.radius = maker.random.between(0.2, 0.6);
-  maker.scene.lights.push_back(light);
+  maker.roomFromNear();
   addBalls(maker, [&] {
     Material material = maker.glossy();
     material.roughness = maker.random.between(0.55, 0.9);

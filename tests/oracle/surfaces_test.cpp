@@ -311,11 +311,7 @@ void normalMapped(SceneMaker& maker) {
   addLamps(maker, 2);
 }
 
-TEST_F(Surfaces, NormalMaps) {
-  expectAgreement({"normal maps", normalMapped});
-  expectAgreement({"normal maps of nearest texels", normalMapped, {.filter = Filter::nearest}});
-  expectAgreement({"trilinear normal maps", normalMapped, {.filter = Filter::trilinear}});
-}
+TEST_F(Surfaces, NormalMaps) { expectAgreementWithEachFilter({"normal maps", normalMapped}); }
 
 // With parts that are cut out as a whole, parts that are not, and some that are torn.
 int addMask(SceneMaker& maker) {

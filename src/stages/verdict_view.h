@@ -1,0 +1,46 @@
+// What is known beforehand of one light's shadows, as kernels read it. A triangle of the world is
+// divided into parts, 2^n a side by its barycentric weights, and a part that needs it into cells.
+// Filled by verdicts/verdict_tables.h, between frames.
+#pragma once
+
+#include <cstdint>
+
+namespace whit {
+
+// A verdict is a proof: what cannot be proved is mixed, and what has not been looked at, unknown.
+// Rays of both are traced.
+enum class Verdict : std::uint32_t {
+  unknown,
+  lit,   // no shadow ray that starts there meets anything
+  dark,  // one opaque triangle is met by all of them
+  mixed
+};
+
+inline constexpr int kCellsASide = 16;
+// Triangles that have no parts: spheres, what is instanced.
+inline constexpr std::uint32_t kNoParts = 0xffffffffu;
+// The last so many bits of a triangle's word say how many parts it has a side, as a power of two.
+inline constexpr int kPartBits = 4;
+// Along its edges a triangle has a rim without verdicts, where rays all but meet its neighbors: so
+// wide a share of a part.
+inline constexpr float kVerdictRim = 0x1p-8f;
+// Rays have verdicts that start so near to the point of their weights, per axis, in parts of the
+// sum of the sizes that its coordinates are interpolated from. The bound of rounding that rays are
+// lifted by is less, but on slivers.
+inline constexpr float kVerdictReach = 0x1p-20f;
+
+struct VerdictView {
+  // A word a triangle: the number of its first part, shifted by kPartBits; kNoParts.
+  const std::uint32_t* first = nullptr;
+  // A word a part, row by row of the second weight: a Verdict, or from 4 on the place of its cells,
+  // shifted by two, plus 4.
+  const std::uint32_t* parts = nullptr;
+  // kCellsASide words a place, a row of cells each, two bits a Verdict.
+  const std::uint32_t* cells = nullptr;
+  // A byte a part: how many rays have missed its verdict, up to 255. Written while frames are
+  // traced, by any worker.
+  std::uint8_t* wanted = nullptr;
+  bool serves() const { return first != nullptr; }
+};
+
+}  // namespace whit

@@ -1,0 +1,223 @@
+#include "verdicts/verdict_tables.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "core/stopwatch.h"
+#include "verdicts/decide_part.h"
+
+namespace whit {
+
+namespace {
+
+// As many parts as a word of VerdictView::first can number would take a gigabyte.
+constexpr std::size_t kMostParts = std::size_t{1} << 21;
+constexpr int kMostPartsASide = 256;
+// Beyond it squares of squares leave the range of a float, or fall below it.
+constexpr float kLargest = 0x1p24f;
+// A cell is no finer than this part of the scene's size, which is about a pixel's where a view
+// shows all of it.
+constexpr double kFinestCell = 0x1p-13;
+
+int partsASide(double edge, double cell) {
+  const double parts = edge / (cell * kCellsASide);
+  if (!(parts > 1)) return 1;
+  const double power = std::exp2(std::ceil(std::log2(parts)));
+  return static_cast<int>(std::min<double>(power, kMostPartsASide));
+}
+
+double longestEdge(const TriangleRecord& record) {
+  const auto corner = [&](int i) {
+    const float* p = record.position + 3 * i;
+    return Vec3d(Vec3f{p[0], p[1], p[2]});
+  };
+  return std::max({length(corner(1) - corner(0)), length(corner(2) - corner(0)),
+                   length(corner(2) - corner(1))});
+}
+
+}  // namespace
+
+VerdictParts VerdictParts::of(const Scene& scene) {
+  VerdictParts parts;
+  const Geometry& world = scene.geometries[0];
+  const std::size_t count = world.classBegin[kTriangleClasses];
+  if (count == 0 || count > kMostParts || scene.triangles.size() >= CasterRef::kBox) return parts;
+  if (!(maxComponent(max(abs(scene.lower), abs(scene.upper))) < kLargest)) return parts;
+  std::vector<double> edges(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    edges[i] = longestEdge(scene.triangles[world.firstTriangle + i]);
+  }
+  double cell = length(Vec3d(scene.upper) - Vec3d(scene.lower)) * kFinestCell;
+  std::size_t total = 0;
+  do {
+    total = 0;
+    for (const double edge : edges) {
+      const auto side = static_cast<std::size_t>(partsASide(edge, cell));
+      total += side * side;
+    }
+    cell *= 2;
+  } while (total > kMostParts);
+  cell /= 2;
+  parts.cell = cell / 2;
+  parts.first.assign(scene.triangles.size(), kNoParts);
+  parts.owner.reserve(total);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto side = static_cast<unsigned>(partsASide(edges[i], cell));
+    const std::uint32_t triangle = world.firstTriangle + static_cast<std::uint32_t>(i);
+    parts.first[triangle] = static_cast<std::uint32_t>(parts.owner.size() << kPartBits) |
+                            static_cast<std::uint32_t>(std::countr_zero(side));
+    parts.owner.insert(parts.owner.end(), std::size_t{side} * side, triangle);
+  }
+  return parts;
+}
+
+// The table of one light.
+struct VerdictTables::OfLight {
+  OfLight(const Light& light, std::size_t n, std::size_t partCount, std::size_t most)
+      : number(n), point(LightPoint::of(light)), parts(partCount), wanted(partCount) {
+    // Kernels may look up where nothing is yet.
+    cells.resize(kCellsASide);
+    mostCells = most;
+  }
+
+  // What it takes but for the cells.
+  static std::uint64_t fixedBytes(std::size_t partCount, std::size_t casters) {
+    return partCount * (sizeof(std::uint32_t) + 1) + CasterTree::bytesFor(casters);
+  }
+  std::uint64_t bytes() const {
+    return parts.size() * sizeof(std::uint32_t) + wanted.size() +
+           cells.capacity() * sizeof(std::uint32_t) + (tree ? tree->bytes() : 0);
+  }
+  void forget() {
+    tree.reset();
+    cells.resize(kCellsASide);
+    std::fill(parts.begin(), parts.end(), 0);
+    std::fill(wanted.begin(), wanted.end(), std::uint8_t{0});
+    seen = mixed = 0;
+  }
+  // The last answer of each part that was asked for.
+  void keep(std::uint32_t part, const PartVerdict& verdict) {
+    wanted[part] = 0;
+    ++seen;
+    const std::size_t place = cells.size() / kCellsASide;
+    if (verdict.divided && place < mostCells) {
+      cells.insert(cells.end(), verdict.cells.begin(), verdict.cells.end());
+      parts[part] = static_cast<std::uint32_t>(place + 1) << 2;
+      return;
+    }
+    const Verdict whole = verdict.divided ? Verdict::mixed : verdict.whole;
+    if (whole == Verdict::mixed) ++mixed;
+    parts[part] = static_cast<std::uint32_t>(whole);
+  }
+  // Whether next to nothing is decided, so that looking for verdicts costs more than they save.
+  bool idle() const { return seen >= kTried && mixed > seen - seen / kLeastUse; }
+
+  static constexpr std::size_t kTried = 4096, kLeastUse = 8;
+  std::size_t number;
+  LightPoint point;
+  std::unique_ptr<CasterTree> tree;  // from the first filling on
+  HugeVector<std::uint32_t> parts, cells;
+  std::vector<std::uint8_t> wanted;
+  std::size_t mostCells;  // places of cells
+  std::size_t seen = 0, mixed = 0;
+};
+
+VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>& lights,
+                             std::uint64_t mostBytes)
+    : scene_(scene),
+      numbers_(lights),
+      parts_(VerdictParts::of(scene)),
+      views_(scene.lights.size()) {
+  if (parts_.count() == 0 || lights.empty()) return;
+  casters_ = std::make_unique<CasterList>(scene);
+  const std::uint64_t shared = bytes();
+  if (shared > mostBytes) return;
+  const std::uint64_t each = std::min((mostBytes - shared) / lights.size(), kMostBytesALight);
+  const std::uint64_t fixed = OfLight::fixedBytes(parts_.count(), casters_->casters.size());
+  if (fixed > each) return;
+  const std::size_t mostCells = (each - fixed) / (kCellsASide * sizeof(std::uint32_t));
+  for (const std::size_t number : lights) {
+    lights_.push_back(
+        std::make_unique<OfLight>(scene.lights[number], number, parts_.count(), mostCells));
+    OfLight& table = *lights_.back();
+    views_[number] = {parts_.first.data(), table.parts.data(), table.cells.data(),
+                      table.wanted.data()};
+  }
+}
+
+VerdictTables::~VerdictTables() = default;
+
+void VerdictTables::forgetMovedLights() {
+  for (auto& light : lights_) {
+    const LightPoint now = LightPoint::of(scene_.lights[light->number]);
+    if (now == light->point) continue;
+    light->point = now;
+    light->forget();
+  }
+}
+
+FillReport VerdictTables::fill(WorkerPool& pool, unsigned atLeast, double mostMs) {
+  const Stopwatch stopwatch;
+  FillReport report;
+  for (auto& light : lights_) {
+    if (!views_[light->number].serves()) continue;
+    fillLight(*light, pool, atLeast, mostMs - stopwatch.ms(), report);
+    views_[light->number].cells = light->cells.data();
+    if (light->idle()) views_[light->number] = VerdictView();
+  }
+  report.ms = stopwatch.ms();
+  return report;
+}
+
+void VerdictTables::fillLight(OfLight& light, WorkerPool& pool, unsigned atLeast, double mostMs,
+                              FillReport& report) const {
+  const Stopwatch stopwatch;
+  std::vector<std::uint32_t> asked;
+  for (std::size_t i = 0; i < light.wanted.size(); ++i) {
+    if (light.wanted[i] >= atLeast) asked.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (asked.empty()) return;
+  if (!light.tree) light.tree = std::make_unique<CasterTree>(scene_, *casters_, light.point);
+  std::vector<PartVerdict> verdicts(asked.size());
+  std::atomic<std::size_t> next{0};
+  pool.run([&](int) {
+    PartScratch scratch;
+    for (std::size_t i = next++; i < asked.size(); i = next++) {
+      if (stopwatch.ms() > mostMs) return;
+      verdicts[i] = decide(light, asked[i], scratch);
+    }
+  });
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!verdicts[i].known()) {
+      ++report.waiting;
+      continue;
+    }
+    light.keep(asked[i], verdicts[i]);
+    ++report.parts;
+    if (!verdicts[i].divided && verdicts[i].whole == Verdict::mixed) ++report.mixed;
+  }
+}
+
+PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,
+                                  PartScratch& scratch) const {
+  const std::uint32_t triangle = parts_.owner[part], word = parts_.first[triangle];
+  const std::uint32_t side = 1u << (word & ((1u << kPartBits) - 1));
+  const std::uint32_t at = part - (word >> kPartBits);
+  const double width = 1.0 / side;
+  const std::uint32_t column = at % side, row = at / side;
+  const WeightSquare square{width * column, width * row, width};
+  return decidePart({scene_, *casters_, *light.tree, light.point, parts_.cell}, triangle, square,
+                    scratch);
+}
+
+std::uint64_t VerdictTables::bytes() const {
+  std::uint64_t sum = parts_.first.size() * sizeof(std::uint32_t) +
+                      parts_.owner.size() * sizeof(std::uint32_t) +
+                      (casters_ ? casters_->bytes() : 0);
+  for (const auto& light : lights_) sum += light->bytes();
+  return sum;
+}
+
+}  // namespace whit

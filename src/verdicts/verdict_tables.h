@@ -1,0 +1,80 @@
+// Verdicts of shadow: for pieces of receiving triangles, whether shadow rays from there to a light
+// are blocked, proved before they are traced. The picture stays the same to the last bit, whatever
+// is filled, when and by whom: a verdict says what the ray would have found.
+//
+// Tables are filled between frames, where rays have missed them. They are for lights and casters
+// that stand still, and lights taken as points.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/huge_vector.h"
+#include "core/worker_pool.h"
+#include "scene/scene.h"
+#include "stages/verdict_view.h"
+#include "verdicts/caster_tree.h"
+#include "verdicts/decide_part.h"
+
+namespace whit {
+
+// How triangles are divided, the same for all lights.
+struct VerdictParts {
+  HugeVector<std::uint32_t> first;   // VerdictView::first, of all triangles
+  std::vector<std::uint32_t> owner;  // of each part, its triangle
+  double cell = 0;                   // as long as a cell's edge shall be, at least
+  std::size_t count() const { return owner.size(); }
+
+  // None where the scene has too many triangles, or coordinates that proofs do not reach.
+  static VerdictParts of(const Scene& scene);
+};
+
+// What filling has brought.
+struct FillReport {
+  double ms = 0;              // wall-clock
+  std::uint64_t parts = 0;    // looked at
+  std::uint64_t waiting = 0;  // wanted still
+  std::uint64_t mixed = 0;    // of these, as a whole
+};
+
+inline constexpr std::uint64_t kMostBytesALight = std::uint64_t{32} << 20;
+
+class VerdictTables {
+ public:
+  // For the lights of these numbers, in about `mostBytes`, and no more than kMostBytesALight of
+  // them for each. Lights have none where that is too little. The scene must outlive them.
+  VerdictTables(const Scene& scene, const std::vector<std::size_t>& lights,
+                std::uint64_t mostBytes);
+  ~VerdictTables();
+  VerdictTables(const VerdictTables&) = delete;
+  VerdictTables& operator=(const VerdictTables&) = delete;
+
+  const std::vector<std::size_t>& lights() const { return numbers_; }
+  // One a light of the scene; those without a table do not serve. Valid as long as the tables are.
+  const std::vector<VerdictView>& views() const { return views_; }
+
+  // Looks at the parts that at least so many rays have missed, for about so long. Not while a frame
+  // is traced.
+  FillReport fill(WorkerPool& pool, unsigned atLeast, double mostMs);
+  // What is known of lights that are not where they were any more. Not while a frame is traced.
+  void forgetMovedLights();
+
+  std::uint64_t bytes() const;
+
+ private:
+  struct OfLight;
+
+  void fillLight(OfLight& light, WorkerPool& pool, unsigned atLeast, double mostMs,
+                 FillReport& report) const;
+  PartVerdict decide(const OfLight& light, std::uint32_t part, PartScratch& scratch) const;
+
+  const Scene& scene_;
+  std::vector<std::size_t> numbers_;
+  VerdictParts parts_;
+  std::unique_ptr<CasterList> casters_;
+  std::vector<std::unique_ptr<OfLight>> lights_;
+  std::vector<VerdictView> views_;
+};
+
+}  // namespace whit
