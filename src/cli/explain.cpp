@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/explained_rays.h"
 #include "app/image_output.h"
 #include "app/open_scene.h"
 #include "app/progress_bar.h"
@@ -16,9 +17,7 @@
 #include "core/printable.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
-#include "reference/media.h"
 #include "render/auto_exposure.h"
-#include "render/ray_tree.h"
 
 namespace whit::cli {
 
@@ -72,52 +71,13 @@ PixelPlace readPixel(const std::string& text, const Image& image) {
   return place;
 }
 
-// What the two ways to trace have found, and of which scene.
+// What was found, and of which scene.
 struct Explained {
   const Scene& scene;
   const RenderOptions& options;
   PixelPlace place;
-  RayTree packets, reference;
-  std::vector<std::size_t> counterpart;  // of the packets' nodes in the reference
-
-  // Where the two part: the surface, shadows or impulses differ, and did not before.
-  bool partsAt(std::size_t node) const {
-    return counterpart[node] == kNoCounterpart ||
-           !agree(packets.nodes[node], reference.nodes[counterpart[node]]);
-  }
+  ExplainedRays rays;
 };
-
-std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
-  return name.empty() ? kind + (" " + std::to_string(number)) : printable(name);
-}
-
-std::string materialName(const Scene& scene, std::uint32_t material) {
-  return nameOf(scene.materials[material].name, "material", material);
-}
-
-// Of the medium that fills the space.
-std::string mediumName(const Scene& scene, std::uint32_t media) {
-  const std::uint32_t medium = reference::currentMedium(scene, media);
-  if (medium == 0) return "air";
-  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
-    if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
-  }
-  return "medium " + std::to_string(medium);
-}
-
-const char* nameOf(PathEnd end) {
-  switch (end) {
-    case PathEnd::depth:
-      return "depth";
-    case PathEnd::cutoff:
-      return "cutoff";
-    case PathEnd::totalReflection:
-      return "total reflection";
-    case PathEnd::none:
-      break;
-  }
-  return "";
-}
 
 std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
 
@@ -125,20 +85,15 @@ std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
   return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve, o.srgb);
 }
 
-// What a node adds to the pixel by itself, without its children.
-RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own) {
-  return weightAtEye(tree, node) * own * (1.0 / static_cast<double>(tree.primaries.size()));
-}
-
 // Lists what adds more than so much, and counts the rest.
 class TreeText {
  public:
   TreeText(const Explained& e, double least) : e_(e) {
-    least_ = least * std::max(1e-12, double{maxComponent(e.packets.pixel)});
+    least_ = least * std::max(1e-12, double{maxComponent(e.rays.packets.pixel)});
   }
 
   std::string text() {
-    for (const std::size_t primary : e_.packets.primaries) appendNode(primary);
+    for (const std::size_t primary : e_.rays.packets.primaries) appendNode(primary);
     if (leftOut_ > 0) {
       text_ += formatted("%zu more ray%s, adding %s\n", leftOut_, leftOut_ == 1 ? "" : "s",
                          textOf(restAdds_).c_str());
@@ -152,8 +107,8 @@ class TreeText {
   }
 
   void appendNode(std::size_t number) {
-    const RayNode& n = e_.packets.nodes[number];
-    if (maxComponent(addedBy(e_.packets, number, n.radiance)) < least_) {
+    const RayNode& n = e_.rays.packets.nodes[number];
+    if (maxComponent(addedBy(e_.rays.packets, number, n.radiance)) < least_) {
       leaveOut(number);
       return;
     }
@@ -161,42 +116,26 @@ class TreeText {
         indent(n) + formatted("%s, weight %s, in %s: ",
                               std::string(kRayKindNames[static_cast<std::size_t>(n.kind)]).c_str(),
                               textOf(n.weight).c_str(), mediumName(e_.scene, n.media).c_str());
-    text_ += met(n) + "\n";
-    if (e_.partsAt(number)) appendParting(number);
+    text_ += metText(e_.scene, n) + "\n";
+    if (e_.rays.partsFirstAt(number)) {
+      text_ += indent(n, 1) +
+               "here the reference parts: " + partingText(e_.scene, e_.rays, number) + "\n";
+    }
     appendOwn(number);
     for (const std::size_t child : n.children) appendNode(child);
   }
 
-  std::string met(const RayNode& n) const {
-    if (n.triangle == kMiss) return "leaves the scene";
-    return formatted("%s, %.6g away%s", materialName(e_.scene, n.material).c_str(), n.distance,
-                     n.hidden ? ", hidden in another medium" : "");
-  }
-
-  void appendParting(std::size_t number) {
-    const RayNode& n = e_.packets.nodes[number];
-    const std::size_t other = e_.counterpart[number];
-    // Only where they part first.
-    if (n.parent != number && e_.partsAt(n.parent)) return;
-    text_ += indent(n, 1) + "here the reference parts: ";
-    if (other == kNoCounterpart) {
-      text_ += "it does not follow this ray\n";
-    } else {
-      text_ += met(e_.reference.nodes[other]) + "\n";
-    }
-  }
-
   void appendOwn(std::size_t number) {
-    const RayNode& n = e_.packets.nodes[number];
-    const RgbD emitted = addedBy(e_.packets, number, n.emitted);
+    const RayNode& n = e_.rays.packets.nodes[number];
+    const RgbD emitted = addedBy(e_.rays.packets, number, n.emitted);
     if (maxComponent(emitted) > 0) {
       text_ += indent(n, 1) + (n.triangle == kMiss ? "sky" : "emission and ambient") + " adds " +
                textOf(emitted) + "\n";
     }
-    for (const LightOfRay& light : n.lights) {
-      const std::string name = nameOf(e_.scene.lights[light.light].name, "light", light.light);
+    for (const LightContribution& light : n.lights) {
+      const std::string name = lightName(e_.scene, light.light);
       text_ += indent(n, 1) + name +
-               (light.visible ? " adds " + textOf(addedBy(e_.packets, number, light.radiance))
+               (light.visible ? " adds " + textOf(addedBy(e_.rays.packets, number, light.radiance))
                               : std::string(" is in shadow")) +
                "\n";
     }
@@ -211,9 +150,9 @@ class TreeText {
   }
 
   void leaveOut(std::size_t number) {
-    const RayNode& n = e_.packets.nodes[number];
+    const RayNode& n = e_.rays.packets.nodes[number];
     ++leftOut_;
-    restAdds_ += addedBy(e_.packets, number, n.local);
+    restAdds_ += addedBy(e_.rays.packets, number, n.local);
     for (const std::size_t child : n.children) leaveOut(child);
   }
 
@@ -231,22 +170,23 @@ std::string headOf(const Explained& e) {
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
   std::size_t shadowRays = 0, parted = 0;
-  for (std::size_t i = 0; i < e.packets.nodes.size(); ++i) {
-    for (const LightOfRay& light : e.packets.nodes[i].lights) shadowRays += light.traced;
-    parted += e.partsAt(i);
+  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
+    for (const LightContribution& light : e.rays.packets.nodes[i].lights)
+      shadowRays += light.traced;
+    parted += e.rays.partsAt(i);
   }
-  const std::size_t rays = e.packets.nodes.size();
+  const std::size_t rays = e.rays.packets.nodes.size();
   return formatted("%s, pixel %d,%d: %zu ray%s and %zu shadow ray%s\n",
                    printable(e.scene.name).c_str(), e.place.x, e.place.y, rays,
                    rays == 1 ? "" : "s", shadowRays, shadowRays == 1 ? "" : "s") +
-         line("packets", e.packets.pixel) + line("reference", e.reference.pixel) +
+         line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
          (parted == 0 ? "" : "  their paths part\n") + "\n";
 }
 
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
 
-Json lightJson(const Scene& scene, const LightOfRay& light) {
-  Json json{{"light", nameOf(scene.lights[light.light].name, "light", light.light)},
+Json lightJson(const Scene& scene, const LightContribution& light) {
+  Json json{{"light", lightName(scene, light.light)},
             {"sample", light.sample},
             {"shadow", !light.traced   ? "none"
                        : light.visible ? "lit"
@@ -284,7 +224,8 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
     json["local"] = jsonOf(n.local);
     json["adds"] = jsonOf(addedBy(tree, number, n.local));
     json["lights"] = Json::array();
-    for (const LightOfRay& light : n.lights) json["lights"].push_back(lightJson(scene, light));
+    for (const LightContribution& light : n.lights)
+      json["lights"].push_back(lightJson(scene, light));
     json["ends"] = {{"reflection", nameOf(n.reflectionEnd)},
                     {"refraction", nameOf(n.refractionEnd)}};
   }
@@ -306,7 +247,7 @@ Json treeJson(const Explained& e, const RayTree& tree, bool ofPackets) {
 
 void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
                  const Camera& camera) {
-  Camera seen = diagramCamera(e.packets, camera);
+  Camera seen = cameraAside(e.rays.packets, camera);
   if (job.seenFrom) seen.eye = *job.seenFrom;
   RenderOptions options = e.options;
   options.size = kDiagramSize;
@@ -316,7 +257,7 @@ void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
   const std::string picture =
       encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
   writeTextFile(job.svg,
-                rayDiagram(e.packets, seen, kDiagramSize.width, kDiagramSize.height, picture));
+                rayDiagram(e.rays.packets, seen, kDiagramSize.width, kDiagramSize.height, picture));
 }
 
 }  // namespace
@@ -340,20 +281,14 @@ int explainCommand(const Words& words) {
   settleExposure(renderer, camera, options);
   progress.reset();
 
-  Explained e{open->scene,
-              options,
-              place,
-              traceRayTree(renderer, camera, film, place.x, place.y),
-              traceReferenceTree(renderer, camera, film, place.x, place.y),
-              {}};
-  e.counterpart = counterparts(e.packets, e.reference);
+  Explained e{open->scene, options, place, explainRays(renderer, camera, film, place.x, place.y)};
   if (!job.svg.empty()) drawDiagram(job, e, renderer, camera);
   if (!job.json.empty()) {
     writeJson(job.json, Json{{"scene", open->scene.name},
                              {"size", {film.image.width, film.image.height}},
                              {"pixel", {place.x, place.y}},
-                             {"packets", treeJson(e, e.packets, true)},
-                             {"reference", treeJson(e, e.reference, false)}});
+                             {"packets", treeJson(e, e.rays.packets, true)},
+                             {"reference", treeJson(e, e.rays.reference, false)}});
   }
   if (job.json != "-") std::fputs((headOf(e) + TreeText(e, job.least).text()).c_str(), stdout);
   return 0;

@@ -3,18 +3,12 @@
 
 #include <string>
 
-#include "render/ray_tree.h"
+#include "render/ray_lines.h"
 
 namespace whit::cli {
 
-// Where the rays are seen from unless the user says so: from aside and above, with all that they
-// met in view.
-Camera diagramCamera(const RayTree& tree, const Camera& camera);
-
-// An SVG of the picture's size. `picture` is a PNG of the scene by that camera. Reflected rays are
-// red, refracted ones blue, primary ones white; shadow rays are dashed, yellow where they reach
-// their light and black where they do not. Rays that leave the scene end after a fifth of the
-// tree's extent; those that weigh less are thinner.
+// An SVG of the picture's size. `picture` is a PNG of the scene by that camera. Shadow rays are
+// dashed.
 std::string rayDiagram(const RayTree& tree, const Camera& camera, int width, int height,
                        const std::string& picture);
 

@@ -80,12 +80,13 @@ class TreeObserver : public StageObserver {
     n.distance = double{chunk.hits.t[i]};
     n.material = chunk.surfels.material[i];
     n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
+    n.alsoCrossed = reference::alsoCrossedAt(chunk, i);
     n.hidden = reference::isHidden(chunk, i);
   }
 
   void lookForLight(const Chunk& chunk, std::size_t k) {
     const ShadowColumns& s = chunk.shadows;
-    LightOfRay& light = shadows_[s.slot[k]];
+    LightContribution& light = shadows_[s.slot[k]];
     light.traced = true;
     light.origin = at(s.orgX, s.orgY, s.orgZ, k);
     light.toLight = at(s.dirX, s.dirY, s.dirZ, k);
@@ -94,7 +95,7 @@ class TreeObserver : public StageObserver {
 
   void addLight(const Chunk& chunk, std::size_t i) {
     RayNode& n = node(chunk, i);
-    LightOfRay light = shadows_[i];
+    LightContribution light = shadows_[i];
     shadows_[i] = {};
     light.radiance = at(chunk.radiance, i) - n.local;
     if (!light.traced && light.radiance == RgbD()) return;
@@ -120,7 +121,7 @@ class TreeObserver : public StageObserver {
 
   RayTree& tree_;
   std::vector<std::vector<std::size_t>> levels_;  // a queue a depth
-  std::vector<LightOfRay> shadows_;               // of the light in hand, a slot each
+  std::vector<LightContribution> shadows_;        // of the light in hand, a slot each
 };
 
 // As the reference follows its paths, one after the other.
@@ -149,7 +150,7 @@ class TreeIntersector : public reference::Intersector {
     n.u = c.u, n.v = c.v;
   }
   bool occluded(const reference::Ray& ray, double tFar) const override {
-    LightOfRay light;
+    LightContribution light;
     light.traced = true;
     light.origin = ray.origin;
     light.toLight = ray.direction;
@@ -207,8 +208,8 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
   const reference::Candidate met{n.triangle, n.instance, n.u, n.v};
   const reference::TriangleHit hit = reference::refineHit(scene, ray, met);
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
-  const reference::Crossing crossing =
-      reference::crossMedia(scene, plan.effects, surfel.material, surfel.entering, n.media);
+  const reference::Crossing crossing = reference::crossMedia(
+      scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
   return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
           crossing};
 }
@@ -313,17 +314,23 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   return found;
 }
 
-bool agree(const RayNode& a, const RayNode& b) {
-  if (a.triangle != b.triangle || a.instance != b.instance) return false;
-  if (a.children.size() != b.children.size()) return false;
+bool meetsTheSame(const RayNode& a, const RayNode& b) {
+  return a.triangle == b.triangle && a.instance == b.instance;
+}
+
+bool seesTheSame(const RayNode& a, const RayNode& b) {
   const auto shadows = [](const RayNode& n) {
     std::vector<bool> seen;
-    for (const LightOfRay& light : n.lights) {
+    for (const LightContribution& light : n.lights) {
       if (light.traced) seen.push_back(light.visible);
     }
     return seen;
   };
   return shadows(a) == shadows(b);
+}
+
+bool agree(const RayNode& a, const RayNode& b) {
+  return meetsTheSame(a, b) && seesTheSame(a, b) && a.children.size() == b.children.size();
 }
 
 }  // namespace whit

@@ -15,7 +15,7 @@
 namespace whit {
 
 // What a light, or one of its samples, adds to a surfel's radiance.
-struct LightOfRay {
+struct LightContribution {
   std::uint32_t light = 0, sample = 0;
   Vec3d origin, toLight;  // of the shadow ray: it reaches from one to their sum
   bool traced = false;    // else no shadow was looked for
@@ -38,9 +38,10 @@ struct RayNode {
   double u = 0, v = 0;  // of the hit
   double distance = std::numeric_limits<double>::infinity();
   Vec3d position;
-  bool hidden = false;  // a surface inside a dielectric of higher priority: not there
-  RgbD emitted;         // with the reflective ambient; of rays that left the scene the sky
-  std::vector<LightOfRay> lights;
+  std::uint32_t alsoCrossed = 0;  // as hits have it
+  bool hidden = false;            // a surface inside a dielectric of higher priority: not there
+  RgbD emitted;  // with the reflective ambient; of rays that left the scene the sky
+  std::vector<LightContribution> lights;
   RgbD local;     // of emission, ambient and lights
   RgbD radiance;  // with what its children brought back
   PathEnd reflectionEnd = PathEnd::none, refractionEnd = PathEnd::none;
@@ -73,7 +74,9 @@ RgbD weightAtEye(const RayTree& tree, std::size_t node);
 inline constexpr std::size_t kNoCounterpart = std::numeric_limits<std::size_t>::max();
 std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
 
-// Whether both met the same surface, saw the same lights and sent on the same impulses.
+bool meetsTheSame(const RayNode& a, const RayNode& b);  // surface, or nothing
+bool seesTheSame(const RayNode& a, const RayNode& b);   // of the lights: those that are not hidden
+// Whether both meet and see the same and send on as many impulses.
 bool agree(const RayNode& a, const RayNode& b);
 
 }  // namespace whit

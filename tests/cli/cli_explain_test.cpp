@@ -24,7 +24,7 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_NE(outcome.out.find("pixel 30,20: "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("\n  packets    "), std::string::npos);
   EXPECT_NE(outcome.out.find("\n  reference  "), std::string::npos);
-  EXPECT_NE(outcome.out.find("\nprimary, weight 1.00000 1.00000 1.00000, in air: "),
+  EXPECT_NE(outcome.out.find("\nprimary, weight 1.00000 1.00000 1.00000, in vacuum: "),
             std::string::npos);
   EXPECT_NE(outcome.out.find("\n  refraction, weight "), std::string::npos);
   EXPECT_NE(outcome.out.find("sky adds "), std::string::npos);

@@ -1,0 +1,52 @@
+// The tree of a pixel's rays as lines in space, and what a camera sees of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/ray_tree.h"
+
+namespace whit {
+
+// What a line stands for: a ray of that kind, or a shadow ray that reaches its light or does not.
+enum class RayLook { primary, reflection, refraction, lit, blocked };
+inline constexpr std::array<std::array<std::uint8_t, 3>, 5> kRayColors{
+    {{255, 255, 255}, {255, 64, 64}, {64, 160, 255}, {255, 224, 64}, {0, 0, 0}}};
+
+struct RayLine {
+  Vec3d from, to;
+  RayLook look = RayLook::primary;
+  std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
+  double width = 0;      // pixels; thinner for what weighs less at the eye
+};
+
+// Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
+std::vector<RayLine> linesOf(const RayTree& tree);
+
+// Where the rays are seen from unless the user says so: from aside and above, with all that they
+// met in view.
+Camera cameraAside(const RayTree& tree, const Camera& camera);
+
+// Pixels from the top left.
+struct ScreenLine {
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+};
+
+class LineView {
+ public:
+  LineView(const Camera& camera, int width, int height);
+
+  // The part before the camera, which may reach beyond the picture; nothing if all of it lies
+  // behind.
+  std::optional<ScreenLine> see(Vec3d from, Vec3d to) const;
+
+ private:
+  std::array<double, 2> project(const Vec3d& point) const;
+
+  CameraFrame frame_;
+  double near_;
+};
+
+}  // namespace whit
