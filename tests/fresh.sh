@@ -60,6 +60,7 @@ fi
 if [ -n "$data" ]; then
   mkdir -p "$system/data"
   mount --bind "$data" "$system/data"
+  mount -o remount,bind,ro "$system/data"
 fi
 cd /
 chroot "$@"  # as a child: the first process of its own kind would take no notice of interruptions

@@ -41,12 +41,15 @@ within whit render whitted --size 64x40 -o /tmp/there.exr --quiet
 cmp "$work/here.exr" "$clean/tmp/there.exr"
 within whit --version
 within whit info atrium --quiet | grep triangles >/dev/null
+within test -s /usr/share/doc/whit/example/embed.cpp
+if [ -x "$build/whit-view" ]; then within test -s /usr/share/applications/whit-view.desktop; fi
 for program in whit whit-view; do
   if [ ! -x "$build/$program" ]; then
     echo "!! $program was not built: it is NOT checked" >&2
     continue
   fi
   within "$program" --help >/dev/null
+  within test -s "/usr/share/bash-completion/completions/$program"
   within sh -c "test -s /usr/share/man/man1/$program.1 || test -s /usr/share/man/man1/$program.1.gz"
 done
 within dpkg --purge whit >/dev/null

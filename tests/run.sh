@@ -63,6 +63,7 @@ buildAndTest() {
 checkThreads() {
   local areas=(unit render) area
   local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
+  filter+=':Verdicts.TablesMay*:Verdicts.FollowALightThatMoves'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1

@@ -12,10 +12,12 @@
 #   WHIT     the program (default: build/whit of this checkout, else whit)
 #   JOBS     jobs at a time on each machine (default 1: one job already uses all cores)
 #   THREADS  workers of a job (default: cores / JOBS)
-#   CHUNK    frames, or rows of a band, of a job (default 8 frames, 64 rows); each job loads the scene
+#   CHUNK    frames, or rows of a band, of a job (default 8 frames, 64 rows, and fewer where there
+#            would be less jobs than run at a time); each job loads the scene
 #   RETRIES  how often a job is tried (default 3)
 #   LOGINS   machines, as --sshlogin of parallel wants them ("host1,host2"; default: this one).
 #            They need whit, the scene and the output folder under the same paths.
+# The last line says how many images were kept, how many traced, and how many are those of failed jobs.
 # Exit status: 0 when everything is there, else 1.
 set -euo pipefail
 
@@ -26,6 +28,11 @@ usage() {
 [ $# -ge 4 ] || usage
 what=$1 scene=$2 out=$3 range=$4
 shift 4
+for word in "$@"; do
+  case $word in
+    --json | --json=*) echo "$0: --json: every job would write that file" >&2; exit 2 ;;
+  esac
+done
 
 here=$(cd "$(dirname "$0")/../.." && pwd)
 whit=${WHIT:-$here/build/whit}
@@ -33,17 +40,36 @@ whit=${WHIT:-$here/build/whit}
 jobs=${JOBS:-1}
 cores=$(nproc)
 threads=${THREADS:-$((cores > jobs ? cores / jobs : 1))}
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+log=$(mktemp) said=$(mktemp)
+trap 'rm -f "$log" "$said"' EXIT
 
-# each ITEM...: the command that stands in `job`, {} being the item, on every machine.
+# chunk MOST COUNT: of COUNT frames or rows, how many are a job: MOST, or what gives every job that
+# runs at a time one.
+chunk() {
+  local logins=${LOGINS:-} commas share machines
+  commas=${logins//[^,]/}
+  machines=$((${#commas} + 1))
+  share=$((($2 + jobs * machines - 1) / (jobs * machines)))
+  echo "${CHUNK:-$((share < 1 ? 1 : share < $1 ? share : $1))}"
+}
+
+# The sum of the numbers of a key in what the jobs said.
+sum() { awk -v key="\"$1\":" '$1 == key { sum += $2 } END { print sum + 0 }' "$said"; }
+
+# each IMAGES ITEM...: the command that stands in `job`, {} being the item, on every machine; they
+# make so many images.
 each() {
-  local status=0
+  local status=0 images=$1 kept traced failed
+  shift
   parallel --will-cite --quote --jobs "$jobs" --retries "${RETRIES:-3}" --joblog "$log" \
-    ${LOGINS:+--sshlogin "$LOGINS"} --workdir . "${job[@]}" ::: "$@" || status=$?
-  [ "$status" = 0 ] && return
-  echo "$0: $(awk 'NR > 1 && $7 + $8 > 0' "$log" | wc -l) of $# jobs failed; again to go on" >&2
-  exit 1
+    ${LOGINS:+--sshlogin "$LOGINS"} --workdir . "${job[@]}" --json - ::: "$@" >"$said" || status=$?
+  kept=$(sum kept) traced=$(sum frames)
+  if [ "$status" != 0 ]; then
+    failed=$(awk 'NR > 1 && $7 + $8 > 0' "$log" | wc -l)
+    echo "$0: $failed of $# jobs failed; again to go on" >&2
+  fi
+  echo "$images images: $kept kept, $traced traced, $((images - kept - traced)) failed" >&2
+  [ "$status" = 0 ] || exit 1
 }
 
 # Where what the killed have left lies: temporary files of whit, which nobody uses any more.
@@ -52,31 +78,32 @@ sweep() { rm -f "$1"/.whit-*.tmp; }
 case $what in
   frames)
     first=${range%%..*} last=${range##*..}
-    chunk=${CHUNK:-8}
+    images=$((10#$last - 10#$first + 1))
+    step=$(chunk 8 "$images")
     items=()
-    for ((a = 10#$first; a <= 10#$last; a += chunk)); do
-      b=$((a + chunk - 1 < 10#$last ? a + chunk - 1 : 10#$last))
+    for ((a = 10#$first; a <= 10#$last; a += step)); do
+      b=$((a + step - 1 < 10#$last ? a + step - 1 : 10#$last))
       items+=("$a..$b")
     done
     job=("$whit" render "$scene" -o "$out" --frames '{}' --threads "$threads" --resume --quiet "$@")
-    each "${items[@]}"
+    each "$images" "${items[@]}"
     sweep "$(dirname "$out")"
     ;;
   image)
     width=${range%%x*} height=${range##*x}
-    chunk=${CHUNK:-64}
+    step=$(chunk 64 "$height")
     parts=$out.parts
     mkdir -p "$parts"
     items=()
     files=()
-    for ((y = 0; y < height; y += chunk)); do
-      item=0,$y,$width,$((y + chunk < height ? y + chunk : height))
+    for ((y = 0; y < height; y += step)); do
+      item=0,$y,$width,$((y + step < height ? y + step : height))
       items+=("$item")
       files+=("$parts/$item.exr")
     done
     job=("$whit" render "$scene" -o "$parts/{}.exr" --size "$range" --crop '{}'
       --threads "$threads" --resume --quiet "$@")
-    each "${items[@]}"
+    each "${#items[@]}" "${items[@]}"
     "$whit" merge "$out" "${files[@]}" --quiet
     rm -rf "$parts"
     ;;

@@ -34,6 +34,12 @@ std::size_t medianFrameIndex(const RunSummary& run) {
 
 const FrameStats& medianFrame(const RunSummary& run) { return run.frames[medianFrameIndex(run)]; }
 
+double writtenPerSecond(const RunSummary& run) {
+  return run.tracedAndWrittenMs > 0
+             ? 1e3 * static_cast<double>(run.writingMs.size()) / run.tracedAndWrittenMs
+             : 0;
+}
+
 double outsideEmbreeMs(const RunSummary& run) {
   const FrameStats& frame = medianFrame(run);
   return frame.frameMs - frame.embreeMs();
@@ -99,6 +105,20 @@ std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
 std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {
   const std::uint64_t spheres = scene.triangles.size() - scene.firstSphere;
   return spheres == 0 ? 0 : sizeof(TriangleRecord) + renderer.accel().sphereBytes() / spheres;
+}
+
+std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most) {
+  const std::uint64_t taken = scene.memoryBytes() + renderer.memoryBytes();
+  return most > taken ? most - taken : 0;
+}
+
+VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options) {
+  if (options.verdicts == Verdicts::off) return {0, 0, "off by --verdicts"};
+  const std::size_t lights = lightsWithVerdicts(makePlan(scene, options, true)).size();
+  if (lights == 0) return {0, 0, "no shadow that could be proved"};
+  const std::size_t parts = VerdictParts::of(scene).count();
+  if (parts == 0) return {0, 0, "no triangles of the world, or too many or too far out for tables"};
+  return {lights, parts, ""};
 }
 
 double memoryMb(const Scene& scene, const Renderer& renderer) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,13 @@
 
 namespace whit::cli {
 
+// Shadows that were proved before their rays were traced.
+struct VerdictUse {
+  double coldMs = 0;  // the first frame, that knew none; 0: not told apart
+  double fillMs = 0;  // looking for them, between frames
+  std::uint64_t bytes = 0;
+};
+
 struct RunSummary {
   std::string scene;
   int width = 0, height = 0;
@@ -21,10 +29,16 @@ struct RunSummary {
   EffectSet effects;
   std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;  // counted ones; none: all images were there
-  std::vector<double> floorMs;     // empty without --floor
-  std::string imageHash;           // of the last frame: accuracy::digestOf(image)
-  std::vector<FarmFrame> shares;   // how the frames were shared; empty for one process
+  std::vector<FrameStats> frames;      // counted ones; none: all images were there
+  std::vector<double> floorMs;         // empty without --floor
+  std::string imageHash;               // of the last frame: accuracy::digestOf(image)
+  std::optional<VerdictUse> verdicts;  // none: all shadow rays were traced
+  std::vector<FarmFrame> shares;       // how the frames were shared; empty for one process
+  // Of frames whose images are written, each beside the tracing of the next: how long it took to
+  // write them, and how long the tracing waited for it.
+  std::vector<double> writingMs, waitedMs;
+  double tracedAndWrittenMs = 0;  // from the first frame to the last file
+  std::size_t kept = 0;           // frames whose images were there
 };
 
 RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
@@ -36,6 +50,9 @@ using whit::quantile;
 const FrameStats& medianFrame(const RunSummary& run);
 std::size_t medianFrameIndex(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
+
+// Of frames whose images are written: how many a second, tracing and writing.
+double writtenPerSecond(const RunSummary& run);
 
 // The median frame's time that is not spent inside Embree's calls.
 double outsideEmbreeMs(const RunSummary& run);
@@ -67,6 +84,17 @@ std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
 
 // What one exact sphere takes beside its part of the BVH; 0 where there are none.
 std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);
+
+// What --max-memory leaves for verdicts of shadow.
+std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most);
+
+// What frames that follow one another could prove of the scene's shadows: of so many lights, in so
+// many parts of triangles; and why there are none.
+struct VerdictOutlook {
+  std::size_t lights = 0, parts = 0;
+  std::string because;
+};
+VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options);
 
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);

@@ -3,12 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 
 #include "app/interrupt.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/option_values.h"
 
 namespace whit::cli {
 
@@ -20,6 +24,19 @@ bool readFrameNumber(const std::string& text, int& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value >= 0 &&
          value <= kFrameLimit;
+}
+
+void writeDisplay(const std::string& path, const DisplayImage& image,
+                  const ImageMetadata& metadata) {
+  if (path != kStandardOutput) {
+    writePng(path, image, metadata);
+    return;
+  }
+  const std::string bytes = encodePng(image, metadata);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+      std::fflush(stdout) != 0) {
+    throwIo(std::string("cannot write to standard output: ") + std::strerror(errno));
+  }
 }
 
 }  // namespace
@@ -64,16 +81,24 @@ void addSettings(const std::vector<std::string>& settings, const std::string& sk
   if (!sky.empty()) metadata.emplace_back("sky", sky);
 }
 
+ImageMetadata storageMetadata(const std::string& path, ExrStorage storage) {
+  if (extensionOf(path) != ".exr" || storage == ExrStorage::zip) return {};
+  return {{std::string(kExrOption.name), formatValue(kExrOption, storage)}};
+}
+
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
-                const ImageMetadata& metadata) {
+                const ImageMetadata& metadata, const ImageFormat& format) {
   const WriteScope scope;
   if (extensionOf(path) == ".exr") {
-    writeExr(path, film.image, metadata);
+    ImageMetadata said = metadata;
+    const ImageMetadata stored = storageMetadata(path, format.exr);
+    said.insert(said.end(), stored.begin(), stored.end());
+    writeExr(path, film.image, said, format.exr, format.threads);
   } else if (options.mode == Mode::packets && film.wantDisplay) {
-    writePng(path, film.display, metadata);
+    writeDisplay(path, film.display, metadata);
   } else {
-    writePng(path, toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb),
-             metadata);
+    writeDisplay(path, toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb),
+                 metadata);
   }
 }
 
@@ -92,6 +117,7 @@ FrameRange parseFrameRange(const std::string& text) {
 }
 
 std::string frameName(const std::string& pattern, int frame) {
+  if (pattern == kStandardOutput) return pattern;
   const std::filesystem::path path(pattern);
   std::string name = path.filename().string();
   const std::size_t begin = name.find('#');

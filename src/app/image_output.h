@@ -23,9 +23,23 @@ void requireJsonWritable(const std::string& path);
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata);
 
-// Writes .exr (linear) or .png (display) by the name's extension.
+// Where pictures may go besides files.
+inline constexpr const char* kStandardOutput = "-";
+
+inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dwaa"};
+
+// How an image is to be written, apart from what is in it.
+struct ImageFormat {
+  ExrStorage exr = ExrStorage::zip;
+  int threads = 1;  // that compress it
+};
+
+// Writes .exr (linear) or .png (display) by the name's extension; a PNG to standard output. Says in
+// an EXR's metadata how it is stored, unless as usual. Throws Error(io).
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
-                const ImageMetadata& metadata);
+                const ImageMetadata& metadata, const ImageFormat& format = {});
+// Of an EXR, what writeImage() adds to its metadata.
+ImageMetadata storageMetadata(const std::string& path, ExrStorage storage);
 
 // Frames a to b, both included.
 struct FrameRange {
@@ -34,7 +48,7 @@ struct FrameRange {
 FrameRange parseFrameRange(const std::string& text);  // "3" or "0..47"; throws Error(usage)
 
 // The run of '#' in the file's name becomes the frame's number, zero-padded to its length; throws
-// Error(usage) when the name has none.
+// Error(usage) when the name has none. Standard output takes all frames.
 std::string frameName(const std::string& pattern, int frame);
 // Throws Error(usage) when the name is meant for frames: two '#' or more.
 void requireNoFrameName(const std::string& name);

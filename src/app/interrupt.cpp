@@ -16,10 +16,11 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 
 // The main thread opens WriteScopes and is also the one that the kernel prefers for signals to the
 // process, so that nothing can slip in between the test and the exit. Outside a scope no temporary
-// file exists, and a long render is not waited for.
+// file exists, and a long render is not waited for. Other threads may close a scope: either they
+// see that there was an interruption, or it sees that the scope is closed.
 extern "C" void onInterrupt(int) {
-  if (writers == 0) _exit(kInterruptedStatus);
   interrupted = true;
+  if (writers == 0) _exit(kInterruptedStatus);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ inline constexpr int kInterruptedStatus = 130;
 // Call from the main thread before any other thread is started.
 void installInterruptHandlers();
 
-// While one is alive an interruption waits: files are being written. The destructor catches up.
+// While one is alive an interruption waits: files are being written. The destructor catches up. To
+// be made on the main thread; any may destroy it.
 class WriteScope {
  public:
   WriteScope();

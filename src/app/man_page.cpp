@@ -6,6 +6,7 @@
 
 #include "app/parse_options.h"
 #include "app/program.h"
+#include "core/option_table.h"
 #include "core/version.h"
 
 namespace whit::cli {
@@ -121,6 +122,12 @@ std::string manClosing(const ManPage& page) {
   for (const ExitMeaning& e : kExitMeanings) {
     statuses.emplace_back(std::to_string(e.status), e.meaning);
   }
+  std::vector<std::pair<std::string, std::string>> presets;
+  for (const QualityPreset& preset : qualityPresets()) {
+    presets.emplace_back("--quality " + preset.name,
+                         preset.options.empty() ? "the defaults" : preset.options);
+  }
+  text += manTerms("PRESETS", presets);
   text += manTerms("EXIT STATUS", statuses);
   text += manTerms("ENVIRONMENT",
                    {{"WHIT_SCENES", "folder in which shipped scenes are looked for first"},

@@ -14,6 +14,7 @@ class OptionList {
   struct Entry {
     std::string group, name, shortName, placeholder, help;  // no placeholder: a flag
     bool repeats = false;
+    bool everyday = true;  // in --help; the others are in --help-all
     std::function<void(const std::string&)> set;
   };
   struct Operand {
@@ -53,8 +54,8 @@ class OptionList {
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,
               std::function<void(const std::string&)> set) {
-    entries.push_back(
-        {group_, std::string(spec.name), "", std::string(spec.words), help, false, std::move(set)});
+    entries.push_back({group_, std::string(spec.name), "", std::string(spec.words), help, false,
+                       true, std::move(set)});
     return entries.back();
   }
 

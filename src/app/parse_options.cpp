@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "app/completion.h"
+#include "app/help_text.h"
 #include "app/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -12,28 +14,24 @@ namespace whit::cli {
 
 namespace {
 
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(34); }
-  std::string make_usage(const CLI::App*, std::string) const override {
-    return "Usage: " + usage_ + "\n";
-  }
-  // The type alone: how often an option may be given is said in its help.
-  std::string make_option_opts(const CLI::Option* option) const override {
-    return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
-  }
-
- private:
-  std::string usage_;
-};
-
 bool looksLikeOption(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
 
 [[noreturn]] void throwUnknownOption(const std::string& word, const OptionList& list) {
-  std::vector<std::string> names{"--help"};
+  std::vector<std::string> names{"--help", "--help-all"};
   for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
   const std::string name = word.substr(0, word.find('='));
   throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
+}
+
+// The parser says "--size: 1 required TEXT missing".
+[[noreturn]] void throwNoValue(const std::string& said, const OptionList& list) {
+  const std::string name = said.substr(0, said.find(':'));
+  for (const OptionList::Entry& e : list.entries) {
+    if (name == "--" + e.name && !e.placeholder.empty()) {
+      throwUsage(name + ": expected " + e.placeholder + " after it");
+    }
+  }
+  throwUsage(said);
 }
 
 std::string optionNames(const OptionList::Entry& entry) {
@@ -43,20 +41,16 @@ std::string optionNames(const OptionList::Entry& entry) {
 // The parser for `list`, with its options in the order of list.entries.
 std::vector<CLI::Option*> declare(CLI::App& app, const OptionList& list) {
   app.allow_extras();
-  app.set_help_flag("-h,--help", "show this text");
-  if (list.operand.most > 0) {
-    app.footer("\n" + list.operand.placeholder + ": " + list.operand.help + ".");
-  }
+  app.set_help_flag("-h,--help");
+  app.set_help_all_flag("--help-all");
   std::vector<CLI::Option*> options;
   for (const OptionList::Entry& entry : list.entries) {
     CLI::Option* option = nullptr;
     if (entry.placeholder.empty()) {
-      option = app.add_flag(optionNames(entry), entry.help);
+      option = app.add_flag(optionNames(entry));
     } else {
-      option = app.add_option(optionNames(entry), CLI::callback_t(), entry.help);
-      option->type_name(entry.placeholder);
+      option = app.add_option(optionNames(entry), CLI::callback_t());
     }
-    option->group(entry.group);
     option->multi_option_policy(entry.repeats ? CLI::MultiOptionPolicy::TakeAll
                                               : CLI::MultiOptionPolicy::TakeLast);
     options.push_back(option);
@@ -99,6 +93,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.group("Rendering");
   forEachOption(common.render, [&](const OptionSpec& spec, auto& field) {
     OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
+    entry.everyday = spec.everyday;
     entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
       set(text);
       common.given.insert(name);
@@ -106,7 +101,8 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   });
   list.group("Loading");
   list.flag("allow-outside", "the scene may name files outside its own folder",
-            common.load.allowOutside);
+            common.load.allowOutside)
+      .everyday = false;
   list.many(
       {"set", "POINTER=VALUE"},
       "a member of the scene's description, by JSON pointer, and what it is to be instead, in "
@@ -119,7 +115,8 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              common.load.sky)
       .placeholder = "none|studio|FILE";
   list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
-             common.maxMemoryGb);
+             common.maxMemoryGb)
+      .everyday = false;
   listReportOptions(list, common);
 }
 
@@ -136,15 +133,26 @@ Parsed parseOptions(const std::string& usage, const std::string& summary, const 
     std::fputs(manOptions(usage, summary, list).c_str(), stdout);
     return Parsed::helpShown;
   }
-  CLI::App app(summary + "\n");
-  app.formatter(std::make_shared<HelpFormatter>(usage));
+  if (words.size() == 4 && words[0] == "--completion") {
+    std::fputs(completionOptions(shellNamed(words[1]), words[2], words[3], list).c_str(), stdout);
+    return Parsed::helpShown;
+  }
+  CLI::App app;
   const std::vector<CLI::Option*> options = declare(app, list);
+  const auto showHelp = [&](HelpTier tier) {
+    std::fputs(helpText(usage, summary, list, tier, helpWidth()).c_str(), stdout);
+  };
   try {
     std::vector<std::string> reversed(words.rbegin(), words.rend());
     app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+    showHelp(HelpTier::everyday);
     return Parsed::helpShown;
+  } catch (const CLI::CallForAllHelp&) {
+    showHelp(HelpTier::all);
+    return Parsed::helpShown;
+  } catch (const CLI::ArgumentMismatch& error) {
+    throwNoValue(error.what(), list);
   } catch (const CLI::ParseError& error) {
     throwUsage(error.what());
   }

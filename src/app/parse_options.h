@@ -30,8 +30,9 @@ void settleOptions(CommonOptions& common);
 enum class Parsed { run, helpShown };
 
 // Parses `words` (without the program's name). `usage` is the first line of --help, which goes to
-// standard output; so does the command's part of the manual page for the one word --man. Throws
-// Error(usage): unknown options name the nearest one.
+// standard output, with all options for --help-all; so does the command's part of the manual page
+// for the one word --man, and its part of the completion for --completion SHELL PROGRAM COMMAND.
+// Throws Error(usage): unknown options name the nearest one.
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words);
 

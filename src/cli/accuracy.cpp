@@ -5,11 +5,13 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
-#include "accuracy/pareto.h"
+#include "accuracy/front_chart.h"
+#include "accuracy/knob_chart.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
 #include "app/image_output.h"
@@ -33,7 +35,9 @@ constexpr const char* kAccuracyUsage =
 constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
     "time and in error against a double-precision reference. Writes DIR/report.html,\n"
-    "DIR/sweep.csv and DIR/pareto-SCENE.svg; references are kept in DIR/cache.";
+    "DIR/sweep.csv and the charts DIR/knobs-SCENE.svg and DIR/pareto-SCENE.svg; references are "
+    "kept\n"
+    "in DIR/cache.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
@@ -42,6 +46,7 @@ struct AccuracyJob {
   std::string out, knobs, check;
   bool quick = false, full = false;
   int seed = 1;
+  std::optional<double> timeBudget;
 
   std::vector<std::string> knobNames() const {
     std::vector<std::string> names;
@@ -72,6 +77,9 @@ OptionList listOptions(AccuracyJob& job) {
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
              job.check);
+  list.value({"time-budget", "SECONDS", 0, 1e6},
+             "for repeating times, a scene, until their spread is known (default: 20, --full 600)",
+             job.timeBudget);
   list.value({"seed", "N", 0, 1e9}, "of the random order of the measurements", job.seed);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -134,6 +142,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   settings.full = job.full;
   settings.knobs = job.knobNames();
   settings.seed = facts.seed;
+  settings.timingSeconds = job.timeBudget;
   settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
   settings.program = std::string(versionText()) + " " + accuracy::digestOfProgram();
   std::vector<accuracy::SceneSweep> sweeps;
@@ -158,9 +167,14 @@ void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "sweep.csv").string(), csv);
   writeTextFile((folder / "report.html").string(), accuracy::reportHtml(sweeps, facts));
-  for (const accuracy::SceneSweep& sweep : sweeps) {
-    writeTextFile((folder / ("pareto-" + fileName(sweep.scene) + ".svg")).string(),
-                  accuracy::paretoSvg(sweep, accuracy::Against::reference));
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const accuracy::SceneSweep& sweep = sweeps[i];
+    const accuracy::ChartLinks links{i, "report.html"};
+    const std::string name = fileName(sweep.scene) + ".svg";
+    writeTextFile((folder / ("knobs-" + name)).string(),
+                  accuracy::knobSvg(sweep, accuracy::chosenPoints(sweep), links));
+    writeTextFile((folder / ("pareto-" + name)).string(),
+                  accuracy::frontSvg(sweep, accuracy::Against::reference, links));
   }
 }
 

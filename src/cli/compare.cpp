@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "render/auto_exposure.h"
 #include "render/path_divergence.h"
 
@@ -151,6 +152,27 @@ bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   return codes && energy;
 }
 
+// What the numbers come to, for people. A code is a step of 8-bit sRGB.
+std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
+  const ImageDifference& d = c.difference;
+  std::string text;
+  if (d.nonFinite > 0) {
+    text = "there are pixels that are not finite";
+  } else if (d.rmse == 0) {
+    text = "the pictures are the same, bit for bit";
+  } else if (d.maxCode == 0) {
+    text = "the pictures differ, but in no 8-bit code";
+  } else if (d.pixelsGe2CodesPct == 0) {
+    text = "the pictures differ by one 8-bit code at most: nobody sees it";
+  } else {
+    text =
+        formatted("%.4g %% of the pixels differ by two 8-bit codes or more", d.pixelsGe2CodesPct);
+  }
+  const bool judged = job.subjects.size() == 1 || job.tolerance || c.stages;
+  const char* const judgment = passed ? "; passed" : "; FAILED";
+  return "verdict: " + text + (judged ? judgment : "");
+}
+
 bool stagesPass(const Comparison& comparison) {
   if (!comparison.stages) return true;
   return std::all_of(comparison.stages->begin(), comparison.stages->end(),
@@ -184,7 +206,11 @@ int compareCommand(const Words& words) {
   if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
   const bool pictures = picturesPass(job, compared.numbers.difference);
-  if (pictures && stagesPass(compared.numbers)) return 0;
+  const bool passed = stagesPass(compared.numbers) && pictures;
+  if (people == stdout || !job.common.quiet) {
+    std::fprintf(people, "%s\n", verdict(job, compared.numbers, passed).c_str());
+  }
+  if (passed) return 0;
   std::fprintf(stderr, "whit: the comparison failed\n");
   return static_cast<int>(ExitStatus::checkFailed);
 }

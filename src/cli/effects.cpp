@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/effects_report.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "io/atomic_file.h"
 #include "io/load_scene.h"
 #include "scene/leave_out.h"
@@ -21,8 +22,9 @@ constexpr const char* kEffectsUsage = "whit effects [SCENE] --out DIR [options]"
 constexpr const char* kEffectsSummary =
     "Measures a scene with nothing but point lights and their shadows, then with one effect more "
     "at\n"
-    "a time until it is complete. The frames of all steps take turns. Writes DIR/effects.csv and\n"
-    "DIR/effects.svg.";
+    "a time until it is complete. The frames of all steps take turns. Writes\n"
+    "DIR/effects.csv, DIR/effects.svg and a picture of each step: DIR/00-matte.png, DIR/01-sky.png "
+    "...";
 
 struct EffectsJob {
   CommonOptions common;
@@ -40,7 +42,7 @@ std::shared_ptr<OpenScene> openStep(const SceneDescription& whole, EffectSet kep
   return open;
 }
 
-// Steps for the effects that the scene has; the others would add nothing.
+// Steps for the effects that the scene has; the others would add nothing. Their pictures are saved.
 std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) {
   Warnings warnings(job.common.render.strict);
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
@@ -66,6 +68,9 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
+    const std::string picture = formatted("%02zu-%s.png", i, steps[i].added.c_str());
+    writeImage((std::filesystem::path(job.out) / picture).string(), runs[i]->film(),
+               runs[i]->options(), {{"scene", name}, {"effects", "up to " + steps[i].added}});
   }
   return steps;
 }

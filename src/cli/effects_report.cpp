@@ -122,7 +122,20 @@ std::string effectsTable(const std::vector<EffectStep>& steps) {
     text += formatted("%-18s%10.2f%+10.2f%+16.2f%+12.0f%+10.2f\n", label(steps[i], i).c_str(),
                       c.frameMs, c.addedMs, c.outsideMs, c.addedRays, c.addedMb);
   }
-  return text;
+  return text + "\n" + effectsNote(steps);
+}
+
+std::string effectsNote(const std::vector<EffectStep>& steps) {
+  const std::vector<EffectCost> costs = effectCosts(steps);
+  double sum = 0;
+  for (const EffectCost& c : costs) sum += c.addedMs;
+  return formatted(
+      "Rays and MB add up. Times are medians of %zu turns, and medians do not: what is added is "
+      "that of\n"
+      "the differences to the row above within a turn, in which whatever slows both cancels. All "
+      "rows\n"
+      "together come to %.2f ms; the last frame takes %.2f ms.\n",
+      steps.at(0).run.frames.size(), sum, costs.back().frameMs);
 }
 
 std::string effectsCsv(const std::vector<EffectStep>& steps) {

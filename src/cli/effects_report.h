@@ -25,7 +25,10 @@ struct EffectCost {
 // both cancels. The first step's cost is its own.
 std::vector<EffectCost> effectCosts(const std::vector<EffectStep>& steps);
 
+// Ends with effectsNote().
 std::string effectsTable(const std::vector<EffectStep>& steps);
+// Why the times do not add up, and by how much.
+std::string effectsNote(const std::vector<EffectStep>& steps);
 // effect, frame_ms, added_ms, added_outside_embree_ms, rays by kind, added_rays, memory_mb,
 // added_memory_mb; a line a step.
 std::string effectsCsv(const std::vector<EffectStep>& steps);

@@ -1,6 +1,7 @@
 // whit: the command line program.
 #include <cstdio>
 
+#include "app/completion.h"
 #include "app/man_page.h"
 #include "app/program.h"
 #include "cli/commands.h"
@@ -28,16 +29,20 @@ void showHelp() {
   std::printf(
       "\nSCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of\n"
       "a shipped scene (atrium).\n"
-      "Options of a command: whit COMMAND --help. Version: whit --version. The manual page:\n"
-      "whit --man.\n\nExit status:\n");
+      "Options of a command: whit COMMAND --help, all of them: whit COMMAND --help-all. Version:\n"
+      "whit --version. The manual page: whit --man. Completion: whit --completion bash|zsh|fish.\n"
+      "\nExit status:\n");
   for (const ExitMeaning& e : kExitMeanings) std::printf("  %-5d%s\n", e.status, e.meaning);
 }
 
 void showManual() {
   std::fputs(manOpening(kPage).c_str(), stdout);
-  std::fputs(manTerms("OPTIONS", {{"--help", "what there is; of a command: its options"},
-                                  {"--version", "the version"},
-                                  {"--man", "this page, for man -l"}})
+  std::fputs(manTerms("OPTIONS",
+                      {{"--help", "what there is; of a command: its options of every day"},
+                       {"--help-all", "of a command: all its options"},
+                       {"--version", "the version"},
+                       {"--man", "this page, for man -l"},
+                       {"--completion SHELL", "what bash, zsh or fish completes command lines by"}})
                  .c_str(),
              stdout);
   std::puts(".SH COMMANDS");
@@ -48,12 +53,21 @@ void showManual() {
   std::fputs(manClosing(kPage).c_str(), stdout);
 }
 
+void showCompletion(const std::string& shell) {
+  const Shell named = shellNamed(shell);
+  std::vector<CommandSummary> commands;
+  for (const Command& c : kCommands) commands.push_back({c.name, c.summary});
+  std::fputs(completionOpening(named, kPage.name, commands).c_str(), stdout);
+  for (const Command& c : kCommands) c.run({"--completion", shell, kPage.name, c.name});
+  std::fputs(completionClosing(named, kPage.name).c_str(), stdout);
+}
+
 int run(const Words& words) {
   if (words.empty()) {
     showHelp();
     return static_cast<int>(ExitStatus::usage);
   }
-  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+  if (words[0] == "--help" || words[0] == "--help-all" || words[0] == "-h" || words[0] == "help") {
     showHelp();
     return 0;
   }
@@ -65,12 +79,17 @@ int run(const Words& words) {
     showManual();
     return 0;
   }
+  if (words[0] == "--completion") {
+    if (words.size() != 2) throwUsage("--completion: expected bash, zsh or fish after it");
+    showCompletion(words[1]);
+    return 0;
+  }
   std::vector<std::string> names;
   for (const Command& command : kCommands) {
     if (words[0] == command.name) return command.run(Words(words.begin() + 1, words.end()));
     names.emplace_back(command.name);
   }
-  if (words[0][0] == '-') names = {"--help", "--version", "--man"};
+  if (words[0][0] == '-') names = {"--help", "--version", "--man", "--completion"};
   throwUsage("there is no command '" + words[0] + "'; nearest: '" + nearestName(words[0], names) +
              "' (whit --help lists them)");
 }

@@ -1,23 +1,28 @@
 // whit render: one image, or the frames of a scene's camera path.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "accuracy/digest.h"
+#include "app/background_writer.h"
 #include "app/image_output.h"
 #include "app/open_scene.h"
 #include "app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "cli/stage_table.h"
+#include "cli/whole_image.h"
 #include "core/error.h"
-#include "core/image.h"
 #include "core/options.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/image_file.h"
+#include "io/paths.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 
@@ -25,48 +30,11 @@ namespace whit::cli {
 
 namespace {
 
-constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that might be whole
-
-// The pixels are read as well: a file that was cut off still has its head.
-ImageMetadata readThrough(const std::string& path, const Image& image) {
-  if (extensionOf(path) == ".png") return readPngMetadata(path);
-  Warnings warnings;
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
-  readImage(path, limits, warnings);
-  return readExrMetadata(path);
-}
-
-// In an order that does not depend on the format; without what says nothing or may differ.
-ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
-  std::erase_if(metadata, [&](const auto& entry) {
-    return entry.second.empty() || (entry.first == "simd" && options.simd == "auto") ||
-           (entry.first == "packet" && options.packet == 0);
-  });
-  std::sort(metadata.begin(), metadata.end());
-  return metadata;
-}
-
-// Whether `path` (.exr or .png) is what a render into `image` would write: there, readable to its
-// last byte, and made with the same options of a scene with the same contents, as far as `expected`
-// tells of them. What the options leave to the machine (--simd auto, --packet auto) may differ.
-// Throws Error(io) when it is there but cannot be read.
-bool isWhole(const std::string& path, const Image& image, const ImageMetadata& expected,
-             const RenderOptions& options) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  try {
-    return comparable(readThrough(path, image), options) == comparable(expected, options);
-  } catch (const Error& broken) {
-    if (broken.status() == ExitStatus::io) throw;
-    return false;
-  }
-}
-
 constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
 constexpr const char* kRenderSummary =
-    "Renders one image, or with --frames the frames of the scene's camera path.";
+    "Renders one image, or with --frames the frames of the scene's camera path. To standard "
+    "output\n"
+    "(-o -) frames follow each other, as ffmpeg -f image2pipe reads them.";
 
 struct RenderJob {
   CommonOptions common;
@@ -74,12 +42,18 @@ struct RenderJob {
   std::string frames, json;
   double fps = 24;
   bool resume = false;
+  ExrStorage exr = ExrStorage::zip;
+
+  bool toStandardOutput() const {
+    return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
+  }
 };
 
 OptionList listOptions(RenderJob& job) {
   OptionList list;
   list.group("Output");
-  list.many({"output", "FILE"}, "image to write, .exr (linear) or .png; may be repeated",
+  list.many({"output", "FILE"},
+            "image to write, .exr (linear) or .png; - is a PNG to standard output; may be repeated",
             job.outputs)
       .shortName = "o";
   list.value({"frames", "A..B"}, "frames of the camera path; FILE has #### for the number",
@@ -90,17 +64,36 @@ OptionList listOptions(RenderJob& job) {
       "leave out images that are there, whole and made with the same options of the same contents "
       "of the scene",
       job.resume);
+  list.value(kExrOption,
+             "how an EXR keeps its pixels: floats, compressed or as they are; half floats, "
+             "compressed; half floats with OpenEXR's lossy DWAA",
+             job.exr);
   list.value({"json", "FILE"}, "what was done and what it cost; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
   return list;
 }
 
+void checkStandardOutput(const RenderJob& job) {
+  if (!job.toStandardOutput()) return;
+  if (std::count(job.outputs.begin(), job.outputs.end(), kStandardOutput) > 1) {
+    throwUsage("-o -: standard output takes one image: give it once");
+  }
+  if (job.json == kStandardOutput) {
+    throwUsage("-o - and --json -: standard output takes one of them");
+  }
+  if (job.resume) throwUsage("-o -: what went to standard output cannot be resumed");
+  if (isatty(STDOUT_FILENO)) throwUsage("-o -: standard output is a terminal: send it elsewhere");
+}
+
 void checkJob(const RenderJob& job, const Farm& farm) {
   if (job.outputs.empty()) throwUsage("expected an image to write: -o OUT.exr or -o OUT.png");
   checkShared(farm, job.common);
   if (farm.leads()) {
-    for (const std::string& output : job.outputs) requireWritable(output, {".exr", ".png"});
+    checkStandardOutput(job);
+    for (const std::string& output : job.outputs) {
+      if (output != kStandardOutput) requireWritable(output, {".exr", ".png"});
+    }
     requireJsonWritable(job.json);
   }
   if (job.frames.empty()) {
@@ -114,53 +107,76 @@ void checkJob(const RenderJob& job, const Farm& farm) {
   }
 }
 
+// Two films where frames follow each other and both find room: one is written while the other is
+// traced.
+std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
+  CommonOptions half = job.common;
+  half.load.maxMemoryBytes /= 2;
+  bool wantDisplay = false;
+  for (const std::string& output : job.outputs) wantDisplay |= extensionOf(output) != ".exr";
+  std::vector<Film> films{openFilm(scene, job.common)};
+  try {
+    if (!job.frames.empty()) films.push_back(openFilm(scene, half));
+  } catch (const Error& limit) {
+    if (limit.status() != ExitStatus::limit) throw;
+  }
+  for (Film& film : films) film.wantDisplay = wantDisplay;
+  return films;
+}
+
+// Traces frames and writes them, each beside the tracing of the next.
 class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, const OpenScene& open, Farm& farm, Progress* progress)
       : job_(job),
         farm_(farm),
         open_(open),
-        progress_(progress),
         options_(optionsFor(open.scene, job.common)),
         renderer_(open.scene, options_, progress),
-        film_(openFilm(open.scene, job.common)) {
+        films_(openFilms(job, open.scene)) {
     // One for all frames of a path, whichever of them are asked for.
     settleExposure(renderer_, firstCamera(), options_);
-    run_ = summarize(open.scene, options_, renderer_, film_, open.loadMs);
+    run_ = summarize(open.scene, options_, renderer_, films_[0], open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
-    film_.wantDisplay = false;
-    for (const std::string& output : job.outputs) {
-      if (std::filesystem::path(output).extension() != ".exr") film_.wantDisplay = true;
-    }
   }
 
-  // With --resume, nothing is traced when all files are there.
-  void write(const Camera& camera, const std::vector<std::string>& files,
+  // With --resume, nothing is traced when all files are there. The files are there after finish().
+  void write(const Camera& camera, const std::vector<std::string>& files, Progress* progress,
              const ImageMetadata& more = {}) {
-    const RenderOptions& options = options_;
-    ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film_, options);
+    const Stopwatch stopwatch;
+    Film& film = films_[film_];
+    ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film, options_);
     addSettings(open_.settings, open_.sky, metadata);
     metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
-    if (farm_.leads() && job_.resume &&
-        std::all_of(files.begin(), files.end(), [&](const std::string& file) {
-          return isWhole(file, film_.image, metadata, options);
-        })) {
+    if (farm_.leads() && job_.resume && areWhole(files, film.image, metadata)) {
       farm_.leaveOut();
+      ++run_.kept;
       return;
     }
-    run_.frames.push_back(renderShared(farm_, renderer_, options, camera, film_, progress_));
+    prepareAudit(camera, film);
+    run_.frames.push_back(renderShared(farm_, renderer_, options_, camera, film, progress));
     if (!farm_.leads()) return;
     if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
-    refuseNonFinite(open_.scene, options, run_.frames.back());
-    run_.imageHash = accuracy::digestOf(film_.image);
-    for (const std::string& file : files) {
-      writeImage(file, film_, options, metadata);
-      written_.push_back(file);
+    refuseNonFinite(open_.scene, options_, run_.frames.back());
+    run_.imageHash = accuracy::digestOf(film.image);
+    startWriting(film, files, std::move(metadata));
+    lookForVerdicts();
+    run_.tracedAndWrittenMs += stopwatch.ms();
+  }
+
+  void finish() {
+    const Stopwatch stopwatch;
+    writer_.finish();
+    run_.tracedAndWrittenMs += stopwatch.ms();
+    for (const BackgroundWriter::Times& times : writer_.times()) {
+      run_.writingMs.push_back(times.spentMs);
+      run_.waitedMs.push_back(times.waitedMs);
     }
   }
 
   const RunSummary& run() const { return run_; }
+  std::size_t kept() const { return run_.kept; }
   const Exposure& exposure() const { return options_.exposure; }
   const std::vector<std::string>& written() const { return written_; }
 
@@ -170,33 +186,102 @@ class ImageWriter {
                                : cameraOnPath(open_.scene, options_, 0);
   }
 
+  // Of an audit: the first frame asks for verdicts of shadow, and those after it have them.
+  void prepareAudit(const Camera& camera, Film& film) {
+    if (options_.verdicts != Verdicts::audit || options_.mode == Mode::reference) return;
+    if (run_.verdicts || farm_.ranks() > 1) return;
+    const std::uint64_t most = job_.common.load.maxMemoryBytes;
+    renderer_.expectFrames(memoryLeft(open_.scene, renderer_, most));
+    if (!renderer_.decidesShadows()) return;
+    run_.verdicts.emplace();
+    renderer_.render(camera, film);
+    lookForVerdicts();
+  }
+
+  void lookForVerdicts() {
+    if (!run_.verdicts) return;
+    run_.verdicts->fillMs += renderer_.fillVerdicts(1, std::numeric_limits<double>::infinity()).ms;
+    run_.verdicts->bytes = renderer_.verdictBytes();
+  }
+
+  bool areWhole(const std::vector<std::string>& files, const Image& image,
+                const ImageMetadata& metadata) const {
+    return std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+      ImageMetadata expected = metadata;
+      const ImageMetadata stored = storageMetadata(file, job_.exr);
+      expected.insert(expected.end(), stored.begin(), stored.end());
+      return isWhole(file, image, expected, options_);
+    });
+  }
+
+  void startWriting(const Film& film, const std::vector<std::string>& files,
+                    ImageMetadata metadata) {
+    const ImageFormat format{job_.exr, renderer_.machine().threads};
+    writer_.start([=, this, &film, metadata = std::move(metadata)] {
+      for (const std::string& file : files) writeImage(file, film, options_, metadata, format);
+    });
+    written_.insert(written_.end(), files.begin(), files.end());
+    if (films_.size() == 1) writer_.finish();
+    film_ = (film_ + 1) % films_.size();  // the one before has been written
+  }
+
   const RenderJob& job_;
   Farm& farm_;
   const OpenScene& open_;
-  Progress* progress_;
   RenderOptions options_;  // with an automatic exposure settled
   Renderer renderer_;
-  Film film_;
+  std::vector<Film> films_;
+  std::size_t film_ = 0;  // that is traced next
   RunSummary run_;
   std::string sceneDigest_;
   std::vector<std::string> written_;
+  BackgroundWriter writer_;  // last: what it writes must outlive it
+};
+
+// How far the frames have come; those that were there take no time.
+class PathProgress : public Progress {
+ public:
+  PathProgress(Progress& whole, const FrameRange& range) : whole_(whole), range_(range) {}
+
+  void begin(int frame, std::size_t kept) {
+    frame_ = frame;
+    kept_ = static_cast<double>(kept);
+    report("", 0);
+  }
+  void report(const std::string&, double fraction) override {
+    const double all = range_.last - range_.first + 1 - kept_;
+    whole_.report("frame " + std::to_string(frame_) + " of " + std::to_string(range_.first) + ".." +
+                      std::to_string(range_.last),
+                  (frame_ - range_.first - kept_ + fraction) / all);
+  }
+
+ private:
+  Progress& whole_;
+  FrameRange range_;
+  int frame_ = 0;
+  double kept_ = 0;
 };
 
 void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Progress* progress) {
   const FrameRange range = parseFrameRange(job.frames);
+  std::optional<PathProgress> path;
+  if (progress) path.emplace(*progress, range);
   for (int frame = range.first; frame <= range.last; ++frame) {
     std::vector<std::string> files;
     for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
-    reportProgress(progress, "frame " + std::to_string(frame),
-                   static_cast<double>(frame - range.first) / (range.last - range.first + 1));
+    if (path) path->begin(frame, writer.kept());
     writer.write(cameraOnPath(scene, job.common.render, frame / job.fps), files,
-                 {{"frame", std::to_string(frame)}});
+                 path ? &*path : nullptr, {{"frame", std::to_string(frame)}});
   }
 }
 
-void tellWritten(const std::vector<std::string>& files, double seconds) {
-  const std::string what = files.size() == 1 ? files[0] : std::to_string(files.size()) + " images";
-  std::fprintf(stderr, "wrote %s, %.1f s\n", printable(what).c_str(), seconds);
+void tellWritten(const ImageWriter& writer, double seconds) {
+  const std::vector<std::string>& files = writer.written();
+  std::string what = std::to_string(files.size()) + " images";
+  if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
+  std::string kept;
+  if (writer.kept() > 0) kept = ", kept " + std::to_string(writer.kept());
+  std::fprintf(stderr, "wrote %s%s, %.1f s\n", what.c_str(), kept.c_str(), seconds);
 }
 
 int render(const Words& words, Farm& farm) {
@@ -212,10 +297,11 @@ int render(const Words& words, Farm& farm) {
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {
-    writer.write(chooseCamera(open->scene, job.common.render), job.outputs);
+    writer.write(chooseCamera(open->scene, job.common.render), job.outputs, progress.get());
   } else {
     writePath(job, open->scene, writer, progress.get());
   }
+  writer.finish();
   progress.reset();
   if (!farm.leads()) return 0;
   const bool traced = !writer.run().frames.empty();  // else all images were there
@@ -224,11 +310,12 @@ int render(const Words& words, Farm& farm) {
     if (optionsFor(open->scene, job.common).exposure.automatic) {
       std::fprintf(stderr, "exposure %+g EV\n", static_cast<double>(writer.exposure().ev));
     }
-    tellWritten(writer.written(), stopwatch.ms() / 1000);
   }
+  if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
   if (!job.json.empty()) {
     Json json = runJson(writer.run());
     json["files"] = writer.written();
+    json["kept"] = writer.kept();
     json["machine"] = machineJson(writer.run().machine);
     writeJson(job.json, json);
   }

@@ -38,30 +38,36 @@ Image pictureOf(const std::string& scene) {
   return stress::pictureOf(loaded, loaded.cameras.front(), options);
 }
 
-// Renders each scene of scenes/hard at 320x240 and puts them side by side, four a row, in order of
-// their names, which are returned. Throws Error: io when there is none or the file cannot be
-// written.
-std::vector<std::string> writeStressSheet(const std::string& path, Progress* progress) {
+// Each scene of scenes/hard at 320x240, in order of their names. Throws Error(io) when there is
+// none.
+std::vector<StressPicture> hardPictures(Progress* progress) {
   const std::vector<std::filesystem::path> scenes = hardScenes();
   if (scenes.empty()) throwIo("no scenes of hard cases found; is $WHIT_SCENES set?");
-  const int count = static_cast<int>(scenes.size());
+  std::vector<StressPicture> pictures;
+  for (const std::filesystem::path& scene : scenes) {
+    const std::string name = scene.stem().string();
+    reportProgress(progress, name,
+                   static_cast<double>(pictures.size()) / static_cast<double>(scenes.size()));
+    pictures.push_back({name, pictureOf(scene.string())});
+  }
+  return pictures;
+}
+
+// Side by side, four a row.
+void writeStressSheet(const std::string& path, const std::vector<StressPicture>& pictures) {
+  const int count = static_cast<int>(pictures.size());
   const int columns = std::min(count, kColumns), rows = (count + kColumns - 1) / kColumns;
   Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
-  std::vector<std::string> names;
   for (int i = 0; i < count; ++i) {
-    const std::filesystem::path& scene = scenes[static_cast<std::size_t>(i)];
-    reportProgress(progress, scene.stem().string(), static_cast<double>(i) / count);
-    const Image picture = pictureOf(scene.string());
+    const Image& picture = pictures[static_cast<std::size_t>(i)].image;
     const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
     const int top = kSheetGap + i / kColumns * (kHeight + kSheetGap);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
     }
-    names.push_back(scene.stem().string());
   }
   const WriteScope scope;
   writePng(path, toDisplay(sheet, 0, ToneCurve::none), {});
-  return names;
 }
 
 constexpr const char* kStressUsage = "whit stress [options]";
@@ -106,7 +112,8 @@ int stressCommand(const Words& words) {
   list.group("Running");
   list.many({"only", "H1,H2a"}, "these cases; may be given more than once", job.only);
   list.value({"json", "FILE"}, "all runs for machines; - is standard output", job.json);
-  list.value({"html", "FILE.html"}, "the table as a page", job.html);
+  list.value({"html", "FILE.html"},
+             "the table as a page, with pictures of the scenes in scenes/hard", job.html);
   list.value({"sheet", "FILE.png"}, "instead, pictures of the scenes in scenes/hard on one sheet",
              job.sheet);
   listReportOptions(list, job.common);
@@ -118,12 +125,15 @@ int stressCommand(const Words& words) {
   const std::vector<std::string> only = namesOf(job.only);
   auto progress = makeProgressBar(job.common);
   if (!job.sheet.empty()) {
-    const std::vector<std::string> names = writeStressSheet(job.sheet, progress.get());
+    const std::vector<StressPicture> pictures = hardPictures(progress.get());
     progress.reset();
-    for (const std::string& name : names) std::printf("%s\n", name.c_str());
+    writeStressSheet(job.sheet, pictures);
+    for (const StressPicture& picture : pictures) std::printf("%s\n", picture.name.c_str());
     return 0;
   }
   const std::vector<StressRow> rows = runCatalogue(only, progress.get());
+  std::vector<StressPicture> pictures;
+  if (!job.html.empty()) pictures = hardPictures(progress.get());
   progress.reset();
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) std::fprintf(people, "%s", stressTable(rows).c_str());
@@ -131,7 +141,7 @@ int stressCommand(const Words& words) {
   if (!job.json.empty()) writeJson(job.json, stressJson(machine, rows));
   if (!job.html.empty()) {
     const WriteScope scope;
-    writeTextFile(job.html, stressHtml(machine, rows));
+    writeTextFile(job.html, stressHtml(machine, rows, pictures));
   }
   const bool allHold = std::all_of(rows.begin(), rows.end(),
                                    [](const StressRow& row) { return row.finding.holds(); });

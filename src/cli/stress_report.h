@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/json_report.h"
+#include "core/image.h"
 #include "core/progress.h"
 #include "stress/case.h"
 
@@ -25,12 +26,22 @@ std::vector<StressRow> runCatalogue(const std::vector<std::string>& only, Progre
 // Of each case the row of the setup that came closest to its bound, in order.
 std::vector<StressRow> worstRows(const std::vector<StressRow>& rows);
 
+// Whether a row holds: "yes", "BROKEN", or "reported" where there is no bound. The last line is the
+// summary: "205 cases in 3075 runs: 199 hold, 0 broken, 6 reported without a bound".
 std::string stressTable(const std::vector<StressRow>& rows);
+std::string stressSummary(const std::vector<StressRow>& rows);
 // Every row of every setup. `bound` and `margin` (bound less worst) are null where a case is only
 // reported.
 Json stressJson(const Machine& machine, const std::vector<StressRow>& rows);
-// A <table> of the worst rows, to be embedded; and the same as a page of its own.
+// A scene of scenes/hard as it is seen, in linear radiance.
+struct StressPicture {
+  std::string name;
+  Image image;
+};
+// A <table> of the worst rows, to be embedded; and the same as a page of its own with summary and
+// pictures.
 std::string stressHtmlTable(const std::vector<StressRow>& rows);
-std::string stressHtml(const Machine& machine, const std::vector<StressRow>& rows);
+std::string stressHtml(const Machine& machine, const std::vector<StressRow>& rows,
+                       const std::vector<StressPicture>& pictures);
 
 }  // namespace whit::cli

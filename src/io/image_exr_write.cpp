@@ -6,10 +6,14 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+#include <half.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <system_error>
+#include <vector>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -23,6 +27,7 @@ namespace {
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 
 const std::string kPrefix = "whit.";
+constexpr std::array<const char*, 3> kChannels = {"R", "G", "B"};
 
 // Attributes that mean something to OpenEXR itself, and so cannot carry our text.
 bool isReserved(const std::string& name) {
@@ -35,37 +40,87 @@ std::string attributeName(const Imf::Header& header, const std::string& name) {
   return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
 }
 
-Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata) {
+Imf::Compression compressionOf(ExrStorage storage) {
+  switch (storage) {
+    case ExrStorage::none:
+      return Imf::NO_COMPRESSION;
+    case ExrStorage::dwaa:
+      return Imf::DWAA_COMPRESSION;
+    default:
+      return Imf::ZIP_COMPRESSION;
+  }
+}
+
+bool inHalf(ExrStorage storage) {
+  return storage == ExrStorage::half || storage == ExrStorage::dwaa;
+}
+
+// What is not a number stays that.
+half nearestHalf(float value) {
+  return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
+}
+
+std::vector<half> inHalf(const Image& image) {
+  std::vector<half> values;
+  values.reserve(3 * image.pixels.size());
+  for (const Rgb& pixel : image.pixels) {
+    for (int c = 0; c < 3; ++c) values.push_back(nearestHalf(pixel[c]));
+  }
+  return values;
+}
+
+// Where there is no room for the library's threads, it does without.
+void letCompress(int threads) {
+  try {
+    if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+  } catch (const std::system_error&) {
+  }
+}
+
+Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrStorage storage) {
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.compression() = compressionOf(storage);
+  const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
+  for (const char* name : kChannels) header.channels().insert(name, channel);
   for (const auto& [name, text] : metadata)
     header.insert(attributeName(header, name), Imf::StringAttribute(text));
   return header;
 }
 
+// `first` is the first value of the first pixel of the window.
+template <typename Value>
+void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, Value* first) {
+  const auto width = static_cast<std::size_t>(image.windowWidth());
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < kChannels.size(); ++c) {
+    frame.insert(kChannels[c], Imf::Slice::Make(type, first + c, exr.header().dataWindow(),
+                                                3 * sizeof(Value), width * 3 * sizeof(Value)));
+  }
+  exr.setFrameBuffer(frame);
+  exr.writePixels(image.windowHeight());
+}
+
 }  // namespace
 
-void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata) {
+void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
+              ExrStorage storage, int threads) {
   if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
   AtomicFile file(path);
+  letCompress(threads);
   try {
     // The stream is ours, because OpenEXR keeps quiet about what fails while it closes a file.
     std::ofstream stream(file.temporaryPath(), std::ios::binary | std::ios::trunc);
     {
       Imf::StdOFStream out(stream, path.c_str());
-      const Imf::Header header = makeHeader(image, metadata);
-      Imf::OutputFile exr(out, header);
-      const auto width = static_cast<std::size_t>(image.windowWidth());
-      Imf::FrameBuffer frame;
-      int channel = 0;
-      for (const char* name : {"R", "G", "B"})
-        frame.insert(name, Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][channel++],
-                                            header.dataWindow(), sizeof(Rgb), width * sizeof(Rgb)));
-      exr.setFrameBuffer(frame);
-      exr.writePixels(image.windowHeight());
+      Imf::OutputFile exr(out, makeHeader(image, metadata, storage), threads);
+      if (inHalf(storage)) {
+        const std::vector<half> values = inHalf(image);
+        writePixels(exr, Imf::HALF, image, values.data());
+      } else {
+        writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0]);
+      }
     }
     stream.close();
     if (!stream) throwIo("cannot write '" + path + "': no space left, or the device failed");

@@ -51,9 +51,15 @@ bool holdsRadiance(const std::string& path);
 // infinities included.
 Image readImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
-// Linear float (32-bit) RGB with metadata as string attributes; data window = image.window. The
-// same arguments give the same bytes.
-void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata);
+// How the pixels of an EXR are kept: floats compressed without loss, or as they are; as half
+// floats, those beyond the largest (65504) as that one; or as half floats with OpenEXR's lossy
+// DWAA.
+enum class ExrStorage { zip, none, half, dwaa };
+
+// Linear RGB with metadata as string attributes; data window = image.window. Up to `threads`
+// compress it. The same arguments give the same bytes, whatever `threads`.
+void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
+              ExrStorage storage = ExrStorage::zip, int threads = 1);
 // The string attributes of an EXR's first part that are not OpenEXR's own. Throws as readImage
 // does.
 ImageMetadata readExrMetadata(const std::string& path);
@@ -62,7 +68,7 @@ void writePng(const std::string& path, const DisplayImage& image, const ImageMet
 // The text chunks of a PNG that has been decoded to its end. Throws Error(io) if it cannot be read,
 // badScene if it is damaged or cut off.
 ImageMetadata readPngMetadata(const std::string& path);
-// The bytes of such a file without metadata.
-std::string encodePng(const DisplayImage& image);
+// The bytes of such a file.
+std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata = {});
 
 }  // namespace whit

@@ -1,5 +1,6 @@
 // Writing PNG.
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -70,6 +71,11 @@ bool write(Libpng& writer, std::FILE* file, const DisplayImage& image, const png
   const auto height = static_cast<png_uint_32>(image.height);
   png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // A film is to be written as fast as it is traced. Against libpng's defaults, for six shipped
+  // scenes at 1280x720, this takes a fourth to a tenth of the time and makes files 1 to 13 %
+  // larger, of the flat areas of `matte` 44 %. libdeflate at its first level is no faster.
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_strategy(writer.png, Z_RLE);
   png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   if (textCount > 0) png_set_text(writer.png, writer.info, texts, textCount);
   png_write_info(writer.png, writer.info);
@@ -114,7 +120,7 @@ void writePng(const std::string& path, const DisplayImage& image, const ImageMet
   target.commit();
 }
 
-std::string encodePng(const DisplayImage& image) {
+std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
   requirePixels("a PNG", image);
   char* bytes = nullptr;
   std::size_t size = 0;
@@ -123,7 +129,7 @@ std::string encodePng(const DisplayImage& image) {
   // The buffer belongs to this function as soon as the stream has been flushed, thrown or not.
   const auto release = [](char** buffer) { std::free(*buffer); };
   const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
-  writeTo(file, "a PNG", image, {});
+  writeTo(file, "a PNG", image, metadata);
   return {bytes, size};
 }
 

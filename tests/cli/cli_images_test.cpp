@@ -205,6 +205,80 @@ TEST(Images, ResumingTracesAnotherStateOfTheScene) {
   }
 }
 
+// Each is written while the next is traced.
+TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
+  const TemporaryFolder folder, results;
+  const std::string tiny = writeTinyScene(folder);
+  fs::create_directory(results / "f-2.exr");
+  const Outcome outcome = runWhit(
+      {"render", tiny, "-o", results / "f-#.exr", "-o", results / "f-#.png", "--frames", "0..9"});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("f-2.exr"), std::string::npos) << outcome.err;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(results.path())) {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"f-0.exr", "f-0.png", "f-1.exr", "f-1.png", "f-2.exr"}));
+  EXPECT_EQ(read(results / "f-1.exr").width, 48);
+}
+
+// Frames take turns on two films; with memory for one they are written before the next is traced.
+TEST(Images, FramesDoNotDependOnWhetherTheyAreWrittenBesideTheNext) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  std::vector<std::string> words{
+      tiny, "-o", folder / "two-#.exr", "--frames", "0..4", "--fps", "4", "--size", "480x320"};
+  render(words);
+  words[2] = folder / "one-#.exr";
+  words.insert(words.end(), {"--max-memory", "0.006"});
+  render(words);
+  for (const std::string frame : {"0", "1", "2", "3", "4"}) {
+    words = {tiny,     "-o",     folder / "alone-#.exr", "--frames", frame, "--fps", "4",
+             "--size", "480x320"};
+    render(words);
+    const std::string alone = readFile(folder / ("alone-" + frame + ".exr"));
+    EXPECT_TRUE(readFile(folder / ("two-" + frame + ".exr")) == alone) << frame;
+    EXPECT_TRUE(readFile(folder / ("one-" + frame + ".exr")) == alone) << frame;
+  }
+}
+
+TEST(Images, GoToStandardOutputAsPng) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  render({tiny, "-o", folder / "f#.png", "-o", folder / "f#.exr", "--frames", "0..1"});
+  const Outcome both = runWhit({"render", tiny, "-o", "-", "--frames", "0..1"});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_TRUE(both.out == readFile(folder / "f0.png") + readFile(folder / "f1.png"));
+  EXPECT_NE(both.err.find("wrote 2 images"), std::string::npos) << both.err;
+  const Outcome refused[] = {runWhit({"render", tiny, "-o", "-", "-o", "-"}),
+                             runWhit({"render", tiny, "-o", "-", "--json", "-"}),
+                             runWhit({"render", tiny, "-o", "-", "--resume"})};
+  for (const Outcome& outcome : refused) {
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("-o -"), std::string::npos) << outcome.err;
+  }
+  const Outcome full = runWhit({"render", tiny, "-o", "-"},
+                               [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  EXPECT_EQ(full.status, 4) << full.err;
+}
+
+TEST(Images, SayHowAnExrIsStoredAndResumeByIt) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder), image = folder / "a.exr";
+  render({tiny, "-o", image});
+  EXPECT_FALSE(metadataOf(image).contains("exr"));
+  const Image exact = read(image);
+  render({tiny, "-o", image, "--exr", "none"});
+  EXPECT_TRUE(sameBits(read(image), exact));
+  render({tiny, "-o", image, "--exr", "half", "--resume"});
+  EXPECT_EQ(metadataOf(image).at("exr"), "half");
+  EXPECT_FALSE(sameBits(read(image), exact));
+  const ino_t first = fileNumber(image);
+  render({tiny, "-o", image, "--exr", "half", "--resume"});
+  EXPECT_EQ(fileNumber(image), first) << "traced again";
+}
+
 TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
   const TemporaryFolder folder, results, logs;
   const std::string tiny = writeTinyScene(folder);

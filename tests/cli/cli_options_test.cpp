@@ -1,6 +1,9 @@
 // Option values, presets, and the parser, without running the program.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "app/help_text.h"
 #include "app/image_output.h"
 #include "app/parse_options.h"
 #include "core/error.h"
@@ -92,7 +95,7 @@ TEST(Options, SaysWhatWasExpected) {
       {{"s", "--disable", "shadow"}, "nearest: 'shadows'"},
       {{"s", "--disable", "vertexColours"}, "nearest: 'vertexColors'"},
       {{"s", "--fov", "180"}, "from 0.001 to 179"},
-      {{"s", "--size"}, "--size"},
+      {{"s", "--size"}, "--size: expected WxH after it"},
       {{"s", "--sise", "10x10"}, "nearest: '--size'"},
       {{"s", "--sise=10x10"}, "no option '--sise'"},
       {{"s", "-z"}, "no option '-z'"},
@@ -103,6 +106,64 @@ TEST(Options, SaysWhatWasExpected) {
     const std::string words = testing::PrintToString(c.words);
     const std::string error = usageError(c.words);
     EXPECT_NE(error.find(c.said), std::string::npos) << words << " said: " << error;
+  }
+}
+
+std::string helpOf(HelpTier tier, int width) {
+  static CommonOptions common;
+  static std::vector<std::string> scenes;
+  OptionList list;
+  listCommonOptions(list, common);
+  list.operands("SCENE", "a scene", 1, 1, scenes);
+  return helpText("test SCENE", "Tests.", list, tier, width);
+}
+
+TEST(Help, HasTheOptionsOfEveryDayFirst) {
+  const std::string whole = helpOf(HelpTier::everyday, 80), all = helpOf(HelpTier::all, 80);
+  const std::string brief = whole.substr(0, whole.find("What --quality"));
+  for (const char* option : {"--size WxH", "--spp N", "--quality", "--quiet"}) {
+    EXPECT_NE(brief.find(option), std::string::npos) << brief;
+  }
+  std::size_t left = 0;
+  const RenderOptions defaults;
+  forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
+    const std::string name = "  --" + std::string(spec.name) + " ";
+    const std::string alone = "  --" + std::string(spec.name) + "\n";
+    EXPECT_TRUE(all.find(name) != std::string::npos || all.find(alone) != std::string::npos)
+        << name;
+    EXPECT_EQ(brief.find(name) != std::string::npos, spec.everyday) << name;
+    left += !spec.everyday;
+  });
+  EXPECT_NE(brief.find("all options, " + std::to_string(left + 2) + " more"), std::string::npos)
+      << brief;  // and two of loading
+}
+
+TEST(Help, FitsTheTerminal) {
+  for (const int width : {40, 60, 80, 120}) {
+    std::istringstream lines(helpOf(HelpTier::all, width));
+    for (std::string line; std::getline(lines, line);) {
+      // Names, and values with bars between them, are not broken.
+      if (line.find('|') == std::string::npos) {
+        EXPECT_LE(line.size(), static_cast<std::size_t>(width)) << line;
+      }
+    }
+  }
+}
+
+TEST(Help, SaysWhatThePresetsStandFor) {
+  const std::string help = helpOf(HelpTier::everyday, 120);
+  EXPECT_NE(help.find("  draft                     --cutoff 0.004 --light-cutoff 0.001\n"),
+            std::string::npos)
+      << help;
+  EXPECT_NE(help.find("  standard                  the defaults\n"), std::string::npos) << help;
+  // What is said makes the same options as the preset.
+  for (const QualityPreset& preset : qualityPresets()) {
+    std::vector<std::string> words;
+    std::istringstream said(preset.options);
+    for (std::string word; said >> word;) words.push_back(word);
+    RenderOptions made = parsed(words).render;
+    made.quality = parsed({"--quality", preset.name}).render.quality;
+    EXPECT_EQ(made, parsed({"--quality", preset.name}).render) << preset.name;
   }
 }
 

@@ -161,11 +161,18 @@ TEST(Program, CompareFailsAboveTheTolerance) {
   ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "b.exr", "--disable", "shadows"}).status, 0);
   const std::string a = folder / "a.exr", b = folder / "b.exr";
   EXPECT_EQ(runWhit({"compare", a, a, "--tolerance", "0"}).status, 0);
-  EXPECT_EQ(runWhit({"compare", a, b}).status, 0);
+  const Outcome same = runWhit({"compare", a, a, "--tolerance", "0"});
+  EXPECT_TRUE(same.out.ends_with("verdict: the pictures are the same, bit for bit; passed\n"))
+      << same.out;
+  const Outcome unjudged = runWhit({"compare", a, b});
+  EXPECT_EQ(unjudged.status, 0);
+  EXPECT_TRUE(unjudged.out.ends_with("% of the pixels differ by two 8-bit codes or more\n"))
+      << unjudged.out;
   const Outcome apart =
       runWhit({"compare", a, b, "--tolerance", "1e-6", "--heatmap", folder / "heat.png"});
   EXPECT_EQ(apart.status, 1) << apart.err;
   EXPECT_NE(apart.out.find("RMSE"), std::string::npos) << apart.out;
+  EXPECT_TRUE(apart.out.ends_with("8-bit codes or more; FAILED\n")) << apart.out;
   EXPECT_GT(std::filesystem::file_size(folder / "heat.png"), 100u);
 }
 

@@ -81,6 +81,42 @@ TEST(StageTable, ReferenceHasNoStages) {
   EXPECT_NE(table.find("scalar reference"), std::string::npos) << table;
 }
 
+TEST(StageTable, TellsTheRateThatIsTrueOfAFilm) {
+  RunSummary run = madeUpRun(3);
+  EXPECT_EQ(stageTable(run).find("writ"), stageTable(run).find("writeEmitted")) << stageTable(run);
+  run.writingMs = {30, 50, 40};
+  run.waitedMs = {5, 30, 40};
+  run.tracedAndWrittenMs = 150;
+  const std::string table = stageTable(run);
+  EXPECT_NE(table.find("(50.0 a second traced, 20.0 a second traced and written), least"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(
+      table.find("  writing the image                     40.000          30.000 waited for\n"),
+      std::string::npos)
+      << table;
+}
+
+TEST(StageTable, NoRateIsZero) {
+  RunSummary run = madeUpRun(1);
+  for (const auto& [ms, said] : {std::pair{20.0, "(50.0 a second)"},
+                                 {24100.0, "(2.5 a minute)"},
+                                 {3.6e6, "(1.0 an hour)"}}) {
+    run.frames[0].frameMs = ms;
+    EXPECT_NE(stageTable(run).find(said), std::string::npos) << stageTable(run);
+  }
+}
+
+TEST(ProgressText, TellsTheTimeLeftOnceThereIsSomethingToTellItFrom) {
+  EXPECT_EQ(timeLeft(30'000, 0.25), ", 1:30 left");
+  EXPECT_EQ(timeLeft(1000, 0.5), ", 0:01 left");
+  EXPECT_EQ(timeLeft(3'600'000, 0.25), ", 3:00:00 left");
+  for (const auto& [ms, fraction] :
+       {std::pair{999.0, 0.5}, {5000.0, 0.0}, {5000.0, 1.0}, {5000.0, std::nan("")}, {1e9, 1e-9}}) {
+    EXPECT_EQ(timeLeft(ms, fraction), "") << fraction;
+  }
+}
+
 TEST(ProgressText, FillsUpAndStaysInRange) {
   EXPECT_EQ(progressText("decoding", 0.25), "[#####---------------]  25 % decoding");
   EXPECT_EQ(progressText("", 7), "[####################] 100 % ");

@@ -29,6 +29,14 @@ TEST(Stress, TellsWorstAndBoundOfEveryRun) {
   }
   const std::string html = readFile(page);
   EXPECT_NE(html.find("<td>H58"), std::string::npos);
+  EXPECT_NE(html.find("<td>yes<td>"), std::string::npos);
+  EXPECT_NE(html.find("alt=\"closed-room\" src=\"data:image/png;base64,"), std::string::npos);
+  const std::string summary = "3 cases in " + std::to_string(json["cases"].size()) +
+                              " runs: 2 hold, 0 broken, 1 reported without a bound";
+  EXPECT_NE(html.find(summary), std::string::npos);
+  EXPECT_TRUE(outcome.err.ends_with(summary + "\n")) << outcome.err;
+  EXPECT_NE(outcome.err.find(" holds "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(" reported  "), std::string::npos) << outcome.err;
   EXPECT_EQ(html.find("http"), std::string::npos) << "needs nothing from elsewhere";
 }
 

@@ -60,7 +60,10 @@ TEST(EffectCosts, RatiosAreMediansOfRatiosWithinATurn) {
 
 TEST(EffectsTable, HasARowForEachStep) {
   const std::string table = effectsTable(madeUpSteps());
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 4);
+  // Medians of a turn: 10 ms and 5 more; the last step's own is 15.
+  EXPECT_NE(table.find("come to 15.00 ms; the last frame takes 15.00 ms."), std::string::npos)
+      << table;
   EXPECT_NE(table.find("+ mirror               15.00     +5.00           +3.00       +3000"),
             std::string::npos)
       << table;

@@ -37,13 +37,15 @@ status=0
 wait $run || status=$?
 test $status = 1
 grep -q "1 of 2 jobs failed" log
+tail -1 log | grep -qE "^8 images: 0 kept, 4 traced, 4 failed$"
 count=$(ls farmed | wc -l)
 test "$count" -gt 0
 test "$count" -lt 8
 echo "killed with $count of 8 frames done"
 
 before=$(ls -i farmed | sort)
-farm
+farm >log 2>&1
+tail -1 log | grep -qE "^8 images: $count kept, $((8 - count)) traced, 0 failed$"
 for frame in whole/*; do cmp "$frame" "farmed/${frame#whole/}"; done
 test "$(comm -12 <(echo "$before") <(ls -i farmed | sort) | wc -l)" = "$count" # none traced again
 test "$(ls -A farmed | wc -l)" = 8                                             # nothing left behind
@@ -53,6 +55,21 @@ test "$(ls -A farmed | wc -l)" = 8                                             #
 WHIT=$whit JOBS=2 CHUNK=25 "$farm/parallel.sh" image whitted bands.exr 96x60
 cmp whole.exr bands.exr
 test ! -e bands.exr.parts
+
+# Every job that runs at a time has something to do, where there is no CHUNK; and whoever says
+# --json is told that there is no one file.
+recorder=$work/bin
+mkdir "$recorder"
+printf '#!/bin/sh\nfor word in "$@"; do case $word in [0-9]*..[0-9]*) echo "$word" >>"%s"; esac; done\nexec "%s" "$@"\n' \
+  "$work/ranges" "$whit" >"$recorder/whit"
+chmod +x "$recorder/whit"
+mkdir eight
+WHIT=$recorder/whit JOBS=2 "$farm/parallel.sh" frames whitted "eight/####.exr" 0..7 --size 32x20 2>/dev/null
+test "$(sort ranges | tr '\n' ' ')" = "0..3 4..7 "
+status=0
+WHIT=$whit "$farm/parallel.sh" frames whitted "eight/####.exr" 0..7 --json all.json 2>log || status=$?
+test $status = 2
+grep -q "every job would write" log
 
 # The job array, task by task as Slurm would start them; the last has nothing to do.
 for task in 0 1 2; do

@@ -13,7 +13,20 @@ bin/whit render only-installed --size 32x20 -o picture.png --quiet
 test -s picture.png
 bin/whit info only-installed --quiet | grep triangles >/dev/null
 test -s share/doc/whit/LICENSE
+cmp share/doc/whit/scenes/README.md "$WHIT_SOURCE_DIR/scenes/README.md"
+test -s share/doc/whit/example/embed.cpp
+test -s share/doc/whit/example/CMakeLists.txt
 for program in bin/*; do
-  test -s "share/man/man1/$(basename "$program").1"
+  name=$(basename "$program")
+  test -s "share/man/man1/$name.1"
+  test -s "share/bash-completion/completions/$name"
+  test -s "share/zsh/vendor-completions/_$name"
+  test -s "share/fish/vendor_completions.d/$name.fish"
 done
+if [ -x bin/whit-view ]; then
+  grep -qx 'Exec=whit-view %f' share/applications/whit-view.desktop
+  if command -v desktop-file-validate >/dev/null; then
+    desktop-file-validate share/applications/whit-view.desktop
+  fi
+fi
 echo "installed and used: 1 passed"

@@ -14,9 +14,9 @@ shown() {
 for program in "$@"; do
   page=$work/$(basename "$program").1
   "$program" --man >"$page"
-  "$program" --help >"$work/help"
+  "$program" --help-all >"$work/help"
   for command in $(sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' "$work/help"); do
-    "$program" "$command" --help >>"$work/help"
+    "$program" "$command" --help-all >>"$work/help"
   done
   sed 's/\\-/-/g; s/\\fB//g; s/\\fR//g; s/\\fI//g' "$page" >"$work/plain"
   count=0

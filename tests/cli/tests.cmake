@@ -7,6 +7,7 @@ if(TARGET whit-view)
   list(APPEND programs $<TARGET_FILE:whit-view>)
 endif()
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/cli)
+whit_program_test(cli completion.knows_what_help_knows ${folder}/completion_test.sh ${programs})
 whit_program_test(cli manual.says_what_help_says ${folder}/manual_test.sh ${programs})
 # What the pages say does not depend on sanitizers, under which it would take minutes.
 if(NOT WHIT_SANITIZE)

@@ -44,6 +44,18 @@ struct ForeignFile {
   }
 };
 
+// Smooth, with what halves cannot hold at its end.
+Image stored() {
+  Image image(64, 48);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+      image.at(x, y) = {fx / 63 + 0.01f, fy / 47 + 0.01f, (fx + fy) / 110 + 0.01f};
+    }
+  }
+  return image;
+}
+
 class ExrTest : public ImageTest {
  protected:
   void roundTrip(const Image& image) {
@@ -264,6 +276,51 @@ TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {
 
   Warnings strict(true);
   EXPECT_EQ(statusOf([&] { readRawImage(path("a.exr"), limits_, strict); }), ExitStatus::badScene);
+}
+
+TEST_F(ExrTest, UncompressedFloatsKeepTheirBits) {
+  writeExr(path("a.exr"), stored(), {}, ExrStorage::none);
+  expectSameBits(readImage(path("a.exr"), limits_, warnings_), stored());
+  const Imf::InputFile file(path("a.exr").c_str());
+  EXPECT_EQ(file.header().compression(), Imf::NO_COMPRESSION);
+}
+
+// To the nearest: half a unit in the last of 11 bits. What is too large stays finite.
+TEST_F(ExrTest, HalvesAreTheNearest) {
+  Image image = stored();
+  image.at(0, 0) = {1e6f, std::numeric_limits<float>::infinity(), -1e6f};
+  image.at(1, 0) = {std::numeric_limits<float>::quiet_NaN(), 0, 65504};
+  writeExr(path("a.exr"), image, {}, ExrStorage::half);
+  const Image back = readImage(path("a.exr"), limits_, warnings_);
+  EXPECT_EQ(back.at(0, 0), (Rgb{65504, 65504, -65504}));
+  EXPECT_TRUE(std::isnan(back.at(1, 0)[0]));
+  EXPECT_EQ(back.at(1, 0)[2], 65504);
+  for (std::size_t i = 2; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(back.pixels[i][c], image.pixels[i][c], image.pixels[i][c] / 2048) << i;
+    }
+  }
+}
+
+// OpenEXR's level of 45 is said to be lossless to the eye.
+TEST_F(ExrTest, DwaaIsNear) {
+  constexpr float kNear = 0.02f;
+  writeExr(path("a.exr"), stored(), {}, ExrStorage::dwaa);
+  const Image back = readImage(path("a.exr"), limits_, warnings_);
+  for (std::size_t i = 0; i < back.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(back.pixels[i][c], stored().pixels[i][c], kNear) << i;
+  }
+  const Imf::InputFile file(path("a.exr").c_str());
+  EXPECT_EQ(file.header().compression(), Imf::DWAA_COMPRESSION);
+}
+
+TEST_F(ExrTest, TheBytesDoNotDependOnTheThreads) {
+  for (const ExrStorage storage :
+       {ExrStorage::zip, ExrStorage::none, ExrStorage::half, ExrStorage::dwaa}) {
+    writeExr(path("one.exr"), stored(), {{"a", "b"}}, storage, 1);
+    writeExr(path("many.exr"), stored(), {{"a", "b"}}, storage, 3);
+    EXPECT_EQ(load(path("one.exr")), load(path("many.exr")));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// Files are written while the main thread goes on: a picture while the next one is traced.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <vector>
+
+namespace whit::cli {
+
+// One job at a time, on a thread of its own, in the order in which they come: at most one picture
+// is held beside the one that is traced, and a file is there only if all before it are.
+// Interruptions wait for a job that was started, and for no more (app/interrupt.h).
+class BackgroundWriter {
+ public:
+  BackgroundWriter() = default;
+  // Waits for the job; what it throws is lost. Call finish() first.
+  ~BackgroundWriter();
+  BackgroundWriter(const BackgroundWriter&) = delete;
+  BackgroundWriter& operator=(const BackgroundWriter&) = delete;
+
+  // As finish(), then starts `write`. From the main thread.
+  void start(std::function<void()> write);
+  // Waits for the job that was started last, and throws what it threw.
+  void finish();
+
+  // Of each job that is done: how long it took, and how long start() or finish() waited for it.
+  struct Times {
+    double spentMs = 0, waitedMs = 0;
+  };
+  const std::vector<Times>& times() const { return times_; }
+
+ private:
+  std::future<double> job_;  // milliseconds
+  std::vector<Times> times_;
+};
+
+}  // namespace whit::cli

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# What shells complete names every option of --help-all, bash completes by it, and the shells that are
+# here find no fault with it: completion_test.sh PROGRAM...
+set -euo pipefail
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+optionsOf() { sed -nE 's/^  (-[a-z],)?--([a-z0-9-]+).*/\2/p' | sort -u; }
+
+# completed PROGRAM WORD...: what bash offers for the last of the words.
+completed() {
+  COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+  "_${1//-/_}"
+  echo "${COMPREPLY[*]}"
+}
+
+for program in "$@"; do
+  name=$(basename "$program")
+  for shell in bash zsh fish; do "$program" --completion $shell >"$work/$name.$shell"; done
+  bash -n "$work/$name.bash"
+  for shell in zsh fish; do
+    if command -v $shell >/dev/null; then
+      $shell -n "$work/$name.$shell"
+    else
+      echo "$shell is not installed: whether it takes the completion of $name is NOT checked"
+    fi
+  done
+  . "$work/$name.bash"
+  commands=$("$program" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+  count=0
+  for command in ${commands:-""}; do
+    offered=$(completed "$name" ${command:+"$command"} --)
+    for option in $("$program" ${command:+"$command"} --help-all | optionsOf); do
+      [[ " $offered " == *" --$option "* ]] || { echo "bash: $name $command lacks --$option"; exit 1; }
+      if [ -n "$command" ]; then
+        sed -n "/^_whit_$command() {/,/^}/p" "$work/$name.zsh" >"$work/part.zsh"
+        grep "from $command'" "$work/$name.fish" >"$work/part.fish"
+      else
+        cp "$work/$name.zsh" "$work/part.zsh"
+        cp "$work/$name.fish" "$work/part.fish"
+      fi
+      grep -q -- "--$option\[" "$work/part.zsh" || { echo "zsh: $name $command lacks --$option"; exit 1; }
+      grep -q -- "-l $option " "$work/part.fish" || { echo "fish: $name $command lacks --$option"; exit 1; }
+      count=$((count + 1))
+    done
+    if [ "$command" = render ]; then
+      test "$(completed "$name" render --mode '')" = "packets reference"
+      test "$(completed "$name" render --sky s)" = studio
+      test "$(completed "$name" render --spp 1)" = ""
+    fi
+  done
+  if [ -n "$commands" ]; then test "$(completed "$name" ren)" = render; fi
+  echo "$name: $count options"
+done
+echo "completions: $# passed"
