@@ -68,9 +68,14 @@ void writeTiming(CsvWriter& csv, const Point& point) {
   csv.number("frames", t.frames);
   csv.number("median_ms", t.medianMs);
   csv.number("least_ms", t.leastMs);
-  csv.number("iqr_pct", t.iqrPct);
-  csv.text("noisy", t.noisy() ? "yes" : "no");
+  csv.number("rounds", t.rounds);
   csv.number("x_baseline", t.ratio);
+  const auto bound = [&](const char* name, double value) {
+    csv.text(name, t.hasSpread() ? formatted("%.7g", value) : "");
+  };
+  bound("x_baseline_low", t.ratioLow);
+  bound("x_baseline_high", t.ratioHigh);
+  csv.text("noisy", t.noisy() ? "yes" : "no");
   csv.number("settled_ms", t.settledMs);
   for (std::size_t k = 0; k < kRayKindCount; ++k) {
     csv.text(std::string(kRayKindNames[k]) + "_rays",

@@ -62,7 +62,7 @@ std::vector<PlacedLabel> placeLabels(const std::vector<LabelRequest>& requests, 
     label.leader = found - boxes.begin() >= 20;  // beyond the first ring
     label.box = label.free ? *found : boxes.front();
     if (!label.free) label.leader = false;
-    taken.push_back(label.box);
+    if (label.free) taken.push_back(label.box);
     placed.push_back(label);
   }
   return placed;

@@ -16,19 +16,25 @@ namespace whit::accuracy {
 enum class PointKind { baseline, knob, preset, joint };
 inline constexpr const char* kPointKindNames[] = {"baseline", "knob", "preset", "joint"};
 
-// A time is called noisy when the interquartile range of its frames is beyond this share of their
-// median, in per cent, or when there are too few frames to tell.
-inline constexpr double kNoisyPct = 5;
-inline constexpr int kLeastFrames = 3;
+// A round compares frames of the point with the baseline's frames before and after. Fewer rounds
+// say nothing of the spread of times: such a point lies on no front.
+inline constexpr int kLeastRounds = 3;
+// A time is noisy until it is known within so many per cent, from as many rounds as it takes to be
+// confident.
+inline constexpr double kNoisyPct = 3;
+inline constexpr int kConfidentRounds = 5;
 
 struct Timing {
   int frames = 0;       // that count
   double medianMs = 0;  // as measured
   double leastMs = 0;
-  double iqrPct = 0;     // interquartile range over the median
-  double ratio = 1;      // to the baseline's frames before and after, the median of the rounds
+  int rounds = 0;
+  double ratio = 1;                    // to the baseline, the median of the rounds
+  double ratioLow = 1, ratioHigh = 1;  // see medianInterval()
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
-  bool noisy() const { return frames < kLeastFrames || iqrPct > kNoisyPct; }
+  bool hasSpread() const { return rounds >= kLeastRounds; }
+  double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
+  bool noisy() const { return rounds < kConfidentRounds || spreadPct() > kNoisyPct; }
 };
 
 // Packets against the scalar reference with the same options and samples.

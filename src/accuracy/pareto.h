@@ -1,9 +1,7 @@
-// The Pareto front of a sweep, the points that no other beats in both time and error, and its
-// chart.
+// The Pareto fronts of a sweep: the points that no other beats in both time and error.
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "accuracy/measurement.h"
@@ -19,12 +17,8 @@ struct CostAndError {
 // finite are never on the front.
 std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points);
 
-enum class Against { reference, sameSamples };
-
-// As SVG: mean FLIP over milliseconds, both logarithmic: the front joined, the other points gray,
-// each with its label and, as a tooltip, its numbers. An error of 0 stands on a line of its own
-// below the scale. Follows the reader's light or dark scheme. Stands alone as a file or within a
-// page.
-std::string paretoSvg(const SceneSweep& sweep, Against against);
+// Sets onFront and onFrontSameSamples. A point whose time has no spread is on no front, and beats
+// none.
+void markFronts(std::vector<Point>& points);
 
 }  // namespace whit::accuracy

@@ -47,13 +47,11 @@ std::string hardCases(const RunFacts& facts) {
 
 const char* const kIntroduction =
     "<p>Each scene is rendered with one knob of accuracy changed at a time and with the presets of "
-    "<code>--quality</code>. Every point has its time, measured between frames of the baseline, "
-    "and its error, measured against a double-precision reference without approximations. FLIP "
-    "says how visible a difference is when two pictures alternate on a screen: 0 is none, 1 the "
-    "most (Andersson et al. 2020; HDR-FLIP, 2021, is the worst over a range of exposures).</p>\n"
-    "<p>With one sample a pixel, the steps at edges outweigh everything else. Hence the second "
-    "chart of each scene: there the samples are equal, and what remains is what depth, cutoffs and "
-    "rounding do.</p>\n";
+    "<code>--quality</code>. Time is that of a frame, beside frames of the baseline. Error is the "
+    "mean FLIP against a double-precision reference without approximations: how visible a "
+    "difference "
+    "is when two pictures alternate on a screen, 0 for none, 1 for the most (Andersson et al. "
+    "2020).</p>\n";
 
 }  // namespace
 

@@ -10,9 +10,13 @@
 
 namespace whit::accuracy {
 
-// A line about the scene, the machine and the reference; a row a point; what the causes are for the
-// baseline; what was left out, and why.
+// A line about the scene, the machine and the reference; what the columns are; a row a point; what
+// the causes are for the baseline; what was left out, and why. No line has more than kTableColumns
+// letters.
+inline constexpr std::size_t kTableColumns = 100;
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
+// What was left out, by reason: "depth=8, bvh" because "...".
+std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle);
 // One line about the reference that everything is measured against.
 std::string referenceText(const SceneSweep& sweep);
 
@@ -23,6 +27,10 @@ std::string reportHtml(const std::vector<SceneSweep>& sweeps, const RunFacts& fa
 // The parts of the page.
 extern const char* const kReportStyle;   // the content of <style>
 extern const char* const kReportScript;  // the content of <script>
+// "0.97 to 1.03", times the baseline; "one frame" where nothing is known of it.
+std::string spreadText(const Timing& timing);
+// One line: its label, time and errors.
+std::string numbersOf(const Point& point);
 std::string sceneSection(const SceneSweep& sweep, std::size_t number);
 std::string verdictList(const SceneSweep& sweep);
 std::string pointTable(const SceneSweep& sweep);

@@ -13,13 +13,14 @@ font:15px/1.5 system-ui,-apple-system,"Segoe UI",sans-serif}
 main{max-width:1180px;margin:0 auto;padding:1.5rem}
 h1{font-size:1.9rem;margin:.2em 0}h2{font-size:1.5rem;margin:2.2em 0 .3em;padding-top:.6em;
 border-top:1px solid var(--line)}h3{font-size:1.1rem;margin:1.8em 0 .5em}
-p{max-width:52rem}.soft,figcaption,caption{color:var(--soft)}
+p{max-width:52rem}p code{white-space:nowrap}.soft,figcaption,caption{color:var(--soft)}
 nav a{margin-right:1em}a{color:var(--blue)}
 .verdicts{list-style:none;padding:0}.verdicts li{margin:.25em 0;padding-left:1.7em;
 text-indent:-1.7em}.holds b{color:var(--good)}.fails b{color:var(--bad)}
-svg.pareto{width:100%;height:auto;border:1px solid var(--line);border-radius:8px;display:block;
-margin:.6em 0}
-.compare{display:grid;grid-template-columns:1fr 1fr;gap:1.2rem;align-items:start}
+svg.pareto,svg.knobs{width:100%;height:auto;border:1px solid var(--line);border-radius:8px;
+display:block}
+.glance,.pair{display:grid;grid-template-columns:1fr 1fr;gap:1.2rem;align-items:start}
+.glance>*,.pair>*{min-width:0}.beside{position:sticky;top:.5rem}.beside .pair{margin-top:.8rem}
 .wipe{position:relative;--at:50%;border-radius:6px;overflow:hidden;line-height:0;background:#000}
 .wipe img{width:100%;image-rendering:pixelated}
 .wipe .over{position:absolute;inset:0;clip-path:inset(0 calc(100% - var(--at)) 0 0)}
@@ -27,12 +28,12 @@ margin:.6em 0}
 background:#fff;mix-blend-mode:difference}
 .wipe span{position:absolute;bottom:.4rem;padding:.1rem .5rem;border-radius:4px;font-size:.8rem;
 line-height:1.4;background:#000a;color:#fff}.wipe .l{left:.4rem}.wipe .r{right:.4rem}
-.compare figure>img{width:100%;image-rendering:pixelated;border-radius:6px}
+.map{width:100%;image-rendering:pixelated;border-radius:6px}
 .blink .over{animation:blink 1s steps(1) infinite;clip-path:none}.blink::after{display:none}
 @keyframes blink{50%{visibility:hidden}}
 input[type=range]{width:100%;margin:.5em 0;accent-color:var(--blue)}
 figure{margin:0}figcaption{font-size:.86rem;margin-top:.35em}
-.gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(150px,1fr));gap:.9rem}
+.gallery>div{display:grid;grid-template-columns:repeat(auto-fill,minmax(150px,1fr));gap:.9rem}
 .gallery button{all:unset;cursor:pointer;display:block;width:100%;border-radius:6px;
 padding:4px;border:1px solid transparent}
 .gallery button:hover,.gallery button:focus-visible{border-color:var(--blue)}
@@ -55,14 +56,16 @@ td.over{color:var(--bad);font-weight:600}
 .cases th,.cases td{white-space:normal;text-align:left;vertical-align:top}
 .cases .broken td{color:var(--bad)}.cases code{overflow-wrap:anywhere}
 details{margin:.8em 0}summary{cursor:pointer;color:var(--blue)}
-dl{display:grid;grid-template-columns:max-content 1fr;gap:.2em 1.2em}dt{color:var(--soft)}
-dd{margin:0}label.toggle{user-select:none}
-@media(max-width:760px){.compare{grid-template-columns:1fr}}
+dl{display:grid;grid-template-columns:fit-content(45%) minmax(0,1fr);gap:.2em 1.2em}dt{color:var(--soft)}
+dd{margin:0;overflow-wrap:anywhere}.words{max-width:52rem;font-size:.92rem}label.toggle{user-select:none}
+@media(max-width:760px){main{padding:.5rem}.glance,.pair{grid-template-columns:minmax(0,1fr)}
+.beside{position:static}.beside .pair{grid-template-columns:1fr 1fr}
+.words{grid-template-columns:1fr}.words dd{margin-bottom:.4em}}
 @media print{:root{--back:#fff;--text:#000;--soft:#444;--line:#bbb;--card:#f2f2f2;--blue:#1f5fa8;
 --bar:#dde9f7;--bad:#b3261e;--good:#1a7f37}main{max-width:none;padding:0}
 body{font-size:10pt}table{font-size:6.4pt}th,td{padding:.15em .3em}.scroll{overflow:visible}
 .screen,nav{display:none}h2{break-before:page}figure,tr,svg{break-inside:avoid}
-.gallery{grid-template-columns:repeat(5,1fr)}
+.gallery>div{grid-template-columns:repeat(5,1fr)}
 *{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
@@ -81,7 +84,7 @@ document.querySelectorAll('section').forEach(section => {
     wipe.classList.toggle('blink', event.target.checked));
   const maps = section.querySelectorAll('.map');
   const buttons = section.querySelectorAll('.gallery button');
-  buttons.forEach(button => button.addEventListener('click', () => {
+  const choose = button => {
     buttons.forEach(other => other.setAttribute('aria-pressed', other === button));
     wipe.querySelector('.over').src = button.querySelector('img').src;
     wipe.querySelector('.l').textContent = button.dataset.label;
@@ -92,7 +95,19 @@ document.querySelectorAll('section').forEach(section => {
       if (source) map.src = source;
     });
     wipe.scrollIntoView({behavior: 'smooth', block: 'nearest'});
+  };
+  buttons.forEach(button => button.addEventListener('click', () => choose(button)));
+  // A link to a picture shows it beside the reference: from a chart, or from another file.
+  const show = id => {
+    const figure = id && document.getElementById(id);
+    const button = figure && section.contains(figure) && figure.querySelector('button');
+    if (button) choose(button);
+    return Boolean(button);
+  };
+  section.querySelectorAll('svg a').forEach(link => link.addEventListener('click', event => {
+    if (show(link.getAttribute('href').slice(1))) event.preventDefault();
   }));
+  show(location.hash.slice(1));
 });
 )";
 

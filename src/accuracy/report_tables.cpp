@@ -46,8 +46,9 @@ std::string rowOf(const Point& point, const LogRange& times, const LogRange& err
   std::string html = formatted("<tr class=\"%s %s\">", point.onFront ? "front" : "", kind);
   html += cell(escaped(point.label()));
   html += barCell(formatted("%.2f", t.settledMs), times.share(t.settledMs));
-  html += formatted("<td%s>%.1f%s</td>", t.noisy() ? " class=\"noisy\"" : "", t.iqrPct,
-                    t.noisy() ? " noisy" : "");
+  html += formatted("<td%s>%s%s</td>", t.noisy() ? " class=\"noisy\"" : "",
+                    t.hasSpread() ? formatted("%.1f", t.spreadPct()).c_str() : "unknown",
+                    t.hasSpread() && t.noisy() ? " noisy" : "");
   html += cell("%d", t.frames) + cell("%.2f", t.ratio);
   for (const RayTally& tally : point.stats.meter.tally)
     html += cell(tally.rays ? formatted("%.1f", static_cast<double>(tally.rays) / 1e3) : "");
@@ -68,7 +69,7 @@ std::string pointTable(const SceneSweep& sweep) {
       "<thead><tr class=\"groups\"><th></th><th colspan=\"4\">time</th>"
       "<th colspan=\"4\">thousand rays</th><th colspan=\"8\">against the reference</th>"
       "<th colspan=\"4\">at equal samples</th><th></th></tr>\n"
-      "<tr><th>point</th><th>ms</th><th>spread %</th><th>frames</th><th>&times; standard</th>"
+      "<tr><th>point</th><th>ms</th><th>&plusmn; %</th><th>frames</th><th>&times; base</th>"
       "<th>primary</th><th>shadow</th><th>reflected</th><th>refracted</th><th>FLIP</th>"
       "<th>HDR-FLIP</th><th>RMSE</th><th>relMSE</th><th>PSNR</th><th>&ge;1 code %</th>"
       "<th>max code</th><th>energy</th><th>FLIP</th><th>RMSE</th><th>&ge;1 code %</th>"
@@ -84,9 +85,12 @@ std::string pointTable(const SceneSweep& sweep) {
   std::string html = "<div class=\"scroll\"><table>" + head + "<tbody>\n" + named +
                      "</tbody><caption>&#9679; on the front of FLIP over time. Times are the "
                      "median ratio to the baseline's frames before and after, times the "
-                     "baseline's median: what the machine does to both cancels. Spread: "
-                     "interquartile range over the median; noisy above " +
-                     formatted("%g %% or with fewer than %d frames", kNoisyPct, kLeastFrames) +
+                     "baseline's median: what the machine does to both cancels. &plusmn;: half "
+                     "the interval that holds the median with 90 % confidence, over the median; " +
+                     formatted(
+                         "noisy above %g %%; unknown with fewer than %d rounds, and then on "
+                         "no front",
+                         kNoisyPct, kLeastRounds) +
                      ".</caption></table></div>\n";
   if (!joint.empty()) {
     html += "<details><summary>Combinations of knobs</summary><div class=\"scroll\"><table>" +

@@ -24,11 +24,6 @@ std::string Scope::leavesOut(const Point& point) const {
   return {};
 }
 
-std::string Scope::overBecause(const Point& point) {
-  const std::string knob = point.kind == PointKind::knob ? " or --knobs " + point.knob : "";
-  return "the minute of a quick sweep was over: --full" + knob + " measures it";
-}
-
 bool Scope::comparesPaths(const Point& point) const {
   if (point.options.mode == Mode::reference) return false;
   if (point.kind == PointKind::baseline) return true;

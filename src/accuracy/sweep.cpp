@@ -18,6 +18,8 @@ namespace {
 
 // Work of a packet frame in units of a scalar frame of one sample, roughly.
 constexpr double kPacketFrameWork = 0.1;
+// Points of a single frame that one frame of the baseline serves; and where that is long as well.
+constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
 
 class SceneSweeper {
  public:
@@ -36,13 +38,15 @@ class SceneSweeper {
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
     baseline_->render();
-    timer_.emplace(*baseline_, scope_);
     describe();
     chooseSamples();
+    timer_.emplace(*baseline_, 1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds),
+                   scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline);
     choosePoints();
     ErrorMeter meter = renderReferences();
     measureBaseline(meter);
     measurePoints(meter);
+    repeatTimes();
     settle();
     return std::move(sweep_);
   }
@@ -143,15 +147,16 @@ class SceneSweeper {
 
   void measurePoints(ErrorMeter& meter) {
     std::map<std::string, std::string> unmeasured;  // and why
-    for (const std::size_t i : chooseOrder()) {
-      Point& point = sweep_.points[i];
+    const std::vector<std::size_t> order = chooseOrder();
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      Point& point = sweep_.points[order[k]];
       pace_.begin(point.label(), workOf(point));
       if (scope_.isOver(pace_.seconds())) {
-        unmeasured[point.label()] = Scope::overBecause(point);
+        unmeasured[point.label()] = Scope::kOverBecause;
         pace_.skip();
         continue;
       }
-      if (measurePoint(point, meter)) {
+      if (measurePoint(point, meter, order.size() - k)) {
         sweep_.order.push_back(point.label());
       } else {
         unmeasured[point.label()] =
@@ -166,14 +171,15 @@ class SceneSweeper {
     std::erase_if(sweep_.points, [&](const Point& p) { return unmeasured.contains(p.label()); });
   }
 
-  // False: in this view the point is the baseline under another name.
-  bool measurePoint(Point& point, ErrorMeter& meter) {
+  // With so many points to come, itself included. False: in this view the point is the baseline
+  // under another name.
+  bool measurePoint(Point& point, ErrorMeter& meter, std::size_t points) {
     FrameSource frames(sceneFor(point.options), camera_, point.options);
     frames.render();  // allocates: its time counts only where there is none for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
-    timer_->time(point, frames);
+    timer_->time(point, frames, points);
     if (frames.film.image.pixels == baseline_->film.image.pixels &&
         point.options.srgb == base_.srgb) {
       takeErrors(point, sweep_.points.front());
@@ -208,21 +214,35 @@ class SceneSweeper {
     return frames.film.image.pixels == baseline_->film.image.pixels;
   }
 
+  // With what is left of the time for it: first a spread for those that have none, the cheapest
+  // first, then more rounds for what is noisy.
+  void repeatTimes() {
+    std::vector<Point*> points;
+    for (Point& point : sweep_.points) {
+      if (point.kind != PointKind::baseline && point.timing.noisy()) points.push_back(&point);
+    }
+    std::stable_sort(points.begin(), points.end(), [](const Point* a, const Point* b) {
+      return a->timing.ratio < b->timing.ratio;
+    });
+    for (const int rounds : {kLeastRounds, kConfidentRounds, kMostRounds}) {
+      for (Point* point : points) {
+        if (point->timing.rounds >= rounds || !point->timing.noisy()) continue;
+        if (timer_->leftMs() <= 0) return;
+        pace_.begin(point->label() + " again", 0);
+        timer_->repeat(*point, rounds, [&] {
+          return std::make_unique<FrameSource>(sceneFor(point->options), camera_, point->options);
+        });
+      }
+    }
+  }
+
   // What needs all points: the baseline's time, times without drift, fronts.
   void settle() {
     Point& baseline = sweep_.points.front();
-    baseline.timing = timingOf(timer_->baselineMs());
-    std::vector<CostAndError> total, same;
-    std::vector<Point*> withSame;
-    for (Point& point : sweep_.points) {
+    baseline.timing = timer_->baselineTiming();
+    for (Point& point : sweep_.points)
       point.timing.settledMs = point.timing.ratio * baseline.timing.medianMs;
-      total.push_back({point.timing.settledMs, point.total.flipMean});
-      if (!point.sameSamples) continue;
-      same.push_back({point.timing.settledMs, point.sameSamples->flipMean});
-      withSame.push_back(&point);
-    }
-    for (const std::size_t i : paretoFront(total)) sweep_.points[i].onFront = true;
-    for (const std::size_t i : paretoFront(same)) withSame[i]->onFrontSameSamples = true;
+    markFronts(sweep_.points);
     for (Point& point : sweep_.points) {
       if (point.kind != PointKind::joint || point.onFront) continue;
       point.imagePng.clear(), point.totalMapPng.clear(), point.sameSamplesMapPng.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct SweepSettings {
   bool full = false;
   std::vector<std::string> knobs;  // none: all
   std::uint32_t seed = 1;          // of the order of the points
+  // For timing the points of a scene; none: 20, 600 where full.
+  std::optional<double> timingSeconds;
   std::string cacheFolder;
   std::string program;  // what identifies the code that renders
 };

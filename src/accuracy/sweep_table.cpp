@@ -1,5 +1,6 @@
 // A sweep as a table of text.
 #include <algorithm>
+#include <sstream>
 
 #include "accuracy/report.h"
 #include "core/formatted.h"
@@ -8,53 +9,113 @@ namespace whit::accuracy {
 
 namespace {
 
-std::string thousands(std::uint64_t rays) {
-  return rays == 0 ? "-" : formatted("%.1f", static_cast<double>(rays) / 1e3);
+constexpr std::size_t kLongestLabel = 25;  // longer ones, of combinations, have a line of their own
+
+constexpr const char* kWords =
+    "FLIP: how visible a difference is, 0 to 1. RMSE: root of the mean squared difference of "
+    "linear "
+    "radiance. Code: a step of an 8-bit sRGB channel; off: share of the pixels that are off by a "
+    "code "
+    "or more. At equal samples: against the exact picture with as many samples a pixel. ms: of a "
+    "frame; +-: within what it is known.";
+
+// In lines of kTableColumns at most; the first begins as the text does, the others are indented.
+std::string wrapped(const std::string& text, std::size_t indent = 2) {
+  std::istringstream words(text);
+  std::string all, line(std::min(text.find_first_not_of(' '), text.size()), ' '), word;
+  const auto end = [&] {
+    all += line + "\n";
+    line.assign(indent, ' ');
+  };
+  bool begun = false;
+  while (words >> word) {
+    if (begun && line.size() + 1 + word.size() > kTableColumns) end(), begun = false;
+    for (; line.size() + word.size() > kTableColumns; end()) {
+      const std::size_t room = kTableColumns - line.size();
+      line += word.substr(0, room);
+      word.erase(0, room);
+    }
+    line += (begun ? " " : "") + word;
+    begun = true;
+  }
+  return all + line + "\n";
+}
+
+std::string thousands(const FrameStats& stats) {
+  double rays = 0;
+  for (const RayTally& tally : stats.meter.tally) rays += static_cast<double>(tally.rays);
+  return formatted(rays < 1e6 ? "%.1f" : "%.0f", rays / 1e3);
 }
 
 std::string rowOf(const Point& point, std::size_t labelWidth) {
   const Timing& t = point.timing;
-  std::string row =
-      formatted("%-*s %s%9.2f %5.1f%s %8.2f", static_cast<int>(labelWidth), point.label().c_str(),
-                point.onFront ? "*" : " ", t.settledMs, t.iqrPct, t.noisy() ? "~" : " ", t.ratio);
-  for (const RayTally& tally : point.stats.meter.tally)
-    row += formatted(" %8s", thousands(tally.rays).c_str());
-  const ImageDifference& d = point.total;
-  row += formatted("  %9.2e %9.2e %6.1f %7.2f %4d %8.5f %8.5f", d.rmse, d.relmse, d.psnrDb,
-                   d.pixelsGe1CodePct, d.maxCode, d.flipMean, point.totalHdrFlip);
-  if (point.sameSamples) {
-    row += formatted("  %8.5f %7.3f %7.3f", point.sameSamples->flipMean,
-                     point.sameSamples->pixelsGe1CodePct, point.sameSamples->pixelsGe2CodesPct);
-  } else {
-    row += formatted("  %8s %7s %7s", "-", "-", "-");
+  std::string label = point.label(), row;
+  if (label.size() > labelWidth) {
+    row = wrapped(label);
+    label.clear();
   }
-  row += point.arithmetic ? formatted(" %7.1f", point.arithmetic->divergencesPerMpx)
-                          : formatted(" %7s", "-");
-  return row + formatted(" %5llu\n", static_cast<unsigned long long>(d.nonFinite));
+  row += formatted("%-*s%s%9.2f", static_cast<int>(labelWidth), label.c_str(),
+                   point.onFront ? "*" : " ", t.settledMs);
+  row += t.hasSpread() ? formatted(" %4.*f%s", t.spreadPct() < 10 ? 1 : 0, t.spreadPct(),
+                                   t.noisy() ? "~" : " ")
+                       : std::string("    ? ");
+  row += formatted(" %6.2f %8s", t.ratio, thousands(point.stats).c_str());
+  const ImageDifference& d = point.total;
+  row += formatted("  %7.5f %7.1e %7.2f", d.flipMean, d.rmse, d.pixelsGe1CodePct);
+  if (!point.sameSamples) return row + formatted("  %7s %7s\n", "-", "-");
+  return row + formatted("  %7.5f %7.3f\n", point.sameSamples->flipMean,
+                         point.sameSamples->pixelsGe1CodePct);
 }
 
 std::string causesOf(const Point& point) {
   const auto line = [](const char* cause, const char* how, const ImageDifference& d) {
     return formatted(
-        "  %-11s%9.2e RMSE %9.5f FLIP %8.3f %% off by a code or more, at most %d  %s\n", cause,
-        d.rmse, d.flipMean, d.pixelsGe1CodePct, d.maxCode, how);
+        "  %-11s FLIP %.5f, RMSE %.1e, %7.3f %% off by a code or more, at most %d\n"
+        "  %-11s (%s)\n",
+        cause, d.flipMean, d.rmse, d.pixelsGe1CodePct, d.maxCode, "", how);
   };
-  std::string text = "errors of '" + point.label() + "' by cause\n";
+  std::string text = wrapped("errors of '" + point.label() + "' by cause");
   text += line("sampling", "without approximations, against the reference", point.sampling);
   text += line("algorithm", "against the same without approximations", point.algorithm);
   if (point.arithmetic) {
     const ArithmeticError& a = *point.arithmetic;
     text += line("arithmetic", "packets against doubles, pixels of the same path", a.samePath);
-    text += formatted(
-        "  %-11s%llu pixels saw another surface (%.1f in a million); of the others "
-        "half are within %.3g ulp, 99.9 %% within %.3g, all within %.3g\n",
-        "", static_cast<unsigned long long>(a.divergences), a.divergencesPerMpx, a.medianUlp,
-        a.ulp999, a.worstUlp);
+    text +=
+        wrapped(formatted("  path divergences: %llu pixels (%.1f in a million) saw another "
+                          "surface by rounding; of the others half are within %.3g ulp, 99.9 %% "
+                          "within %.3g, all within %.3g",
+                          static_cast<unsigned long long>(a.divergences), a.divergencesPerMpx,
+                          a.medianUlp, a.ulp999, a.worstUlp));
+  }
+  return text;
+}
+
+std::string notFinite(const SceneSweep& sweep) {
+  std::string text;
+  for (const Point& point : sweep.points) {
+    if (point.total.nonFinite == 0) continue;
+    text += wrapped(formatted("pixels that are not finite: %llu of ",
+                              static_cast<unsigned long long>(point.total.nonFinite)) +
+                    point.label());
   }
   return text;
 }
 
 }  // namespace
+
+std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {
+  std::vector<IdleKnob> groups;
+  for (const IdleKnob& knob : idle) {
+    const auto same = [&](const IdleKnob& group) { return group.because == knob.because; };
+    const auto group = std::find_if(groups.begin(), groups.end(), same);
+    if (group == groups.end()) {
+      groups.push_back(knob);
+    } else {
+      group->name += ", " + knob.name;
+    }
+  }
+  return groups;
+}
 
 std::string referenceText(const SceneSweep& sweep) {
   return formatted(
@@ -67,28 +128,29 @@ std::string referenceText(const SceneSweep& sweep) {
 
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   std::size_t width = 12;
-  for (const Point& point : sweep.points) width = std::max(width, point.label().size());
-  std::string text = formatted("%s, %dx%d, %d thread%s, %s, Embree %s\n%s\n", sweep.scene.c_str(),
-                               sweep.width, sweep.height, sweep.machine.threads,
-                               sweep.machine.threads == 1 ? "" : "s", sweep.machine.simd.c_str(),
-                               sweep.machine.embree.c_str(), referenceText(sweep).c_str());
+  for (const Point& point : sweep.points) {
+    if (point.label().size() <= kLongestLabel) width = std::max(width, point.label().size());
+  }
+  std::string text =
+      wrapped(formatted("%s, %dx%d, %d thread%s, %s, Embree %s", sweep.scene.c_str(), sweep.width,
+                        sweep.height, sweep.machine.threads, sweep.machine.threads == 1 ? "" : "s",
+                        sweep.machine.simd.c_str(), sweep.machine.embree.c_str()));
+  text += wrapped(referenceText(sweep)) + wrapped(kWords);
   const int label = static_cast<int>(width);
-  text += formatted("\n%-*s  %25s %35s   %57s  %24s\n", label, "", "time", "thousand rays",
-                    "against the reference", "at equal samples");
-  text += formatted("%-*s  %9s %6s %8s", label, "", "ms", "IQR %", "x base");
-  for (const char* kind : {"primary", "shadow", "reflect", "refract"})
-    text += formatted(" %8s", kind);
-  text += formatted("  %9s %9s %6s %7s %4s %8s %8s", "RMSE", "relMSE", "PSNR", ">=1 %", "max",
-                    "FLIP", "HDR-FLIP");
-  text += formatted("  %8s %7s %7s %7s %5s\n", "FLIP", ">=1 %", ">=2 %", "diverge/M", "inf");
+  text += formatted("\n%-*s %22s %8s  %23s  %15s\n", label, "", "time", "thousand",
+                    "against the reference", "equal samples");
+  text += formatted("%-*s %9s %4s %7s %8s  %7s %7s %7s  %7s %7s\n", label, "", "ms", "+-%",
+                    "x base", "rays", "FLIP", "RMSE", "off %", "FLIP", "off %");
   for (const Point& point : sweep.points) text += rowOf(point, width);
-  text += formatted(
-      "* on the front of FLIP over time; ~ noisy: half of the times spread over more "
-      "than %g %%; measured in random order, seed %u\n\n",
-      kNoisyPct, seed);
-  text += causesOf(sweep.points.front());
-  for (const IdleKnob& knob : sweep.idle)
-    text += "not swept: " + knob.name + ": " + knob.because + "\n";
+  text +=
+      wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? of "
+                        "fewer than %d rounds, and so on no front; measured in random order, seed "
+                        "%u; more columns are in sweep.csv",
+                        kNoisyPct, kLeastRounds, seed)) +
+      "\n";
+  text += causesOf(sweep.points.front()) + notFinite(sweep);
+  for (const IdleKnob& group : groupedByReason(sweep.idle))
+    text += wrapped("not swept: " + group.name + ": " + group.because);
   return text;
 }
 

@@ -1,24 +1,31 @@
 #include "accuracy/timing.h"
 
+#include <algorithm>
+
+#include "accuracy/median_interval.h"
 #include "core/quantile.h"
+#include "core/stopwatch.h"
 
 namespace whit::accuracy {
 
 namespace {
 
-// Points of a single frame that one frame of the baseline serves; and where that is long as well.
-constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
+// Of a point's share, what it has when it is first measured: all points are to have an error before
+// any has a good time. What is left serves repeat().
+constexpr double kFirstShare = 0.25;
 
-std::vector<double> timeBlock(FrameSource& source, const Rounds& rounds) {
-  for (int i = 0; i < rounds.warmUp; ++i) source.render();
-  std::vector<double> ms(static_cast<std::size_t>(rounds.frames));
-  for (double& frame : ms) frame = source.render().frameMs;
-  return ms;
-}
+// Takes from what is left, while it lives, the time that passes.
+class Charge {
+ public:
+  explicit Charge(double& leftMs) : leftMs_(leftMs) {}
+  ~Charge() { leftMs_ -= stopwatch_.ms(); }
+  Charge(const Charge&) = delete;
+  Charge& operator=(const Charge&) = delete;
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
+ private:
+  double& leftMs_;
+  Stopwatch stopwatch_;
+};
 
 }  // namespace
 
@@ -34,76 +41,95 @@ const FrameStats& FrameSource::render() {
   return stats;
 }
 
-Rounds roundsFor(double pointMs, double baselineMs, double budgetMs) {
-  const auto cost = [&](const Rounds& r) {
-    return (r.frames + r.warmUp) * (r.count * pointMs + (r.count + 1) * baselineMs);
-  };
-  for (const Rounds& rounds : {Rounds{3, 4, 1}, Rounds{3, 2, 1}, Rounds{3, 1, 0}}) {
-    if (cost(rounds) <= budgetMs) return rounds;
-  }
-  return {1, 1, 0};
+double roundMs(const Block& block, double pointMs, double baselineMs) {
+  return (block.frames + block.warmUp) * (pointMs + baselineMs);
 }
 
-Timing timingOf(const std::vector<double>& ms) {
+Block blockFor(double pointMs, double baselineMs, double budgetMs) {
+  for (const Block& block : {Block{4, 1}, Block{2, 1}}) {
+    if (kConfidentRounds * roundMs(block, pointMs, baselineMs) <= budgetMs) return block;
+  }
+  return {1, 0};
+}
+
+Timing TimeSamples::timing() const {
   Timing timing;
   timing.frames = static_cast<int>(ms.size());
   timing.medianMs = timing.settledMs = quantile(ms, 0.5);
   timing.leastMs = quantile(ms, 1e-9);
-  if (timing.medianMs > 0) {
-    timing.iqrPct = 100 * (quantile(ms, 0.75) - quantile(ms, 0.25)) / timing.medianMs;
-  }
-  return timing;
-}
-
-Timing timePoint(FrameSource& point, FrameSource& baseline, const Rounds& rounds,
-                 std::vector<double>& baselineMs) {
-  std::vector<double> before = timeBlock(baseline, rounds), all, ratios;
-  append(baselineMs, before);
-  for (int round = 0; round < rounds.count; ++round) {
-    const std::vector<double> ms = timeBlock(point, rounds);
-    const std::vector<double> after = timeBlock(baseline, rounds);
-    append(all, ms);
-    append(baselineMs, after);
-    const double around = (quantile(before, 0.5) + quantile(after, 0.5)) / 2;
-    if (around > 0) ratios.push_back(quantile(ms, 0.5) / around);
-    before = after;
-  }
-  Timing timing = timingOf(all);
+  timing.rounds = provisional ? 0 : static_cast<int>(ratios.size());
   timing.ratio = quantile(ratios, 0.5);
+  const Interval interval = medianInterval(ratios);
+  timing.ratioLow = interval.low, timing.ratioHigh = interval.high;
   return timing;
 }
 
-// Combinations are many: they are timed as in a quick sweep.
-void PointTimer::time(Point& point, FrameSource& frames) {
+std::vector<double> PointTimer::timeBlock(FrameSource& source, const Block& block) {
+  for (int i = 0; i < block.warmUp; ++i) source.render();
+  std::vector<double> ms(static_cast<std::size_t>(block.frames));
+  for (double& frame : ms) frame = source.render().frameMs;
+  if (&source == &baseline_) baselineMs_.insert(baselineMs_.end(), ms.begin(), ms.end());
+  return ms;
+}
+
+// Beside the baseline's frames before and after.
+void PointTimer::takeRound(TimeSamples& samples, FrameSource& frames, const Block& block) {
+  const double before = lastBlockMs_;
+  const std::vector<double> ms = timeBlock(frames, block);
+  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
+  samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
+  const double around = (before + lastBlockMs_) / 2;
+  if (around > 0) samples.ratios.push_back(quantile(ms, 0.5) / around);
+}
+
+void PointTimer::takeRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
+  const Stopwatch stopwatch;
+  TimeSamples& samples = samples_[point.label()];
+  const double pointMs = frames.stats.frameMs;
+  const double baselineMs = baselineMs_.empty() ? pointMs : baselineMs_.back();
+  const Block block = blockFor(pointMs, baselineMs, budgetMs);
+  const double cost = roundMs(block, pointMs, baselineMs);
+  // The first round has a block of the baseline before it.
+  double left = budgetMs - roundMs(block, 0, baselineMs);
+  if (left < cost) return;
+  if (samples.provisional) samples = {};
+  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
+  while (left >= cost && samples.timing().rounds < mostRounds && samples.timing().noisy()) {
+    takeRound(samples, frames, block);
+    left = budgetMs - stopwatch.ms();
+  }
+}
+
+void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
+  const double share = kFirstShare * std::max(leftMs_, 0.0) / static_cast<double>(points);
+  const Charge charge(leftMs_);
+  TimeSamples& samples = samples_[point.label()];
   const double first = frames.stats.frameMs;
-  if (point.options.mode == Mode::reference || first > scope_.limits.pointMs) {
-    takeSingleFrame(point, first);
-    return;
-  }
-  const bool joint = point.kind == PointKind::joint;
-  const double baselineMs = baselineMs_.empty() ? first : baselineMs_.back();
-  const Rounds rounds =
-      roundsFor(first, baselineMs, joint ? kQuick.pointMs : scope_.limits.pointMs);
-  if (rounds.count == 1) {
-    takeSingleFrame(point, frames.render().frameMs);
-  } else {
-    point.timing = timePoint(frames, baseline_, rounds, baselineMs_);
-  }
+  takeRounds(point, frames, kMostRounds, share);
+  if (samples.ratios.empty()) takeFirstFrame(samples, first);
+  point.timing = samples.timing();
 }
 
-// Beside one of the baseline, of which every other point has a new one.
-void PointTimer::takeSingleFrame(Point& point, double ms) {
-  const int uses = scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline;
-  if (singleFrames_++ % uses == 0) {
-    baselineMs_.push_back(baseline_.render().frameMs);
-  }
-  point.timing = timingOf({ms});
-  point.timing.ratio = ms / baselineMs_.back();
+void PointTimer::repeat(Point& point, int rounds, const Open& open) {
+  const Charge charge(leftMs_);
+  const Stopwatch opening;
+  const std::unique_ptr<FrameSource> frames = open();
+  frames->render();
+  takeRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - opening.ms());
+  point.timing = samples_[point.label()].timing();
 }
 
-const std::vector<double>& PointTimer::baselineMs() {
+void PointTimer::takeFirstFrame(TimeSamples& samples, double ms) {
+  if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
+  samples = {{ms}, {ms / baselineMs_.back()}, true};
+}
+
+Timing PointTimer::baselineTiming() {
   if (baselineMs_.empty()) baselineMs_.push_back(baseline_.render().frameMs);
-  return baselineMs_;
+  TimeSamples samples{baselineMs_, {}, false};
+  const double median = quantile(baselineMs_, 0.5);
+  for (const double ms : baselineMs_) samples.ratios.push_back(ms / median);
+  return samples.timing();
 }
 
 }  // namespace whit::accuracy

@@ -2,10 +2,13 @@
 // machine that is busy with other things as well.
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "accuracy/measurement.h"
-#include "accuracy/scope.h"
 
 namespace whit::accuracy {
 
@@ -24,40 +27,60 @@ class FrameSource {
   Mode mode_;
 };
 
-// A block of frames begins with `warmUp` frames that do not count.
-struct Rounds {
-  int count = 3, frames = 4, warmUp = 1;
+// Frames in a row; it begins with `warmUp` frames that do not count.
+struct Block {
+  int frames = 1, warmUp = 0;
 };
-// As many as fit into `budgetMs` of frames that take so long; always at least one of one frame.
-Rounds roundsFor(double pointMs, double baselineMs, double budgetMs);
+// The longest of which kConfidentRounds rounds of two such blocks fit into `budgetMs`; where none
+// does, a single frame.
+Block blockFor(double pointMs, double baselineMs, double budgetMs);
+// Of a round: a block of the point and one of the baseline.
+double roundMs(const Block& block, double pointMs, double baselineMs);
 
-// Times `point` between frames of `baseline`: a block of the baseline's frames, then in each round
-// a block of the point's and another of the baseline's. The baseline's times are added to
-// `baselineMs`. Leaves settledMs alone.
-Timing timePoint(FrameSource& point, FrameSource& baseline, const Rounds& rounds,
-                 std::vector<double>& baselineMs);
+// More do not settle what is noisy by then.
+inline constexpr int kMostRounds = 25;
 
-// Of the baseline itself, from all of its frames.
-Timing timingOf(const std::vector<double>& ms);
+// What has been taken of a point so far.
+struct TimeSamples {
+  std::vector<double> ms;      // of frames
+  std::vector<double> ratios;  // of rounds
+  bool provisional = false;    // of the first frame, which allocates: any other replaces it
+  Timing timing() const;       // settledMs is left alone
+};
 
-// Times the points of a sweep, each as thoroughly as the sweep can afford: long ones by a single
-// frame. `baseline` has rendered a frame; it and `scope` must outlive the timer.
+// Times the points of a sweep in `budgetMs` all in all. `baseline` has rendered a frame and must
+// outlive the timer.
 class PointTimer {
  public:
-  PointTimer(FrameSource& baseline, const Scope& scope) : baseline_(baseline), scope_(scope) {}
+  PointTimer(FrameSource& baseline, double budgetMs, int usesOfBaseline)
+      : baseline_(baseline), leftMs_(budgetMs), usesOfBaseline_(usesOfBaseline) {}
 
-  // `frames` has rendered a frame of the point. Leaves settledMs alone.
-  void time(Point& point, FrameSource& frames);
-  // Of the baseline's frames so far, at least one.
-  const std::vector<double>& baselineMs();
+  // By rounds until the time is no longer noisy, or a part of the point's share of what is left is
+  // spent; it is the first of `points`, 1 or more, that are still to come. Where not even one round
+  // fits, by the frame that `frames` has rendered.
+  void time(Point& point, FrameSource& frames, std::size_t points);
+  // More rounds of a point that was timed: until it has `rounds`, or is no longer noisy. `open`
+  // makes its frames anew.
+  using Open = std::function<std::unique_ptr<FrameSource>()>;
+  void repeat(Point& point, int rounds, const Open& open);
+
+  double leftMs() const { return leftMs_; }
+  // Of the baseline itself, from all of its frames, at least one.
+  Timing baselineTiming();
 
  private:
-  void takeSingleFrame(Point& point, double ms);
+  void takeRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs);
+  void takeRound(TimeSamples& samples, FrameSource& frames, const Block& block);
+  void takeFirstFrame(TimeSamples& samples, double ms);
+  std::vector<double> timeBlock(FrameSource& source, const Block& block);
 
   FrameSource& baseline_;
-  const Scope& scope_;
-  std::vector<double> baselineMs_;
-  int singleFrames_ = 0;  // of points, taken so far
+  double leftMs_;
+  int usesOfBaseline_;              // how many first frames one frame of the baseline serves
+  int firstFrames_ = 0;             // taken so far
+  std::vector<double> baselineMs_;  // of all its frames that count
+  double lastBlockMs_ = 0;          // of the baseline, its median
+  std::map<std::string, TimeSamples> samples_;  // by the point's label
 };
 
 }  // namespace whit::accuracy

@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "accuracy/pareto.h"
+#include "accuracy/front_chart.h"
 #include "accuracy/report.h"
 
 namespace whit::accuracy {
@@ -17,8 +17,8 @@ Point pointOf(PointKind kind, const std::string& knob, const std::string& value,
   point.knob = knob;
   point.value = value;
   point.timing.settledMs = ms;
-  point.timing.frames = 9;
-  point.timing.ratio = ms / 10;
+  point.timing.frames = point.timing.rounds = 9;
+  point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ms / 10;
   point.total.flipMean = flip;
   point.imagePng = point.totalMapPng = "png";
   return point;
@@ -139,8 +139,8 @@ TEST(AccuracyReport, Base64) {
   EXPECT_EQ(dataUri(std::string("\xff\x00\xfe", 3)), head + "/wD+");
 }
 
-TEST(ParetoSvg, IsWellFormedAndShowsEveryPoint) {
-  const std::string svg = paretoSvg(sweepOfThree(), Against::reference);
+TEST(FrontChart, IsWellFormedAndShowsEveryPoint) {
+  const std::string svg = frontSvg(sweepOfThree(), Against::reference, {});
   expectBalanced(svg);
   const std::regex circle("<circle class=\"(p|q)\"");
   int front = 0, gray = 0;
@@ -149,22 +149,43 @@ TEST(ParetoSvg, IsWellFormedAndShowsEveryPoint) {
   EXPECT_EQ(front, 2);
   EXPECT_EQ(gray, 1);
   EXPECT_NE(svg.find("<title>depth=16: 12.00 ms"), std::string::npos);
-  for (const char* label : {">standard</text>", ">depth=2</text>", ">depth=16</text>"})
+}
+
+// A preset, what is on the front, and nothing else; the rest tells its name as a tooltip.
+TEST(FrontChart, LabelsPresetsAndItsOwnPointsOnly) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points.push_back(pointOf(PointKind::preset, "quality", "fine", 30, 0.025));
+  const std::string svg = frontSvg(sweep, Against::reference, {});
+  for (const char* label : {">standard</text>", ">depth=2</text>", ">fine</text>"})
     EXPECT_NE(svg.find(label), std::string::npos) << label;
+  EXPECT_EQ(svg.find(">depth=16</text>"), std::string::npos);
+  EXPECT_NE(svg.find("<title>depth=16:"), std::string::npos);
+}
+
+TEST(FrontChart, APointWithoutASpreadIsARing) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[2].timing.rounds = 0;
+  sweep.points[2].timing.frames = 1;
+  const std::string svg = frontSvg(sweep, Against::reference, {});
+  EXPECT_NE(svg.find("class=\"one\""), std::string::npos);
+  EXPECT_NE(svg.find("(one frame)"), std::string::npos);
+  EXPECT_EQ(frontSvg(sweepOfThree(), Against::reference, {}).find("class=\"one\""),
+            std::string::npos);
 }
 
 // The scale is logarithmic: equal ratios are equal distances; what is better is lower, what is
 // dearer further right.
-TEST(ParetoSvg, PlacesPointsOnLogarithmicScales) {
+TEST(FrontChart, PlacesPointsOnLogarithmicScales) {
   SceneSweep sweep = sweepOfThree();
   sweep.points[0].timing.settledMs = 10, sweep.points[0].total.flipMean = 0.01;
   sweep.points[1].timing.settledMs = 20, sweep.points[1].total.flipMean = 0.02;
   sweep.points[2].timing.settledMs = 40, sweep.points[2].total.flipMean = 0.04;
-  const std::string svg = paretoSvg(sweep, Against::reference);
+  const std::string svg = frontSvg(sweep, Against::reference, {});
   std::map<std::string, std::pair<double, double>> at;
-  const std::regex circle("cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"4\"><title>([a-z0-9=]+):");
+  const std::regex circle(
+      "<title>([a-z0-9=]+):[^<]*</title><circle class=\"area\" cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"");
   for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it)
-    at[(*it)[3]] = {std::stod((*it)[1]), std::stod((*it)[2])};
+    at[(*it)[1]] = {std::stod((*it)[2]), std::stod((*it)[3])};
   ASSERT_EQ(at.size(), 3u);
   const auto [x0, y0] = at["standard"];
   const auto [x1, y1] = at["depth=2"];
@@ -176,8 +197,8 @@ TEST(ParetoSvg, PlacesPointsOnLogarithmicScales) {
 }
 
 // Without an error at all, a point stands below the scale, not at minus infinity.
-TEST(ParetoSvg, NoErrorHasALineOfItsOwn) {
-  const std::string svg = paretoSvg(sweepOfThree(), Against::sameSamples);
+TEST(FrontChart, NoErrorHasALineOfItsOwn) {
+  const std::string svg = frontSvg(sweepOfThree(), Against::sameSamples, {});
   expectBalanced(svg);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);

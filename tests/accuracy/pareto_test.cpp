@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -48,6 +49,46 @@ TEST(Pareto, AgainstTheDefinition) {
     }
     EXPECT_EQ(front.size(), values.size()) << "each value once";
   }
+}
+
+// By brute force over those that have a spread: the others are not on it, and beat nothing.
+TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
+  std::mt19937 random(11);
+  int without = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Point> points(1 + random() % 10);
+    for (Point& p : points) {
+      p.timing.rounds = static_cast<int>(random() % 6);
+      p.timing.settledMs = static_cast<double>(1 + random() % 50);
+      p.total.flipMean = static_cast<double>(random() % 50);
+      if (random() % 2) p.sameSamples.emplace().flipMean = static_cast<double>(random() % 50);
+      p.onFront = p.onFrontSameSamples = random() % 2;  // of an earlier time
+    }
+    markFronts(points);
+    const auto beats = [](double time, double error, double otherTime, double otherError) {
+      return time <= otherTime && error <= otherError && (time < otherTime || error < otherError);
+    };
+    for (const Point& p : points) {
+      without += !p.timing.hasSpread();
+      bool beaten = false, beatenSame = false;
+      for (const Point& q : points) {
+        if (!q.timing.hasSpread()) continue;
+        beaten |= beats(q.timing.settledMs, q.total.flipMean, p.timing.settledMs, p.total.flipMean);
+        beatenSame |= q.sameSamples && p.sameSamples &&
+                      beats(q.timing.settledMs, q.sameSamples->flipMean, p.timing.settledMs,
+                            p.sameSamples->flipMean);
+      }
+      EXPECT_FALSE(p.onFront && (beaten || p.timing.rounds < kLeastRounds));
+      EXPECT_FALSE(p.onFrontSameSamples &&
+                   (beatenSame || !p.sameSamples || p.timing.rounds < kLeastRounds));
+    }
+    const bool timed = std::any_of(points.begin(), points.end(),
+                                   [](const Point& p) { return p.timing.hasSpread(); });
+    const bool front =
+        std::any_of(points.begin(), points.end(), [](const Point& p) { return p.onFront; });
+    EXPECT_EQ(front, timed);
+  }
+  EXPECT_GT(without, 100) << "of which the law speaks";
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// The table for a terminal: its width, whatever is in it.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "accuracy/report.h"
+#include "accuracy/sweep.h"
+
+namespace whit::accuracy {
+namespace {
+
+// Every value of every knob, and combinations, with numbers that take the most room.
+SceneSweep widest() {
+  SceneSweep sweep;
+  sweep.scene = "a/long/path/to/" + std::string(120, 'x') + ".json";
+  sweep.width = sweep.height = 16384;
+  sweep.machine.threads = 128;
+  sweep.machine.simd = "avx3_zen4", sweep.machine.embree = "4.3.3 avx512";
+  sweep.referenceSamples = 256;
+  sweep.referenceMs = 1e7;
+  sweep.referenceFromFile = true;
+  PointList list = makePoints(RenderOptions(), EffectSet::all(), allKnobs(), 60, 1);
+  sweep.points = std::move(list.points);
+  sweep.idle = std::move(list.idle);
+  for (Point& point : sweep.points) {
+    sweep.idle.push_back({point.label(), "the minute was over"});
+    Timing& t = point.timing;
+    t.rounds = t.frames = 5;
+    t.settledMs = 99999.99, t.ratio = 9999, t.ratioLow = 1, t.ratioHigh = 19999;
+    point.stats.meter.tally[0].rays = 9'999'999'999;
+    point.total.flipMean = 0.99999, point.total.rmse = 9.9e+10, point.total.pixelsGe1CodePct = 100;
+    point.total.nonFinite = 1'000'000;
+    point.sameSamples = point.total;
+    point.onFront = true;
+  }
+  sweep.points.front().arithmetic.emplace().divergences = 100'000'000;
+  return sweep;
+}
+
+TEST(SweepTable, FitsAHundredColumns) {
+  std::istringstream lines(sweepTable(widest(), 4294967295u));
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_LE(line.size(), kTableColumns) << line;
+  EXPECT_GT(count, widest().points.size());
+  EXPECT_EQ(kTableColumns, 100u);
+}
+
+TEST(SweepTable, HasARowAPointAndItsWords) {
+  const SceneSweep sweep = widest();
+  const std::string table = sweepTable(sweep, 1);
+  for (const Point& point : sweep.points) {
+    if (point.kind == PointKind::joint) continue;
+    EXPECT_NE(table.find("\n" + point.label()), std::string::npos) << point.label();
+  }
+  const auto at = [&](const char* word) { return table.find(word); };
+  for (const char* word : {"RMSE: root of the mean squared", "Code: a step of an 8-bit sRGB"})
+    EXPECT_LT(at(word), at(sweep.points.front().label().c_str())) << word << " is before the rows";
+  EXPECT_NE(at("another surface"), std::string::npos);
+}
+
+TEST(SweepTable, ATimeOfOneFrameHasNoSpread) {
+  SceneSweep sweep = widest();
+  EXPECT_EQ(sweepTable(sweep, 1).find("    ? "), std::string::npos);
+  sweep.points[1].timing.rounds = 0;
+  EXPECT_NE(sweepTable(sweep, 1).find("    ? "), std::string::npos);
+}
+
+TEST(SweepTable, WhatWasLeftOutForOneReasonIsOneLine) {
+  const auto groups = groupedByReason({{"a", "late"}, {"b", "flat"}, {"c", "late"}});
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].name, "a, c");
+  EXPECT_EQ(groups[1].because, "flat");
+}
+
+}  // namespace
+}  // namespace whit::accuracy

@@ -1,0 +1,102 @@
+// What is taken for the time of a point, and when it is said to be known.
+#include "accuracy/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "accuracy/median_interval.h"
+
+namespace whit::accuracy {
+namespace {
+
+TEST(MedianInterval, ByHand) {
+  const auto expect = [](const std::vector<double>& values, double low, double high) {
+    const Interval interval = medianInterval(values);
+    EXPECT_EQ(interval.low, low);
+    EXPECT_EQ(interval.high, high);
+  };
+  expect({}, 0, 0);
+  expect({7}, 7, 7);
+  expect({3, 1, 2}, 1, 3);
+  expect({5, 4, 3, 2, 1}, 1, 5);  // 1 - 2/32
+  // One value can be spared at either end once 2 (1 + n) / 2^n is at most a tenth: 8 of 7, 9 of 8.
+  expect({1, 2, 3, 4, 5, 6, 7}, 1, 7);
+  expect({1, 2, 3, 4, 5, 6, 7, 8}, 2, 7);
+}
+
+// Of 10,000 values the bounds are 1.645 standard deviations of a binomial, 50, from the middle.
+TEST(MedianInterval, OfVeryManyValuesIsNarrow) {
+  std::vector<double> values(10000);
+  std::iota(values.begin(), values.end(), 1.0);
+  const Interval interval = medianInterval(values);
+  EXPECT_NEAR(interval.low, 5000 - 1.645 * 50, 1.5);
+  EXPECT_NEAR(interval.high, 5001 + 1.645 * 50, 1.5);
+}
+
+// The median of the distribution lies within, however skewed that is, as often as is promised.
+TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
+  constexpr int kTrials = 4000;
+  // Three standard deviations of a share of 0.9 in so many trials.
+  const double slack = 3 * std::sqrt(0.9 * 0.1 / kTrials);
+  std::mt19937 random(5);
+  std::lognormal_distribution<double> skewed(0, 1);  // its median is 1
+  for (const int values : {5, 6, 8, 13, 25}) {
+    int held = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::vector<double> sample(static_cast<std::size_t>(values));
+      for (double& value : sample) value = skewed(random);
+      const Interval interval = medianInterval(sample);
+      held += interval.low <= 1 && interval.high >= 1;
+    }
+    EXPECT_GE(static_cast<double>(held) / kTrials, kMedianConfidence - slack) << values;
+  }
+}
+
+TEST(TimeSamples, AFirstFrameIsNoRound) {
+  TimeSamples samples{{12}, {1.2}, true};
+  EXPECT_EQ(samples.timing().rounds, 0);
+  EXPECT_EQ(samples.timing().ratio, 1.2);
+  EXPECT_FALSE(samples.timing().hasSpread());
+  EXPECT_TRUE(samples.timing().noisy());
+}
+
+TEST(TimeSamples, FewRoundsHaveASpreadAndAreNoisyAllTheSame) {
+  TimeSamples samples{{10, 10, 10}, {1, 1, 1}, false};
+  EXPECT_TRUE(samples.timing().hasSpread());
+  EXPECT_TRUE(samples.timing().noisy());
+  samples.ratios = {1, 1, 1, 1, 1};
+  EXPECT_FALSE(samples.timing().noisy());
+}
+
+// Of five rounds the interval is the range: 3 % above and below the median, and a little more.
+TEST(TimeSamples, NoisyBeyondSoManyPerCent) {
+  TimeSamples samples{{}, {1.94, 2, 2, 2, 2.06}, false};
+  EXPECT_NEAR(samples.timing().spreadPct(), 3, 1e-9);
+  samples.ratios.back() = 2.05;
+  EXPECT_FALSE(samples.timing().noisy());
+  samples.ratios.back() = 2.08;
+  EXPECT_TRUE(samples.timing().noisy());
+}
+
+TEST(Blocks, AreAsLongAsRoundsEnoughOfThemFit) {
+  for (const double budgetMs : {100.0, 10000.0}) {
+    for (double pointMs = 0.5; pointMs < 20000; pointMs *= 1.3) {
+      for (const double baselineMs : {0.1 * pointMs, pointMs, 10 * pointMs}) {
+        const Block block = blockFor(pointMs, baselineMs, budgetMs);
+        ASSERT_GE(block.frames, 1);
+        if (block.frames > 1) {
+          EXPECT_LE(kConfidentRounds * roundMs(block, pointMs, baselineMs), budgetMs);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(blockFor(10, 10, 500).frames, 4);  // 5 rounds of 2 x 5 frames
+  EXPECT_EQ(blockFor(10, 10, 300).frames, 2);  // of 2 x 3
+  EXPECT_EQ(blockFor(10, 10, 299).frames, 1);
+}
+
+}  // namespace
+}  // namespace whit::accuracy
