@@ -18,6 +18,9 @@ constexpr double kIdleSeconds = 0.25;     // between looks at the scene file
 constexpr double kLongestSeconds = 0.1;   // of one step: a stall does not make the camera leap
 constexpr double kUndrawnSeconds = 0.05;  // at most, while a picture is awaited
 constexpr double kMessageSeconds = 4;
+// Of the panel: what happened is in the first, what that has opened or changed in the second, and
+// windows fit what is in them in the third.
+constexpr int kFramesToAnswer = 3;
 
 }  // namespace
 
@@ -48,6 +51,7 @@ void App::run() {
 bool App::step() {
   window_.poll(waitSeconds());
   const bool fresh = fetchFrame();
+  newsWait_ |= fresh;
   window_.poll(0);  // once more: the next picture has what the user did before this one was there
   const double seconds = tick();
   ScriptStep step;
@@ -60,6 +64,7 @@ bool App::step() {
   handleInput();
   restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
   watchSceneFile(seconds);
+  followRays();
   askForFrame();  // before anything is drawn, which the next picture need not wait for
   if (fresh) showPicture();
   if (worthDrawing(step, fresh, seconds)) draw(step.screenshot);
@@ -70,6 +75,7 @@ bool App::step() {
 
 double App::waitSeconds() const {
   if (script_) return thread_.busy() ? kScriptSecondsPerFrame : 0;
+  if (drawAgain_ > 0) return 0;
   if (thread_.committed()) return kUndrawnSeconds;  // nothing can be asked for until it is there
   const bool active = !window_.input.held.empty() || pathTime_ || restSeconds_ < kSettleSeconds;
   return active ? 1 / resolution_.rate() : kIdleSeconds;
@@ -78,8 +84,9 @@ double App::waitSeconds() const {
 // A picture under way should find this thread waiting for it, not drawing the one before once more.
 bool App::worthDrawing(const ScriptStep& step, bool fresh, double seconds) {
   undrawnSeconds_ += seconds;
+  drawAgain_ = window_.input.happened ? kFramesToAnswer : std::max(drawAgain_ - 1, 0);
   const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
-  const bool wanted = fresh || !step.screenshot.empty() || window_.input.pointer;
+  const bool wanted = fresh || drawAgain_ > 0 || !step.screenshot.empty() || window_.input.pointer;
   if (awaited && !wanted) return false;
   undrawnSeconds_ = 0;
   return true;
@@ -109,6 +116,7 @@ void App::flyPath(double seconds) {
 }
 
 bool App::fetchFrame() {
+  bool answered = false;
   const std::string error = thread_.takeError();
   if (!error.empty()) {
     opening_.clear();
@@ -117,7 +125,18 @@ bool App::fetchFrame() {
     edit_ = traced_;
     fail(error);
   }
-  if (!thread_.take(shown_)) return false;
+  if (auto pick = thread_.takePick(); pick && picked_) {
+    rays_ = std::move(*pick);
+    if (std::exchange(selects_, false)) select(rays_, settings_.rays);
+    answered = true;
+  }
+  if (auto frame = thread_.takeUnfinished()) {
+    unfinished_ = std::move(frame);
+    panel_.remember(*unfinished_);
+    answered = true;
+  }
+  if (!thread_.take(shown_)) return answered;
+  if (unfinished_ && unfinished_->request.serial <= shown_.request.serial) unfinished_.reset();
   latency_.fetched(shown_.request.serial);
   if (shown_.scene != scene_) {
     const bool elsewhere = !opening_.empty();
@@ -130,24 +149,33 @@ bool App::fetchFrame() {
     tracedEdits_ = edits_;
     traced_ = edit_;
   }
-  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
+  if (request.view == settings_.view) {
+    resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.depth);
+  }
   panel_.remember(shown_);
+  rate_.fetched(!request.interruptible);
   if (shown_.request.measureKnobs) settings_.measureKnobs = false;
   return true;
 }
 
 // What the window is filled with: the frame, or how it compares.
 void App::showPicture() {
+  if (unfinished_ && !unfinished_->display.rgba.empty()) {
+    window_.uploadOver(unfinished_->display, unfinished_->request.window);
+  } else {
+    window_.dropOver();
+  }
   if (!shown_.scene) return;
+  const ImageSize& madeFor = shown_.request.window;
   const DisplayImage& frame = shown_.film.display;
   const std::optional<Comparison>& comparison = shown_.comparison;
   if (!comparison || settings_.compare == CompareMode::off) {
-    window_.upload(frame);
+    window_.upload(frame, madeFor);
   } else if (settings_.compare == CompareMode::heatMap && comparison->complete()) {
-    window_.upload(comparison->heatMap);
+    window_.upload(comparison->heatMap, madeFor);
   } else {
     const int split = static_cast<int>(std::lround(split_ * frame.width));
-    window_.upload(splitPicture(frame, *comparison, split));
+    window_.upload(splitPicture(frame, *comparison, split), madeFor);
   }
 }
 
@@ -155,19 +183,73 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   const auto side = [&](int pixels) {
     return std::max(1, static_cast<int>(std::lround(pixels * sharpness.scale)));
   };
-  const ImageSize window = window_.pixels();
+  const bool finest = sharpness.scale >= resolution_.largestScale();
   FrameRequest request;
+  request.window = window_.pixels();
   request.camera = control_.camera();
   request.options = settings_.options;
-  request.options.size = ImageSize{side(window.width), side(window.height)};
+  request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
   request.spp = sharpness.spp;
+  request.depth = sharpness.depth;
+  request.coarse = !finest;
   request.view = settings_.view;
-  request.withReference = still && settings_.compare != CompareMode::off;
-  request.measureKnobs = still && settings_.measureKnobs;
+  request.withReference = still && finest && settings_.compare != CompareMode::off;
+  request.measureKnobs = still && finest && settings_.measureKnobs;
   request.reloads = reloads_;
   request.edits = edits_;
   request.interruptible = still;
   return request;
+}
+
+// More samples would only blur what is to be compared or looked into.
+bool App::supersamples() const {
+  return settings_.supersample && settings_.compare == CompareMode::off &&
+         settings_.view == DebugView::none && !settings_.measureKnobs;
+}
+
+FrameRequest App::movingRequest(const ImageSize& window) {
+  stillFor_.reset();
+  const double pixels = static_cast<double>(window.width) * window.height;
+  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kBlockMs : 0;
+  return requestFor(resolution_.moving(pixels, waitMs), false);
+}
+
+// The next step at rest; the first one where something else is to be seen than before.
+FrameRequest App::stillRequest(const ImageSize& window) {
+  FrameRequest request = requestFor(resolution_.still(supersamples()), true);
+  if (!stillFor_ || !sameSubject(request, *stillFor_)) {
+    const bool shown = shown_.scene && sameSubject(request, shown_.request);
+    const double scale =
+        shown ? static_cast<double>(shown_.request.options.size->width) / window.width : 0;
+    resolution_.startSharpening(static_cast<double>(window.width) * window.height, scale);
+    stillFor_ = request;
+    request = requestFor(resolution_.still(supersamples()), true);
+  }
+  while (shown_.scene && samePicture(request, shown_.request)) {
+    if (!resolution_.sharpen(supersamples())) {
+      sharp_ = !thread_.busy();
+      break;
+    }
+    request = requestFor(resolution_.still(supersamples()), true);
+  }
+  return request;
+}
+
+// Asks for the rays of the picked pixel again when something else than the viewpoint has changed.
+void App::followRays() {
+  if (settings_.rays.forget) forgetRays();
+  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
+    jump(cameraAside(rays_.rays.packets, rays_.query.camera));
+  }
+  if (!picked_) return;
+  RayQuery query = *picked_;
+  query.options = settings_.options;
+  query.options.size = picked_->options.size;
+  query.reloads = reloads_;
+  query.edits = edits_;
+  if (queried_ && sameRays(query, *queried_)) return;
+  thread_.query(query);
+  queried_ = query;
 }
 
 void App::askForFrame() {
@@ -176,22 +258,11 @@ void App::askForFrame() {
   if (window.width < 1 || window.height < 1) return;
   resolution_.setRate(settings_.rate);
   resolution_.setSpp(settings_.options.spp);
-  const bool still = restSeconds_ >= kSettleSeconds;
-  // More samples would only blur what is to be compared or looked into.
-  const bool refine = settings_.supersample && settings_.compare == CompareMode::off &&
-                      settings_.view == DebugView::none && !settings_.measureKnobs;
-  if (!still || !refine) resolution_.restartSharpening();
-  const double pixels = static_cast<double>(window.width) * window.height;
-  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kBandMs : 0;
+  resolution_.setDepth(settings_.options.depth);
+  // A window that changes its size moves: the first picture for it is to be there at once.
+  if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
   FrameRequest request =
-      requestFor(still ? resolution_.still() : resolution_.moving(pixels, waitMs), still);
-  while (still && shown_.scene && samePicture(request, shown_.request)) {
-    if (!refine || !resolution_.sharpen()) {
-      sharp_ = !thread_.busy();
-      break;
-    }
-    request = requestFor(resolution_.still(), true);
-  }
+      restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
   if (asked_ && samePicture(request, *asked_)) return;
   request.serial = serial_ + 1;
   if (!thread_.ask(request)) return;
@@ -202,7 +273,7 @@ void App::askForFrame() {
 void App::drawPanel() {
   if (!settings_.shown || !shown_.scene) return;
   const PanelSettings before = settings_;
-  const bool edited = panel_.draw(shown_, control_.speed(), settings_, edit_);
+  const bool edited = panel_.draw(shown_, rays_, control_.speed(), settings_, edit_);
   if (edited) {
     ++edits_;
     edit_.settings = editSettings(read_, edit_);
@@ -219,7 +290,11 @@ void App::draw(const std::string& screenshot) {
   if (settings_.compare != CompareMode::off && shown_.scene) {
     drawComparison(shown_, settings_.compare, split_, settings_.shown);
   }
+  if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
+  if (settings_.shown && shown_.scene) {
+    Panel::drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
+  }
   if (!error_.empty()) {
     if (!Panel::drawError(error_)) error_.clear();
   } else if (settings_.shown && messageSeconds_ > 0) {
@@ -232,6 +307,7 @@ void App::draw(const std::string& screenshot) {
   }
   window_.present();
   latency_.presented();
+  news_.presented(std::exchange(newsWait_, false), sharp_);
 }
 
 void App::say(const std::string& message) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/usable_threads.h"
 #include "viewer/camera_control.h"
+#include "viewer/frame_rate.h"
 #include "viewer/latency.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
@@ -22,7 +24,7 @@ struct ViewOptions {
   std::string record;  // folder; empty: none
   bool benchmark = false;
   DebugView view = DebugView::none;
-  double rate = kDefaultRate;  // frames a second to hold in motion
+  double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
 
 class App {
@@ -35,6 +37,7 @@ class App {
   void run();
 
   const LatencyMeter& latency() const { return latency_; }
+  const NewsMeter& news() const { return news_; }
 
  private:
   // app.cpp: the loop
@@ -46,8 +49,12 @@ class App {
   void flyPath(double seconds);
   bool fetchFrame();  // whether there is another picture to show
   void askForFrame();
+  bool supersamples() const;
+  FrameRequest movingRequest(const ImageSize& window);
+  FrameRequest stillRequest(const ImageSize& window);
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void showPicture();
+  void followRays();
   void drawPanel();
   void draw(const std::string& screenshot);
   void say(const std::string& message);
@@ -65,10 +72,13 @@ class App {
   void showNextView();
   void compareNext();
   void startOrStopPath();
+  void pick(const Input::Click& place);
+  void forgetRays();
   void jumpToNumber(std::size_t number);
   void jump(const Camera& camera);
   void obey(const ScriptStep& step);
   std::string command() const;
+  std::string viewCommand() const;
 
   // app_scene.cpp
   void watchSceneFile(double seconds);
@@ -88,18 +98,28 @@ class App {
   CameraControl control_;
   ResolutionControl resolution_;
   LatencyMeter latency_;
+  NewsMeter news_;
   Panel panel_;
   PanelSettings settings_;
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
+  std::optional<UnfinishedFrame> unfinished_;  // lies over it
+  std::optional<FrameRequest> stillFor_;       // what is being sharpened
+  ImageSize windowSize_;
+  FrameRate rate_;
   std::optional<FrameRequest> asked_;
-  int serial_ = 0;  // of the last request
+  std::optional<RayQuery> picked_, queried_;  // by the user; and as last asked for
+  RayPick rays_;                              // the last answer
   // The scene as it was read, as it is to be, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
+  int serial_ = 0;          // of the last request
   double restSeconds_ = 0;  // since something changed
   double undrawnSeconds_ = 0;
-  bool sharp_ = false;  // the frame shown gets no finer
+  int drawAgain_ = 0;      // frames, without waiting: the panel answers to what happened before
+  bool sharp_ = false;     // the frame shown gets no finer
+  bool newsWait_ = false;  // something new is to be presented
+  bool selects_ = false;   // the next answer says which material and light
   std::optional<double> pathTime_;
   std::string message_, error_;
   double messageSeconds_ = 0;  // that it is still to be seen

@@ -66,11 +66,26 @@ void App::handleInput() {
       fail(error.what());
     }
   }
+  if (const auto click = window_.takeClick()) pick(*click);
   if (!input.dropped.empty()) open(input.dropped.front());
 }
 
 // That makes the picture shown.
-std::string App::command() const { return renderCommand(sceneName_, options_.common, shown_); }
+std::string App::command() const {
+  return renderCommand(sceneName_, options_.common, shown_, shown_.options);
+}
+
+// Likewise, but of a view that is not sharp yet as it will be with the samples asked for.
+std::string App::viewCommand() const {
+  RenderOptions options = shown_.options;
+  if (shown_.request.coarse || !shown_.request.interruptible) {
+    const Sharpness full{resolution_.largestScale(), settings_.options.spp, kDepthLimit};
+    options.size = requestFor(full, true).options.size;
+    options.spp = full.spp;
+    options.depth = settings_.options.depth;
+  }
+  return renderCommand(sceneName_, options_.common, shown_, options);
+}
 
 void App::obey(const ScriptStep& step) {
   if (step.resize) window_.resize(*step.resize);
@@ -108,6 +123,7 @@ void App::handleKey(int key) {
          settings_.measureKnobs = true;
          say("measuring what each knob and effect costs");
        }},
+      {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
       // The viewpoint.
       {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
       {GLFW_KEY_F5,
@@ -138,9 +154,11 @@ void App::savePicture() {
 
 void App::printView() {
   if (!shown_.scene) return;
-  std::printf("%s\n", command().c_str());
+  const std::string text = viewCommand();
+  std::printf("%s\n", text.c_str());
   std::fflush(stdout);
-  say("printed the view as options of whit render");
+  window_.setClipboard(text);
+  say("the view as whit render makes it: printed, and in the clipboard");
 }
 
 void App::expose(float step) {
@@ -178,6 +196,26 @@ void App::startOrStopPath() {
   } else {
     pathTime_ = scene().cameraPath.front().time;
   }
+}
+
+void App::pick(const Input::Click& place) {
+  if (!shown_.scene) return;
+  RayQuery query;
+  query.camera = shown_.request.camera;
+  query.options.size = window_.pixels();
+  const auto [x, y] = window_.pixelAt(place);
+  query.x = x, query.y = y;
+  picked_ = query;
+  settings_.rays.lines = true;
+  selects_ = true;
+  if (settings_.tabShown != "scene") settings_.tab = "rays";
+}
+
+void App::forgetRays() {
+  picked_.reset();
+  queried_.reset();
+  rays_ = RayPick();
+  settings_.rays = RayView();
 }
 
 void App::jumpToNumber(std::size_t number) {

@@ -64,6 +64,7 @@ void App::takeScene() {
   if (!options_.common.given.contains("exposure")) {
     settings_.options.exposure = {0, scene().isModel};
   }
+  forgetRays();
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   pathTime_.reset();
   restSeconds_ = 0;

@@ -22,7 +22,7 @@ std::optional<FrameRequest> FrameExchange::begin() {
 
 void FrameExchange::finish(TracedFrame& frame) {
   const bool dropped = !committed() && waiting();
-  tracing_.reset();
+  giveUp();
   if (!dropped) show(frame);
 }
 

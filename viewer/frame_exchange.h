@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "viewer/ray_pick.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
@@ -21,6 +22,10 @@ class FrameExchange {
   bool ask(const FrameRequest& request);
   void load(const SceneChoice& scene) { scene_ = scene; }
   void edit(ShadingEdit edit) { edit_ = std::move(edit); }
+  // Pictures are not given up for it.
+  void query(const RayQuery& query) { query_ = query; }
+  // The newest answer since the last call; null: there is none.
+  std::optional<RayPick> takePick() { return std::exchange(pick_, std::nullopt); }
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
   // A picture is being traced that nothing stops.
@@ -30,18 +35,34 @@ class FrameExchange {
   std::optional<SceneChoice> nextScene() { return std::exchange(scene_, std::nullopt); }
   std::optional<ShadingEdit> nextEdit() { return std::exchange(edit_, std::nullopt); }
   std::optional<FrameRequest> begin();
+  // This one also between two parts of a picture.
+  std::optional<RayQuery> nextQuery() { return std::exchange(query_, std::nullopt); }
+  void answer(RayPick pick) { pick_ = std::move(pick); }
   // Something of the above is there; a picture at rest is to be given up.
   bool waiting() const { return scene_ || edit_ || asked_; }
+  // That, or a question.
+  bool hasWork() const { return waiting() || query_; }
   // The picture begun last is finished, and exchanged for one that may be overwritten.
   void finish(TracedFrame& frame);
-  void giveUp() { tracing_.reset(); }
+  void giveUp() {
+    tracing_.reset();
+    unfinished_.reset();
+  }
   // A picture whose reference is under way, to be taken as well.
   void show(TracedFrame& frame);
+  // What there is of a picture under way; dropped when it is finished or given up.
+  void showUnfinished(UnfinishedFrame frame) { unfinished_ = std::move(frame); }
+  std::optional<UnfinishedFrame> takeUnfinished() {
+    return std::exchange(unfinished_, std::nullopt);
+  }
 
  private:
   std::optional<SceneChoice> scene_;
   std::optional<ShadingEdit> edit_;
   std::optional<FrameRequest> asked_, tracing_;
+  std::optional<RayQuery> query_;
+  std::optional<RayPick> pick_;
+  std::optional<UnfinishedFrame> unfinished_;
   TracedFrame ready_;
   bool fresh_ = false;  // ready_ is still to be taken
 };

@@ -1,8 +1,11 @@
 #include "viewer/frame_tracer.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/image_output.h"
+#include "core/option_table.h"
+#include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
@@ -13,7 +16,8 @@ namespace whit::view {
 namespace {
 
 constexpr double kReferenceBandMs = 80;  // of the reference, each of which is shown
-constexpr int kBandRows = 4;             // bands are multiples of it
+constexpr int kMostRows = 64;
+constexpr int kBlockRows = 4;  // blocks are as high, or a multiple of it
 
 ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
 
@@ -21,6 +25,37 @@ void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
   if (filmSizeOf(film) == size && film.image.window == window) return;
   film.image = Image(size.width, size.height, window);
 }
+
+std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& rays) {
+  std::vector<RayWords> words;
+  for (std::size_t i = 0; i < rays.packets.nodes.size(); ++i) {
+    const RayNode& n = rays.packets.nodes[i];
+    RayWords& w = words.emplace_back();
+    w.met = cli::metText(scene, n);
+    w.medium = cli::mediumName(scene, n.media);
+    if (rays.partsFirstAt(i)) w.parting = cli::partingText(scene, rays, i);
+    for (const LightContribution& light : n.lights) {
+      w.lights.push_back(cli::lightName(scene, light.light));
+    }
+  }
+  return words;
+}
+
+// A renderer's options, for as long as this lives.
+class OptionsInUse {
+ public:
+  OptionsInUse(Renderer& renderer, const RenderOptions& options)
+      : renderer_(renderer), before_(renderer.options()) {
+    renderer_.setOptions(options);
+  }
+  ~OptionsInUse() { renderer_.setOptions(before_); }
+  OptionsInUse(const OptionsInUse&) = delete;
+  OptionsInUse& operator=(const OptionsInUse&) = delete;
+
+ private:
+  Renderer& renderer_;
+  const RenderOptions before_;
+};
 
 }  // namespace
 
@@ -50,6 +85,7 @@ void FrameTracer::edit(ShadingEdit edit) {
 void FrameTracer::applyOptions(const FrameRequest& request) {
   RenderOptions next = request.options;
   next.spp = request.spp;
+  next.depth = std::min(next.depth, request.depth);
   if (renderer_->canSetOptions(next)) {
     renderer_->setOptions(next);
   } else {
@@ -59,13 +95,25 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
   options_ = next;
 }
 
-bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
-                        const Superseded& superseded, const Leaving& leaving,
-                        const Publish& publish) {
+RayPick FrameTracer::explain(const RayQuery& query) {
+  RenderOptions options = renderer_->options();
+  takeOver(query.options, Rebuild::tables, options);
+  const ImageSize size = options.size.value();
+  Film film;
+  sizeFilm(film, size, Crop{query.x, query.y, query.x + 1, query.y + 1});
+  RayPick pick{scene_, query, {}, {}, {}};
+  const OptionsInUse used(*renderer_, options);
+  pick.rays = cli::explainRays(*renderer_, query.camera, film, query.x, query.y);
+  pick.words = wordsFor(scene_->scene, pick.rays);
+  pick.lines = linesOf(pick.rays.packets);
+  return pick;
+}
+
+bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls) {
   applyOptions(request);
   frame.comparison.reset();
   frame.costs.clear();
-  if (!tracePicture(request, frame, superseded, leaving)) return false;
+  if (!tracePicture(request, frame, calls)) return false;
   frame.scene = scene_;
   frame.request = request;
   frame.request.options.exposure = options_.exposure;
@@ -77,16 +125,35 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame,
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
-  if (request.measureKnobs) {
-    sizeFilm(band_, request.options.size.value(), frame.film.image.window);
-    frame.costs = measureKnobs(*renderer_, options_, request.camera, band_, superseded);
-    if (superseded()) return false;
-  }
-  return !request.withReference || traceReference(request, frame, superseded, publish);
+  if (request.measureKnobs && !measure(request, frame, calls)) return false;
+  return !request.withReference || traceReference(request, frame, calls);
+}
+
+bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
+                          const TraceCalls& calls) {
+  const ImageSize whole = request.options.size.value();
+  // In one piece, as those that are measured: blocks have taken longer.
+  constexpr int kCoarser = 8;
+  const ImageSize probe{std::max(whole.width / kCoarser, 1), std::max(whole.height / kCoarser, 1)};
+  sizeFilm(band_, probe, Crop{0, 0, probe.width, probe.height});
+  renderer_->render(request.camera, band_);
+  const double msPerPixel = renderer_->render(request.camera, band_).frameMs /
+                            static_cast<double>(band_.image.pixels.size());
+  const ImageSize size = measuredSize(whole, msPerPixel);
+  sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
+  const double scale = static_cast<double>(whole.width) * whole.height /
+                       (static_cast<double>(size.width) * size.height);
+  const auto show = [&](const std::vector<KnobCost>& sofar, std::size_t all) {
+    const double done = static_cast<double>(sofar.size()) / static_cast<double>(all);
+    calls.showUnfinished({request, {}, done, sofar});
+  };
+  frame.costs =
+      measureKnobs(*renderer_, options_, request.camera, band_, scale, {calls.superseded, show});
+  return !calls.superseded();
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
-                               const Superseded& superseded, const Leaving& leaving) {
+                               const TraceCalls& calls) {
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
   frame.legend.clear();
@@ -96,11 +163,17 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
     frame.legend = std::move(debug.legend);
     return true;
   }
+  const bool deeper = !learnedFor_ || options_.depth > learnedFor_->depth;
+  constexpr double kDeeperCosts = 8;  // times as much, until it is known
+  if (deeper) msPerSample_ *= kDeeperCosts;
+  if (deeper || !sameSubject(request, *learnedFor_)) costs_.clear();
+  learnedFor_ = request;
+  learnedFor_->depth = options_.depth;
   const double expectedMs = msPerSample_ * samplesOf(request);
-  if (request.interruptible && expectedMs > kBandMs) {
-    if (!traceInBands(request.camera, frame, kBandMs, superseded)) return false;
-  } else if (expectedMs == 0 || expectedMs > kLongBandMs) {
-    if (!traceInBands(request.camera, frame, kLongBandMs, leaving)) return false;
+  if (request.interruptible && expectedMs > kBlockMs) {
+    if (!traceInBlocks(request, frame, kBlockMs, calls.superseded, calls)) return false;
+  } else if (expectedMs == 0 || expectedMs > kLongBlockMs) {
+    if (!traceInBlocks(request, frame, kLongBlockMs, calls.leaving, calls)) return false;
   } else {
     frame.stats = renderer_->render(request.camera, frame.film);
   }
@@ -108,32 +181,77 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   return true;
 }
 
-bool FrameTracer::traceInBands(const Camera& camera, TracedFrame& frame, double bandMs,
-                               const std::function<bool()>& givenUp) {
+// Whether that part of a picture takes no longer. Where dear pixels are is known from a coarser
+// picture, or they are taken to be anywhere.
+bool FrameTracer::fits(double blockMs, const ImageSize& size, const Crop& part) {
+  constexpr double kUneven = 2;   // dear pixels over the mean, of many
+  constexpr double kShortMs = 1;  // by the mean: what is shorter is not worth a block of its own
+  const double known = costs_.highest(size, part), mean = msPerSample_;
+  const double samples =
+      static_cast<double>(part.x1 - part.x0) * (part.y1 - part.y0) * options_.spp;
+  if (mean == 0)
+    return part.y1 - part.y0 <= kBlockRows;  // the first of all, which is coarse and flat
+  return (known > 0 ? known : kUneven * mean) * samples <= blockMs || mean * samples <= kShortMs;
+}
+
+// Row by row: some rows of all columns, or where those would take too long a part of few rows, wide
+// enough for all workers.
+Crop FrameTracer::nextBlock(const ImageSize& size, const Crop& last, double blockMs) {
+  const int narrowest = options_.tile * renderer_->machine().threads;
+  const auto crop = [&](int x, int y, int width, int height) {
+    return Crop{x, y, std::min(x + width, size.width), std::min(y + height, size.height)};
+  };
+  const auto widen = [&](Crop block) {
+    for (Crop wider = block; block.x1 < size.width; block = wider) {
+      wider.x1 = std::min(block.x1 + narrowest, size.width);
+      if (!fits(blockMs, size, wider)) break;
+    }
+    return block;
+  };
+  const bool rowGoesOn = last.x1 > 0 && last.x1 < size.width;
+  if (rowGoesOn) return widen(crop(last.x1, last.y0, narrowest, last.y1 - last.y0));
+  const int y = last.y1;
+  int rows = kBlockRows;
+  if (!fits(blockMs, size, crop(0, y, size.width, rows))) {
+    while (rows > 1 && !fits(blockMs, size, crop(0, y, size.width, rows))) rows /= 2;
+    return widen(crop(0, y, narrowest, rows));
+  }
+  while (rows < kMostRows && fits(blockMs, size, crop(0, y, size.width, 2 * rows))) rows *= 2;
+  return crop(0, y, size.width, rows);
+}
+
+bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
+                                const std::function<bool()>& givenUp, const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
   sizeDisplay(frame.film);
-  const auto rowsIn = [&](double msPerRow) {
-    const double rows = std::min(bandMs / msPerRow, static_cast<double>(size.height));
-    return std::max(static_cast<int>(rows) / kBandRows * kBandRows, kBandRows);
-  };
-  int rows = msPerSample_ > 0 ? rowsIn(msPerSample_ * size.width * options_.spp) : kBandRows;
+  std::fill(frame.film.display.rgba.begin(), frame.film.display.rgba.end(), std::uint8_t{0});
   frame.stats = FrameStats();
-  for (int y = 0, end = 0; y < size.height; y = end) {
+  constexpr double kLeastMs = 1e-9;  // of a sample
+  double leastMs = std::numeric_limits<double>::infinity();
+  Stopwatch sinceShown;
+  for (Crop block; block.y1 < size.height || block.x1 < size.width;) {
     if (givenUp()) return false;
-    end = std::min(y + rows, size.height);
-    sizeFilm(band_, size, Crop{0, y, size.width, end});
-    const FrameStats stats = renderer_->render(camera, band_);
-    if (msPerSample_ == 0) rows = rowsIn(std::max(stats.frameMs / (end - y), 1e-3));
+    block = nextBlock(size, block, blockMs);
+    sizeFilm(band_, size, block);
+    const FrameStats stats = renderer_->render(request.camera, band_);
     place(band_, frame.film);
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;
     frame.stats.workers = stats.workers;
+    const double samples = static_cast<double>(band_.image.pixels.size()) * options_.spp;
+    // Without what any block takes, however small.
+    leastMs = std::min(leastMs, stats.frameMs);
+    costs_.learn(size, block, std::max((stats.frameMs - leastMs) / samples, kLeastMs));
+    if (sinceShown.ms() < kUnfinishedMs) continue;
+    sinceShown = Stopwatch();
+    const double done = static_cast<double>(block.y0) / size.height;
+    calls.showUnfinished({request, frame.film.display, done, {}});
   }
   return true;
 }
 
 bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame,
-                                 const Superseded& superseded, const Publish& publish) {
+                                 const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
   Comparison& comparison = frame.comparison.emplace();
   sizeFilm(comparison.reference, size, Crop{0, 0, size.width, size.height});
@@ -148,8 +266,8 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     comparison.referenceMs += ms;
     comparison.rows = end;
     msPerRow = std::max(ms / (end - y), 1e-3);
-    if (superseded()) return false;
-    publish(frame);
+    if (calls.superseded()) return false;
+    calls.publish(frame);
   }
   finishComparison(frame.film, options_.exposure.ev, options_.toneCurve, comparison);
   return true;

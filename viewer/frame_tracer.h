@@ -4,17 +4,33 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "viewer/cost_map.h"
+#include "viewer/ray_pick.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
 
-// Bands of interruptible frames are meant to take so long: what a new request waits at most.
-inline constexpr double kBandMs = 5;
+// Blocks of interruptible frames are meant to take so long: what a new request waits at most.
+inline constexpr double kBlockMs = 10;
 // Of frames in motion, which are shown whatever is wanted next, those that take longer are traced
-// in bands as well, of so long: what closing the window waits at most.
-inline constexpr double kLongBandMs = 500;
+// in blocks as well, of so long: what closing the window waits at most.
+inline constexpr double kLongBlockMs = 50;
+// Between two sights of a picture under way.
+inline constexpr double kUnfinishedMs = 25;
+
+struct TraceCalls {
+  // Asked between blocks of interruptible frames: something else is wanted.
+  std::function<bool()> superseded;
+  // Asked between blocks of the others: nobody will look any more.
+  std::function<bool()> leaving;
+  // Called with frames whose reference is under way.
+  std::function<void(const TracedFrame&)> publish;
+  // Called every kUnfinishedMs while a frame is traced in blocks, and after each option measured.
+  std::function<void(UnfinishedFrame)> showUnfinished;
+};
 
 class FrameTracer {
  public:
@@ -26,26 +42,25 @@ class FrameTracer {
   // Changes materials and lights; nothing when the scene is another one by now.
   void edit(ShadingEdit edit);
 
-  // Asked between bands of rows of interruptible frames: something else is wanted.
-  using Superseded = std::function<bool()>;
-  // Asked between bands of the others: nobody will look any more.
-  using Leaving = std::function<bool()>;
-  // Called with frames whose reference is under way.
-  using Publish = std::function<void(const TracedFrame&)>;
+  // The rays of a pixel. Also called from what trace() calls, between blocks; leaves the renderer's
+  // options what they were.
+  RayPick explain(const RayQuery& query);
+
   // False: given up, and `frame` is not to be shown. Throws when the options ask for what the
   // machine does not have; the old ones then stay.
-  bool trace(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded,
-             const Leaving& leaving, const Publish& publish);
+  bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
   void applyOptions(const FrameRequest& request);
-  bool tracePicture(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded,
-                    const Leaving& leaving);
-  // Bands are meant to take `bandMs`; false when `givenUp` said so between two of them.
-  bool traceInBands(const Camera& camera, TracedFrame& frame, double bandMs,
-                    const std::function<bool()>& givenUp);
-  bool traceReference(const FrameRequest& request, TracedFrame& frame, const Superseded& superseded,
-                      const Publish& publish);
+  bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
+  // Blocks are meant to take `blockMs`; false when `givenUp` said so between two of them.
+  bool traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
+                     const std::function<bool()>& givenUp, const TraceCalls& calls);
+  // The one after `last`, which is empty before the first.
+  Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs);
+  bool fits(double blockMs, const ImageSize& size, const Crop& part);
+  bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
+  bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
   std::shared_ptr<cli::OpenScene> scene_;
@@ -53,7 +68,9 @@ class FrameTracer {
   std::unique_ptr<Renderer> renderer_;
   std::vector<std::string> editSettings_;  // of the scene as it is now
   Film band_;
-  double msPerSample_ = 0;  // 0: nothing traced yet
+  double msPerSample_ = 0;                  // 0: nothing traced yet
+  CostMap costs_;                           // of samples, ms
+  std::optional<FrameRequest> learnedFor_;  // that both were last learned from
 };
 
 }  // namespace whit::view

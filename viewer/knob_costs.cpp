@@ -22,9 +22,7 @@ std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
 // Whether nothing but options can make the two cost different amounts.
 bool comparable(const FrameRequest& a, FrameRequest b) {
   b.options = a.options;
-  b.spp = a.spp;
-  b.measureKnobs = a.measureKnobs;
-  return samePicture(a, b);
+  return sameSubject(a, b);
 }
 
 void append(std::string& list, const std::string& word) {
@@ -41,7 +39,7 @@ void KnobCosts::learn(const TracedFrame& frame) {
   } else if (!comparable(measuredFor_, request)) {
     measured_.clear();
   }
-  if (!request.interruptible || request.spp != request.options.spp) return;
+  if (!request.interruptible || request.coarse || request.spp != request.options.spp) return;
   const auto before = std::exchange(baseline_, Baseline{request, frame.stats});
   if (!before || before->request.options.size != request.options.size ||
       !comparable(before->request, request)) {
@@ -59,6 +57,11 @@ void KnobCosts::learn(const TracedFrame& frame) {
   if (name.empty()) return;
   lastChanged_ = name;
   changes_[name] = change;
+}
+
+void KnobCosts::learn(const UnfinishedFrame& frame) {
+  measured_ = frame.costs;
+  measuredFor_ = frame.request;
 }
 
 const KnobCost* KnobCosts::measured(const std::string& name) const {

@@ -20,6 +20,8 @@ class KnobCosts {
   // ask for, can be compared: others are passed over. A change is noticed when nothing but options
   // differs from the last such frame.
   void learn(const TracedFrame& frame);
+  // Takes over what has been measured so far.
+  void learn(const UnfinishedFrame& frame);
 
   // The last change of each option, by its name; of several at once, "a, b".
   const std::map<std::string, KnobChange>& changes() const { return changes_; }
@@ -27,6 +29,7 @@ class KnobCosts {
   // What was measured of the view and scene that the last frame shows; null where there is none of
   // that name.
   const KnobCost* measured(const std::string& name) const;
+  const std::vector<KnobCost>& measured() const { return measured_; }
 
  private:
   struct Baseline {

@@ -1,15 +1,17 @@
 #include "viewer/knob_measurement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "core/formatted.h"
 #include "core/option_table.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr int kTurns = 3;
+constexpr int kTurns = 5;  // all of one above all of the other: by chance once in 126
 
 struct Candidate {
   std::string name, other;
@@ -56,25 +58,60 @@ class Turns {
   double longestMs_ = 0;
 };
 
+// As of a frame that is so many times as large.
+FrameStats scaled(FrameStats stats, double scale) {
+  stats.frameMs *= scale;
+  for (RayTally& tally : stats.meter.tally) {
+    tally.rays = static_cast<std::uint64_t>(std::llround(static_cast<double>(tally.rays) * scale));
+  }
+  return stats;
+}
+
 }  // namespace
 
+std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs) {
+  std::erase_if(costs, [](const KnobCost& cost) { return !cost.significant(); });
+  std::stable_sort(costs.begin(), costs.end(), [](const KnobCost& a, const KnobCost& b) {
+    return std::abs(a.ms()) > std::abs(b.ms());
+  });
+  return costs;
+}
+
+std::string costText(const KnobCost& cost) {
+  const double ms = std::abs(cost.ms());
+  return formatted("%s would be %.*f ms %s", cost.other.c_str(), ms < 10 ? 1 : 0, ms,
+                   cost.ms() > 0 ? "faster" : "slower");
+}
+
+ImageSize measuredSize(const ImageSize& window, double msPerPixel) {
+  const double ms = msPerPixel * window.width * window.height;
+  const double side = ms > kMeasuredMs ? std::sqrt(kMeasuredMs / ms) : 1;
+  const auto scaled = [&](int pixels) {
+    return std::max(static_cast<int>(std::lround(pixels * side)), 1);
+  };
+  return {scaled(window.width), scaled(window.height)};
+}
+
 std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& options,
-                                   const Camera& camera, Film& film,
-                                   const std::function<bool()>& superseded) {
+                                   const Camera& camera, Film& film, double scale,
+                                   const MeasureCalls& calls) {
   std::vector<KnobCost> costs;
-  for (const Candidate& candidate : candidatesOf(renderer, options)) {
+  const std::vector<Candidate> candidates = candidatesOf(renderer, options);
+  for (const Candidate& candidate : candidates) {
     Turns now, then;
     for (int turn = 0; turn < kTurns; ++turn) {
-      if (superseded()) return {};
+      if (calls.superseded()) return {};
       then.take(renderer, candidate.options, camera, film);
-      if (superseded()) {
+      if (calls.superseded()) {
         renderer.setOptions(options);
         return {};
       }
       now.take(renderer, options, camera, film);
     }
-    costs.push_back({candidate.name, candidate.other, now.quickest, then.quickest,
-                     std::max(now.spreadMs(), then.spreadMs())});
+    costs.push_back({candidate.name, candidate.other, scaled(now.quickest, scale),
+                     scaled(then.quickest, scale),
+                     scale * std::max(now.spreadMs(), then.spreadMs())});
+    calls.show(costs, candidates.size());
   }
   return costs;
 }

@@ -78,13 +78,10 @@ void drawCost(const KnobCosts& costs, const std::string& name) {
   const KnobCost* measured = costs.measured(name);
   const auto found = costs.changes().find(name);
   if (!measured && found == costs.changes().end()) return;
-  ImGui::SameLine();
   if (measured) {
-    if (measured->significant()) {
-      ImGui::TextDisabled("costs %.2f ms", measured->ms());
-    } else {
-      ImGui::TextDisabled("0 +- %.2f ms", measured->spreadMs);
-    }
+    if (!measured->significant()) return;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%+.1f ms", measured->ms());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s: %+.0f rays, against %s", name.c_str(), measured->rays(),
                         measured->other.c_str());
@@ -92,10 +89,21 @@ void drawCost(const KnobCosts& costs, const std::string& name) {
     return;
   }
   const KnobChange& change = found->second;
+  ImGui::SameLine();
   ImGui::TextDisabled("%+.2f ms", change.after.frameMs - change.before.frameMs);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s: from %s to %s", name.c_str(), change.from.c_str(), change.to.c_str());
   }
+}
+
+void drawMeasured(const KnobCosts& costs) {
+  if (costs.measured().empty()) return;
+  const std::vector<KnobCost> told = toldFromNoise(costs.measured());
+  for (const KnobCost& cost : told) {
+    ImGui::BulletText("%s: %s", cost.name.c_str(), costText(cost).c_str());
+  }
+  const std::size_t others = costs.measured().size() - told.size();
+  if (others > 0) ImGui::TextDisabled("%zu more make no difference above the noise", others);
 }
 
 void drawKnobs(RenderOptions& options, const KnobCosts& costs) {

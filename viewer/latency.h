@@ -1,6 +1,8 @@
-// The latency of the viewer: how long after a key or a drag the picture has changed.
+// The latency of the viewer: how long after a key or a drag the picture has changed, and how long
+// it ever stays the same while there is something to come.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/stopwatch.h"
@@ -43,6 +45,22 @@ class LatencyMeter {
   Sample now_;
   Stopwatch since_;  // the change
   std::vector<Sample> samples_;
+};
+
+class NewsMeter {
+ public:
+  // `fresh`: with something that was not there before. `sharp`: nothing more is to come.
+  void presented(bool fresh, bool sharp) {
+    if (fresh && waits_) longestMs_ = std::max(longestMs_, since_.ms());
+    if (fresh || !waits_) since_ = Stopwatch();
+    waits_ = !sharp;
+  }
+  double longestMs() const { return longestMs_; }
+
+ private:
+  bool waits_ = false;
+  Stopwatch since_;  // something new was presented
+  double longestMs_ = 0;
 };
 
 }  // namespace whit::view

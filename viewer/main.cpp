@@ -1,6 +1,7 @@
 // whit-view: the viewer.
 #include <cstdio>
 
+#include "app/completion.h"
 #include "app/man_page.h"
 #include "app/open_scene.h"
 #include "app/program.h"
@@ -25,7 +26,8 @@ cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scen
   cli::OptionList list;
   list.group("Viewing");
   list.value({"rate", "N", kLeastRate, kLargestRate},
-             "frames a second to hold while something moves", options.rate);
+             "frames a second to hold while something moves (default: 60, on up to four cores 30)",
+             options.rate);
   list.value({"view", "none|depth|normals|albedo|rays|cost|effects|occupancy"},
              "what to show instead of the picture", options.view);
   list.flag("benchmark", "fly the camera path and print what tracing and displaying took",
@@ -64,9 +66,12 @@ const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced 
 
 void showManual(const cli::OptionList& list) {
   std::fputs(cli::manOpening(kPage).c_str(), stdout);
-  std::fputs(cli::manTerms(
-                 "OPTIONS",
-                 {{"--help", "the options"}, {"--version", "the version"}, {"--man", "this page"}})
+  std::fputs(cli::manTerms("OPTIONS", {{"--help", "the options of every day"},
+                                       {"--help-all", "all options"},
+                                       {"--version", "the version"},
+                                       {"--man", "this page"},
+                                       {"--completion SHELL",
+                                        "what bash, zsh or fish completes command lines by"}})
                  .c_str(),
              stdout);
   std::puts(".PP");
@@ -87,6 +92,13 @@ int run(const std::vector<std::string>& words) {
   }
   if (words == std::vector<std::string>{"--version"}) {
     std::printf("whit-view %s\n", versionText());
+    return 0;
+  }
+  if (words.size() == 2 && words[0] == "--completion") {
+    const cli::Shell shell = cli::shellNamed(words[1]);
+    std::fputs(cli::completionOpening(shell, kPage.name, {}).c_str(), stdout);
+    std::fputs(cli::completionOptions(shell, kPage.name, "", list).c_str(), stdout);
+    std::fputs(cli::completionClosing(shell, kPage.name).c_str(), stdout);
     return 0;
   }
   if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;

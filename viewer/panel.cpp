@@ -87,15 +87,22 @@ bool drawMaterial(Material& m) {
   return changed;
 }
 
-// A foldable node for each item, under its name or number. Whether something was changed.
+// A foldable node for each item, under its name or number; `selected` is unfolded and scrolled to,
+// once. Whether something was changed.
 template <typename Item, typename Draw>
-bool drawItems(std::vector<Item>& items, const char* kind, const Draw& draw) {
+bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected,
+               const Draw& draw) {
   bool changed = false;
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string number = std::string(kind) + " " + std::to_string(i + 1);
     const std::string name = items[i].name.empty() ? number : items[i].name;
     ImGui::PushID(static_cast<int>(i));
+    if (i == selected) {
+      ImGui::SetNextItemOpen(true);
+      ImGui::SetScrollHereY(0);
+      selected = kNoCounterpart;
+    }
     if (ImGui::TreeNode(kind, "%s", name.c_str())) {
       changed |= draw(items[i]);
       ImGui::TreePop();
@@ -266,12 +273,35 @@ void drawFindings(const TracedFrame& frame, bool heat) {
   }
 }
 
+// In sixteenths, reduced; all scales are some.
+std::string fraction(double scale) {
+  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
+  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
+  return below == 1 ? "full" : formatted("%d/%d", above, below);
+}
+
 }  // namespace
+
+std::string sharpnessText(const FrameRequest& request) {
+  const int window = std::max(request.window.width, 1);
+  const int width = request.options.size ? request.options.size->width : window;
+  std::string text = fraction(static_cast<double>(width) / window);
+  if (request.depth < request.options.depth) text += formatted(", depth %d", request.depth);
+  if (request.spp != 1) text += formatted(", %d samples", request.spp);
+  return text;
+}
 
 void Panel::remember(const TracedFrame& frame) {
   costs_.learn(frame);
+  if (frame.request.measureKnobs) measured_ = 0;
   if (frame.request.interruptible) return;
   graph_.add(frame.stats.frameMs);
+}
+
+void Panel::remember(const UnfinishedFrame& frame) {
+  if (!frame.request.measureKnobs || frame.costs.empty()) return;
+  measured_ = frame.done;
+  costs_.learn(frame);
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -287,16 +317,23 @@ void Panel::drawTimes(const TracedFrame& frame) const {
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
 }
 
-bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const {
+bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
+                     ShadingEdit& scene) const {
   bool edited = false;
   const std::string chosen = std::exchange(settings.tab, std::string());
   const auto tab = [&](const char* name, auto&& draw) {
     const bool choose = chosen == name;
     if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
+    settings.tabShown = name;
+    // What is in a tab scrolls, not the tabs.
+    const float line = ImGui::GetFontSize(), top = ImGui::GetCursorScreenPos().y;
+    const float room = ImGui::GetIO().DisplaySize.y - top - 2 * line;
+    ImGui::BeginChild("tab", ImVec2(0, std::max(room, 4 * line)));
     draw();
+    ImGui::EndChild();
     ImGui::EndTabItem();
   };
-  if (!ImGui::BeginTabBar("tabs")) return false;
+  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return false;
   tab("frame", [&] {
     drawStages(frame.stats);
     drawRays(frame.stats);
@@ -306,46 +343,69 @@ bool Panel::drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingE
     drawView(frame, settings);
   });
   tab("knobs", [&] {
-    drawKnobs(settings.options, costs_);
-    ImGui::BeginDisabled(settings.measureKnobs);
-    if (ImGui::Button(settings.measureKnobs ? "measuring" : "measure what each costs (M)")) {
+    if (settings.measureKnobs) {
+      ImGui::ProgressBar(static_cast<float>(measured_), ImVec2(-1, 0),
+                         formatted("measuring: %.0f %%", 100 * measured_).c_str());
+    } else if (ImGui::Button("measure what each costs (M)")) {
       settings.measureKnobs = true;
     }
-    ImGui::EndDisabled();
+    drawMeasured(costs_);
+    drawKnobs(settings.options, costs_);
     drawLastChange(costs_);
   });
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
+  tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     ImGui::TextDisabled("lights");
-    edited |= drawItems(scene.lights, "light", drawLight);
+    edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
     ImGui::TextDisabled("materials");
-    edited |= drawItems(scene.materials, "material", drawMaterial);
+    edited |= drawItems(scene.materials, "material", settings.rays.material, drawMaterial);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();
   return edited;
 }
 
-bool Panel::draw(const TracedFrame& frame, double speed, PanelSettings& settings,
-                 ShadingEdit& scene) const {
-  constexpr float kMargin = 10, kWidth = 29;  // pixels; heights of the font
+bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
+                 PanelSettings& settings, ShadingEdit& scene) const {
+  constexpr float kMargin = 10, kWidth = 32;  // pixels; heights of the font
+  constexpr float kFolds = 800,
+                  kUsualFont = 13;  // the window's width, where the font has that height
   const float width = ImGui::GetFontSize() * kWidth;
   const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  // Where it would hide most of the picture it begins as its title.
-  ImGui::SetNextWindowCollapsed(ImGui::GetIO().DisplaySize.x < 1.5f * width,
-                                ImGuiCond_FirstUseEver);
+  // Where it would hide much of the picture it folds into its title, until the user unfolds it.
+  const bool narrow = ImGui::GetIO().DisplaySize.x < kFolds * ImGui::GetFontSize() / kUsualFont;
+  if (std::exchange(settings.narrow, narrow) != narrow) ImGui::SetNextWindowCollapsed(narrow);
   bool edited = false;
   if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
     graph_.draw(settings.rate);
     ImGui::Text("speed %.3g units a second", speed);
-    edited = drawTabs(frame, settings, scene);
+    edited = drawTabs(frame, pick, settings, scene);
   }
   ImGui::End();
   return edited;
+}
+
+void Panel::drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
+  constexpr float kMargin = 10, kPadding = 4;
+  std::string text = sharpnessText(frame.request);
+  if (rate > 0) text += formatted(", %.0f frames/s", rate);
+  if (next) {
+    text += formatted("; next %s: %.0f %%", sharpnessText(next->request).c_str(), 100 * next->done);
+  }
+  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+  drawLabel(ImVec2(window.x - kMargin - size.x, window.y - kMargin - kPadding - size.y),
+            text.c_str(), kPadding);
+  if (frame.request.view == DebugView::none) return;
+  text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
+  if (!frame.legend.empty()) text += ": " + frame.legend;
+  drawLabel(ImVec2(window.x - kMargin - ImGui::CalcTextSize(text.c_str()).x,
+                   window.y - kMargin - 3 * kPadding - 2 * size.y),
+            text.c_str(), kPadding);
 }
 
 void Panel::drawMessage(const std::string& message) {

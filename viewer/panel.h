@@ -7,19 +7,23 @@
 #include <string>
 
 #include "viewer/knob_costs.h"
+#include "viewer/ray_panel.h"
 
 namespace whit::view {
 
 // Against the reference: not at all, side by side, or as a map of the differences.
 enum class CompareMode { off, split, heatMap };
 
-inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects", "scene", "keys"};
+inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
+                                       "rays",  "scene",   "keys"};
 
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
 
 // What the user can change here.
 struct PanelSettings {
   bool shown = true;
+  bool narrow = false;      // the window is, and the panel was folded for it
+  std::string tabShown;     // of kPanelTabs
   std::string tab;          // of kPanelTabs, to be turned to by the next frame; empty: it stays
   double rate = 60;         // frames a second to hold
   bool supersample = true;  // at rest
@@ -27,6 +31,7 @@ struct PanelSettings {
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
   bool measureKnobs = false;  // until it is done
+  RayView rays;
 };
 
 // What the last frames in motion took, as a graph.
@@ -42,13 +47,20 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
+// "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
+std::string sharpnessText(const FrameRequest& request);
+
 class Panel {
  public:
   void remember(const TracedFrame& frame);
+  void remember(const UnfinishedFrame& frame);
   // Between ImGui's NewFrame and Render. `frame` must hold a picture. Returns whether the scene was
   // edited.
-  bool draw(const TracedFrame& frame, double speed, PanelSettings& settings,
+  bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
             ShadingEdit& scene) const;
+  // In a corner of the window, what is on screen, how fast it comes, what is on its way, and what
+  // the colors of a view stand for.
+  static void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
   // Lines at the bottom of the window: an error stays until it is clicked away.
   static void drawMessage(const std::string& message);
   // Returns false when it was clicked away.
@@ -56,9 +68,11 @@ class Panel {
 
  private:
   void drawTimes(const TracedFrame& frame) const;
-  bool drawTabs(const TracedFrame& frame, PanelSettings& settings, ShadingEdit& scene) const;
+  bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
+                ShadingEdit& scene) const;
 
   KnobCosts costs_;
+  double measured_ = 0;  // share of the options, while they are measured
   FrameGraph graph_;
 };
 
@@ -70,6 +84,9 @@ void drawKnobs(RenderOptions& options, const KnobCosts& costs);
 // Beside the control of that knob or effect: what it costs, as measured, or else what its last
 // change has done; nothing where neither is known.
 void drawCost(const KnobCosts& costs, const std::string& name);
+
+// What was measured and can be told from noise, the largest first.
+void drawMeasured(const KnobCosts& costs);
 
 // Those that it has in the picture's tab: exposure and tone curve.
 void drawDisplay(RenderOptions& options);

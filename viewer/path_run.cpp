@@ -78,6 +78,24 @@ void measureLatency(const ViewOptions& options, const std::shared_ptr<cli::OpenS
   printLatency(app.latency());
 }
 
+// From rest the window becomes another one, then the view.
+constexpr const char* kChangesScript = R"(
+  wait 2 seconds
+  key F
+  wait 4 seconds
+  key F
+  wait 4 seconds
+  key 1
+  wait 4 seconds
+)";
+
+void measureNews(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+                 Window& window) {
+  App app(options, scene, ScriptPlayer(parseScript(kChangesScript, "benchmark")), window);
+  app.run();
+  std::printf("  at rest    something new every %8.2f ms at least\n", app.news().longestMs());
+}
+
 void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window& window) {
   RenderOptions settled = options.common.render;
   Renderer renderer(open.scene, settled);
@@ -112,6 +130,7 @@ void runBenchmark(const ViewOptions& options, const std::shared_ptr<cli::OpenSce
   window.setVsync(false);
   flyBenchmark(options, *scene, window);
   measureLatency(options, scene, window);
+  measureNews(options, scene, window);
 }
 
 void recordPath(const ViewOptions& options, const cli::OpenScene& open, Window& window) {

@@ -43,9 +43,23 @@ void RenderThread::edit(ShadingEdit edit) {
   post([&] { return exchange_.edit(std::move(edit)), true; });
 }
 
+void RenderThread::query(const RayQuery& query) {
+  post([&] { return exchange_.query(query), true; });
+}
+
+std::optional<RayPick> RenderThread::takePick() {
+  const std::lock_guard lock(mutex_);
+  return exchange_.takePick();
+}
+
 bool RenderThread::take(TracedFrame& frame) {
   const std::lock_guard lock(mutex_);
   return exchange_.take(frame);
+}
+
+std::optional<UnfinishedFrame> RenderThread::takeUnfinished() {
+  const std::lock_guard lock(mutex_);
+  return exchange_.takeUnfinished();
 }
 
 std::string RenderThread::takeError() {
@@ -76,8 +90,8 @@ bool RenderThread::leaving() const {
 void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    busy_ = exchange_.waiting();
-    wake_.wait(lock, [this] { return exchange_.waiting() || quit_; });
+    busy_ = exchange_.hasWork();
+    wake_.wait(lock, [this] { return exchange_.hasWork() || quit_; });
     if (quit_) return;
     try {
       serve(lock);
@@ -104,13 +118,28 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
     unlocked([&] { tracer_.edit(std::move(*edit)); });
   } else if (const auto request = exchange_.begin()) {
     unlocked([&] { trace(*request); });
+  } else {
+    unlocked([&] { answerQuery(); });
   }
 }
 
+TraceCalls RenderThread::calls() {
+  TraceCalls calls;
+  calls.superseded = [this] {
+    answerQuery();
+    return superseded();
+  };
+  calls.leaving = [this] {
+    answerQuery();
+    return leaving();
+  };
+  calls.publish = [this](const TracedFrame& frame) { publish(frame); };
+  calls.showUnfinished = [this](UnfinishedFrame frame) { publish(std::move(frame)); };
+  return calls;
+}
+
 void RenderThread::trace(const FrameRequest& request) {
-  const bool complete = tracer_.trace(
-      request, back_, [this] { return superseded(); }, [this] { return leaving(); },
-      [this](const TracedFrame& frame) { publish(frame); });
+  const bool complete = tracer_.trace(request, back_, calls());
   const std::lock_guard lock(mutex_);
   if (complete) {
     exchange_.finish(back_);
@@ -119,11 +148,41 @@ void RenderThread::trace(const FrameRequest& request) {
   }
 }
 
+void RenderThread::answerQuery() {
+  std::optional<RayQuery> query;
+  {
+    const std::lock_guard lock(mutex_);
+    query = exchange_.nextQuery();
+  }
+  if (!query) return;
+  std::optional<RayPick> pick;
+  std::string error;
+  try {
+    pick = tracer_.explain(*query);
+  } catch (const std::exception& e) {
+    error = e.what();  // the picture under way goes on
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (pick) exchange_.answer(std::move(*pick));
+    if (!error.empty()) error_ = error;
+  }
+  onChange_();
+}
+
 void RenderThread::publish(const TracedFrame& frame) {
   TracedFrame copy = frame;
   {
     const std::lock_guard lock(mutex_);
     exchange_.show(copy);
+  }
+  onChange_();
+}
+
+void RenderThread::publish(UnfinishedFrame frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    exchange_.showUnfinished(std::move(frame));
   }
   onChange_();
 }

@@ -28,8 +28,13 @@ class RenderThread {
   void load(const SceneChoice& scene);
   // Changes materials and lights, between frames; nothing when the scene is another one by then.
   void edit(ShadingEdit edit);
+  // Follows the rays of a pixel, before the next frame or between two bands of this one.
+  void query(const RayQuery& query);
+  std::optional<RayPick> takePick();
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
+  // What there is of the one that is being traced; null: nothing new.
+  std::optional<UnfinishedFrame> takeUnfinished();
   std::string takeError();  // empty: none
   bool busy() const;        // tracing, or about to
   bool committed() const;   // tracing a picture that nothing stops
@@ -39,7 +44,10 @@ class RenderThread {
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);
+  TraceCalls calls();
   void publish(const TracedFrame& frame);
+  void publish(UnfinishedFrame frame);
+  void answerQuery();
   bool superseded() const;
   bool leaving() const;
 

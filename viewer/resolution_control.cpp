@@ -1,8 +1,8 @@
 #include "viewer/resolution_control.h"
 
 #include <algorithm>
-
-#include "core/options.h"
+#include <limits>
+#include <vector>
 
 namespace whit::view {
 
@@ -22,37 +22,123 @@ void ResolutionControl::stepLargestScale(int steps) {
   level_ = std::max(level_, largest_);
 }
 
-void ResolutionControl::learn(double ms, double samples) {
-  if (!(ms > 0) || !(samples > 0)) return;
-  const double cost = ms / samples;
-  msPerSample_ = msPerSample_ > 0 ? msPerSample_ + kNewest * (cost - msPerSample_) : cost;
+bool ResolutionControl::learned() const {
+  return std::any_of(msPerSample_.begin(), msPerSample_.end(), [](double ms) { return ms > 0; });
 }
 
-double ResolutionControl::predictMs(std::size_t level, double windowPixels) const {
-  return msPerSample_ * windowPixels * kScales[level] * kScales[level] * spp_;
+void ResolutionControl::learn(double ms, double samples, int depth) {
+  if (!(ms > 0) || !(samples > 0)) return;
+  const double cost = ms / samples;
+  std::size_t tier = 0;
+  while (tier + 1 < kMotionDepths.size() && depth <= kMotionDepths[tier + 1]) ++tier;
+  if (depth >= depth_) tier = 0;
+  const double before = msPerSample_[tier];
+  const double now = before > 0 ? before + kNewest * (cost - before) : cost;
+  msPerSample_[tier] = now;
+  if (before == 0) return;
+  // What makes the view dearer makes it so at other depths, too.
+  for (std::size_t other = 0; other < msPerSample_.size(); ++other) {
+    if (other != tier) msPerSample_[other] *= now / before;
+  }
+}
+
+// Of a tier that was not traced yet: no more than a larger depth takes, and so much more than a
+// smaller one.
+double ResolutionControl::costOf(std::size_t tier) const {
+  constexpr double kDearer = 2;  // for each step of kMotionDepths
+  double most = std::numeric_limits<double>::infinity(), factor = 1;
+  for (std::size_t other = 0; other <= tier; ++other) {
+    if (msPerSample_[other] > 0) most = msPerSample_[other];
+  }
+  if (msPerSample_[tier] > 0) return most;
+  for (std::size_t other = tier + 1; other < msPerSample_.size(); ++other) {
+    factor *= kDearer;
+    if (msPerSample_[other] > 0) return std::min(most, factor * msPerSample_[other]);
+  }
+  return most;
+}
+
+double ResolutionControl::predictMs(double scale) const {
+  return costOf(tier_) * windowPixels_ * scale * scale * spp_;
+}
+
+void ResolutionControl::chooseLevel(double frameMs) {
+  const std::size_t coarsest = kScales.size() - 1;
+  if (level_ > largest_ && predictMs(kScales[level_ - 1]) < kHeadroom * frameMs) {
+    --level_;
+  } else {
+    while (level_ < coarsest && predictMs(kScales[level_]) > frameMs) ++level_;
+  }
+}
+
+// The largest depth at which the picture is legible, else the smallest; but none that saves
+// nothing.
+void ResolutionControl::chooseDepth(double frameMs) {
+  const double scale = kScales[std::max(largest_, kLegibleLevel)];
+  const std::size_t before = tier_;
+  std::vector<std::size_t> tiers{0};
+  for (std::size_t tier = 1; tier < kMotionDepths.size(); ++tier) {
+    if (kMotionDepths[tier] < depth_) tiers.push_back(tier);
+  }
+  const auto holds = std::find_if(tiers.begin(), tiers.end(), [&](std::size_t tier) {
+    tier_ = tier;
+    return predictMs(scale) <= (tier < before ? kHeadroom : 1) * frameMs;
+  });
+  tier_ = holds == tiers.end() ? tiers.back() : *holds;
+  if (msPerSample_[0] > 0 && costOf(tier_) > (1 - kDepthSaves) * msPerSample_[0]) tier_ = 0;
 }
 
 Sharpness ResolutionControl::moving(double windowPixels, double waitMs) {
+  windowPixels_ = windowPixels;
   const double frameMs = 1000 / rate_ - waitMs;
   const std::size_t coarsest = kScales.size() - 1;
-  if (level_ > largest_ && predictMs(level_ - 1, windowPixels) < kHeadroom * frameMs) {
-    --level_;
-  } else {
-    while (level_ < coarsest && predictMs(level_, windowPixels) > frameMs) ++level_;
-  }
-  if (level_ < coarsest) return {kScales[level_], spp_};
-  const double share = frameMs / predictMs(level_, windowPixels);
-  return {kScales[level_], share < 1 ? std::max(static_cast<int>(spp_ * share), 1) : spp_};
+  if (!learned()) return {kScales[coarsest], 1, kFirstDepth};  // cheap, whatever the scene
+  chooseDepth(frameMs);
+  chooseLevel(frameMs);
+  Sharpness chosen{kScales[level_], spp_, kMotionDepths[tier_]};
+  if (level_ < coarsest) return chosen;
+  const double share = frameMs / predictMs(chosen.scale);
+  if (share < 1) chosen.spp = std::max(static_cast<int>(spp_ * share), 1);
+  return chosen;
 }
 
-Sharpness ResolutionControl::still() const {
-  return {largestScale(), std::min(spp_ * kStillSppFactors[step_], kSppLimit)};
+std::size_t ResolutionControl::fullStep() const {
+  return static_cast<std::size_t>(
+      std::count_if(kCoarseScales.begin(), kCoarseScales.end(),
+                    [&](double scale) { return scale < largestScale(); }));
 }
 
-bool ResolutionControl::sharpen() {
-  if (step_ + 1 >= kStillSppFactors.size() || still().spp == kSppLimit) return false;
+double ResolutionControl::scaleOf(std::size_t step) const {
+  return step < fullStep() ? kCoarseScales[step] : largestScale();
+}
+
+std::size_t ResolutionControl::lastStep(bool supersample) const {
+  return fullStep() + (supersample ? kStillSppFactors.size() - 1 : 0);
+}
+
+Sharpness ResolutionControl::still(bool supersample) const {
+  const std::size_t step = std::min(step_, lastStep(supersample)), full = fullStep();
+  const int factor = step > full ? kStillSppFactors[step - full] : 1;
+  return {scaleOf(step), std::min(spp_ * factor, kSppLimit), kDepthLimit};
+}
+
+bool ResolutionControl::sharpen(bool supersample) {
+  const bool enough = step_ >= fullStep() && still(true).spp == kSppLimit;
+  if (enough || step_ >= lastStep(supersample)) return false;
   ++step_;
   return true;
+}
+
+void ResolutionControl::startSharpening(double windowPixels, double shownScale) {
+  windowPixels_ = windowPixels;
+  tier_ = 0;
+  step_ = 0;
+  const auto soonThere = [&](double scale) {
+    return learned() && predictMs(scale) <= kFirstStillMs;
+  };
+  while (step_ < fullStep() && (soonThere(scaleOf(step_ + 1)) || scaleOf(step_) < shownScale)) {
+    ++step_;
+  }
 }
 
 }  // namespace whit::view

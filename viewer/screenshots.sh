@@ -20,13 +20,14 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# shot NAME SCENE SIZE SCRIPT-LINE...: plays the lines, then saves what the window shows.
+# shot NAME "SCENE [OPTION...]" SIZE SCRIPT-LINE...: plays the lines, then saves what the window shows.
 shot() {
   local name=$1 scene=$2 size=$3
   shift 3
   printf '%s\n' "$@" "screenshot $work/$name.png" > "$work/$name.txt"
+  # shellcheck disable=SC2086  # words
   (cd "$root" && xvfb-run -a -s "-screen 0 1280x720x24" \
-    "$view" "$scene" --size "$size" --quiet --script "$work/$name.txt")
+    "$view" $scene --size "$size" --quiet --script "$work/$name.txt")
   if [ "$(stat -c %s "$work/$name.png")" -gt $largest ]; then
     echo "viewer/screenshots.sh: $name.png is larger than $largest bytes" >&2
     exit 1
@@ -37,10 +38,12 @@ shot() {
 
 sharp=("wait 30 frames" "wait sharp")
 gone=("wait 250 frames" "wait sharp")  # messages
-shot viewer atrium 760x490 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
+shot viewer atrium 800x450 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
 shot viewer-knobs matte 960x600 "key N" "panel knobs" "${sharp[@]}" "key M" "${sharp[@]}" \
   "${gone[@]}"
 shot viewer-reference whitted 1280x720 "key X" "panel effects" "${sharp[@]}" "mouse left 120 0" \
   "${gone[@]}"
+shot viewer-tree "whitted --depth 7" 960x600 "key N" "${sharp[@]}" "click 480 333" "${sharp[@]}" \
+  "mouse right 200 -60" "${sharp[@]}" "${gone[@]}"
 shot viewer-rays whitted 800x500 "key V" "key V" "key V" "key V" "panel picture" "${sharp[@]}" \
   "${gone[@]}"

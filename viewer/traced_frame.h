@@ -23,8 +23,11 @@ struct SceneChoice {
 
 struct FrameRequest {
   Camera camera;
-  RenderOptions options;  // as the user set them; the size must be there
-  int spp = 1;            // that are traced: of the options, or more at rest
+  RenderOptions options;    // as the user set them; the size must be there
+  ImageSize window;         // that the picture is to fill
+  int spp = 1;              // that are traced: of the options, or more at rest
+  int depth = kDepthLimit;  // that is traced at most, in motion
+  bool coarse = false;      // at rest finer pixels will follow
   DebugView view = DebugView::none;
   bool withReference = false;  // the reference's picture as well, and how far apart they are
   bool measureKnobs = false;   // also what each knob costs
@@ -35,11 +38,20 @@ struct FrameRequest {
 
 // Whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
-  return a.camera.eye == b.camera.eye && a.camera.at == b.camera.at && a.camera.up == b.camera.up &&
-         a.camera.fov == b.camera.fov &&
-         a.camera.orthographicHeight == b.camera.orthographicHeight && a.options == b.options &&
-         a.spp == b.spp && a.view == b.view && a.withReference == b.withReference &&
-         a.measureKnobs == b.measureKnobs && a.reloads == b.reloads && a.edits == b.edits;
+  return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
+         a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
+         a.withReference == b.withReference && a.measureKnobs == b.measureKnobs &&
+         a.reloads == b.reloads && a.edits == b.edits;
+}
+
+// Whether both show the same, however finely.
+inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
+  b.options.size = a.options.size;
+  b.spp = a.spp;
+  b.depth = a.depth;
+  b.withReference = a.withReference;
+  b.measureKnobs = a.measureKnobs;
+  return samePicture(a, b);
 }
 
 inline double samplesOf(const FrameRequest& request) {
@@ -73,6 +85,14 @@ struct TracedFrame {
   std::string legend;                    // of a debug view
   std::optional<Comparison> comparison;  // where the request is with the reference
   std::vector<KnobCost> costs;           // where the request is to measure them
+};
+
+// What there is to be seen of a frame that is being traced.
+struct UnfinishedFrame {
+  FrameRequest request;
+  DisplayImage display;  // transparent where nothing was traced yet; empty: options are measured
+  double done = 0;       // share of it
+  std::vector<KnobCost> costs;  // measured so far
 };
 
 }  // namespace whit::view

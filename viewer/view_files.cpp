@@ -1,5 +1,6 @@
 #include "viewer/view_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -28,6 +29,29 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+// As one of the scene's cameras, or as the first with what is different.
+void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+  options.camera.clear();
+  options.eye.reset(), options.at.reset(), options.up.reset();
+  options.fov.reset(), options.ortho.reset();
+  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                 [&](const Camera& known) { return sameView(known, camera); });
+  if (same == scene.cameras.begin()) return;
+  if (same != scene.cameras.end()) {
+    options.camera = same->name;
+    return;
+  }
+  const Camera& first = scene.cameras.front();
+  if (camera.eye != first.eye) options.eye = camera.eye;
+  if (camera.at != first.at) options.at = camera.at;
+  if (camera.up != first.up) options.up = camera.up;
+  if (camera.fov != first.fov) options.fov = camera.fov;
+  // Also where it is 0.
+  if (camera.orthographicHeight != first.orthographicHeight) {
+    options.ortho = camera.orthographicHeight;
+  }
+}
+
 std::string freeName(const std::string& scene) {
   for (int i = 1; i <= kPictureLimit; ++i) {
     std::string name = scene + formatted("-%04d", i);
@@ -54,25 +78,21 @@ Vec3f readVector(const Json& json, const std::string& key, const std::string& fi
 }  // namespace
 
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
-                          const TracedFrame& frame) {
+                          const TracedFrame& frame, RenderOptions options) {
+  const Scene& shown = frame.scene->scene;
   // Not the metadata's options: those have "auto" resolved, which can choose other instructions.
-  RenderOptions options = frame.options;
-  options.camera.clear();
-  options.eye = frame.request.camera.eye;
-  options.at = frame.request.camera.at;
-  options.up = frame.request.camera.up;
-  options.fov = frame.request.camera.fov;
-  // Also where it is 0, if the camera that is changed by these options has another.
-  const float height = frame.request.camera.orthographicHeight;
-  options.ortho.reset();
-  if (height != frame.scene->scene.cameras.front().orthographicHeight) options.ortho = height;
-  std::string text = "whit render " + quoted(scene);
-  for (const auto& [name, value] : pictureOptions(options)) {
-    if (name == "strict") {
-      text += options.strict ? " --strict" : "";
-    } else {
-      text += " " + quoted("--" + name + "=" + value);
-    }
+  sayCamera(shown, frame.request.camera, options);
+  if (options.size == ImageSize{shown.width, shown.height}) options.size.reset();
+  RenderOptions usual;
+  if (shown.isModel) applyModelDefaults(usual, {});
+  // What a preset stands for is said one by one.
+  options.quality = usual.quality;
+  const auto said = pictureOptions(usual);
+  std::string text = "whit render " + quoted(scene) + " -o " + quoted(shown.name + ".png");
+  for (const auto& option : pictureOptions(options)) {
+    if (std::find(said.begin(), said.end(), option) != said.end()) continue;
+    const auto& [name, value] = option;
+    text += " " + (name == "strict" ? "--strict" : quoted("--" + name + "=" + value));
   }
   for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
   if (!common.load.sky.empty()) text += " --sky " + quoted(common.load.sky);

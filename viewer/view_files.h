@@ -8,10 +8,11 @@
 
 namespace whit::view {
 
-// "whit render SCENE --size ..." whose output is the frame, bit for bit. Words are quoted for a
-// POSIX shell where needed.
+// "whit render SCENE -o NAME.png ..." which makes a picture of the frame's scene and view with
+// these options, bit for bit. Says only what differs from the scene's defaults. Words are quoted
+// for a POSIX shell where needed.
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
-                          const TracedFrame& frame);
+                          const TracedFrame& frame, RenderOptions options);
 
 // Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
 // the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).

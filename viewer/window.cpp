@@ -9,12 +9,17 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
 
 #include "core/error.h"
 
 namespace whit::view {
 
 namespace {
+
+constexpr double kClickSlack = 3;  // pixels by which a hand may shake between down and up
 
 std::string glfwReason() {
   const char* text = nullptr;
@@ -26,8 +31,27 @@ Window& windowOf(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
+// The first that is there, as Debian, Fedora, Arch and macOS have them.
+constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+                            "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
+                            "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+                            "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
+                            "/System/Library/Fonts/Menlo.ttc"};
+
+// At the display's scale; without a font on this system the one of Dear ImGui, enlarged.
+void setFont(float scale) {
+  constexpr float kHeight = 13;  // pixels, where the display does not magnify
+  ImGuiIO& io = ImGui::GetIO();
+  for (const char* file : kFonts) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) continue;
+    if (io.Fonts->AddFontFromFileTTF(file, std::round(kHeight * scale))) return;
+  }
+  io.FontGlobalScale = scale;
+}
+
 void setStyle(float scale) {
-  ImGui::GetIO().FontGlobalScale = scale;
+  setFont(scale);
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 6;
   style.FrameRounding = style.GrabRounding = style.PopupRounding = 3;
@@ -47,6 +71,12 @@ void setStyle(float scale) {
 }
 
 }  // namespace
+
+std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& window) {
+  const double across = static_cast<double>(window.width) / madeFor.width;
+  const double down = static_cast<double>(window.height) / madeFor.height;
+  return {std::min(1.0, down / across), std::min(1.0, across / down)};
+}
 
 Display::Display() {
   if (!glfwInit()) throwUsage("there is no display to open a window on" + glfwReason());
@@ -74,14 +104,16 @@ Window::Window(const std::string& title, const ImageSize& size) {
   setStyle(static_cast<float>(contentScale()));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the handlers above, too
   ImGui_ImplOpenGL2_Init();
-  glGenTextures(1, &texture_);
+  glGenTextures(1, &picture_.texture);
+  glGenTextures(1, &over_.texture);
 }
 
 Window::~Window() {
   ImGui_ImplOpenGL2_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
-  glDeleteTextures(1, &texture_);
+  glDeleteTextures(1, &picture_.texture);
+  glDeleteTextures(1, &over_.texture);
   glfwDestroyWindow(window_);
 }
 
@@ -101,7 +133,21 @@ double Window::contentScale() const {
   return std::max(1.0f, y);
 }
 
+std::array<int, 2> Window::pixelAt(const Input::Click& place) const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  const ImageSize size = pixels();
+  const auto pixel = [](double at, int points, int most) {
+    return std::clamp(static_cast<int>(at * most / std::max(points, 1)), 0, std::max(most - 1, 0));
+  };
+  return {pixel(place.x, width, size.width), pixel(place.y, height, size.height)};
+}
+
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
+}
 
 void Window::setVsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
 
@@ -135,10 +181,11 @@ void Window::poll(double waitSeconds) {
 
 void Window::wake() { glfwPostEmptyEvent(); }
 
-void Window::upload(const DisplayImage& image) {
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  if (textureSize_ != ImageSize{image.width, image.height}) {
-    textureSize_ = {image.width, image.height};
+void Window::fill(Layer& layer, const DisplayImage& image, const ImageSize& madeFor) {
+  glBindTexture(GL_TEXTURE_2D, layer.texture);
+  layer.madeFor = madeFor;
+  if (layer.size != ImageSize{image.width, image.height}) {
+    layer.size = {image.width, image.height};
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -148,25 +195,44 @@ void Window::upload(const DisplayImage& image) {
                   image.rgba.data());
 }
 
+void Window::upload(const DisplayImage& image, const ImageSize& madeFor) {
+  fill(picture_, image, madeFor);
+}
+
+void Window::uploadOver(const DisplayImage& image, const ImageSize& madeFor) {
+  fill(over_, image, madeFor);
+}
+
+void Window::drawLayer(const Layer& layer, const ImageSize& window) {
+  if (layer.size == ImageSize{}) return;
+  // One texel a pixel has to come through unchanged; fewer are blended.
+  const GLint filter = layer.size == window ? GL_NEAREST : GL_LINEAR;
+  const auto shares =
+      layer.madeFor == ImageSize{} ? std::array{1.0, 1.0} : sharesFilled(layer.madeFor, window);
+  const auto x = static_cast<float>(shares[0]), y = static_cast<float>(shares[1]);
+  glBindTexture(GL_TEXTURE_2D, layer.texture);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+  glBegin(GL_TRIANGLE_STRIP);  // the image's first row is at the top
+  glTexCoord2f(0, 0), glVertex2f(-x, y);
+  glTexCoord2f(0, 1), glVertex2f(-x, -y);
+  glTexCoord2f(1, 0), glVertex2f(x, y);
+  glTexCoord2f(1, 1), glVertex2f(x, -y);
+  glEnd();
+}
+
 void Window::drawImage() const {
   const ImageSize size = pixels();
   glViewport(0, 0, size.width, size.height);
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  if (textureSize_ == ImageSize{}) return;
-  // One texel a pixel has to come through unchanged; fewer are blended.
-  const GLint filter = textureSize_ == size ? GL_NEAREST : GL_LINEAR;
   glEnable(GL_TEXTURE_2D);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-  glBegin(GL_TRIANGLE_STRIP);  // the image's first row is at the top
-  glTexCoord2f(0, 0), glVertex2f(-1, 1);
-  glTexCoord2f(0, 1), glVertex2f(-1, -1);
-  glTexCoord2f(1, 0), glVertex2f(1, 1);
-  glTexCoord2f(1, 1), glVertex2f(1, -1);
-  glEnd();
+  drawLayer(picture_, size);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  drawLayer(over_, size);
+  glDisable(GL_BLEND);
   glDisable(GL_TEXTURE_2D);
 }
 
@@ -181,6 +247,18 @@ void Window::begin() {
     io.MouseDown[0] = input.pointer->down;
   }
   ImGui::NewFrame();
+  followPointer();
+}
+
+void Window::followPointer() {
+  if (!input.pointer) return;
+  const Input::Click at{input.pointer->x, input.pointer->y};
+  if (input.pointer->down) {
+    if (!pointed_ && !ImGui::GetIO().WantCaptureMouse) pointed_ = at;
+    return;
+  }
+  if (pointed_ && pointed_->x == at.x && pointed_->y == at.y) click_ = at;
+  pointed_.reset();
 }
 
 void Window::end() {
@@ -209,9 +287,10 @@ DisplayImage Window::readPixels() const {
 
 void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
   Input& input = windowOf(window).input;
+  input.happened = true;
   if (action == GLFW_RELEASE) {
     input.held.erase(key);
-  } else if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureKeyboard) {
+  } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
     input.held.insert(key);
     input.pressed.push_back(key);
   }
@@ -219,14 +298,24 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
 
 void Window::onButton(GLFWwindow* window, int button, int action, int) {
   Window& self = windowOf(window);
+  self.input.happened = true;
   const bool drag = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
-  if (button == GLFW_MOUSE_BUTTON_LEFT) self.looking_ = drag;
+  if (button == GLFW_MOUSE_BUTTON_LEFT) {
+    if (drag) self.pressedX_ = self.cursorX_, self.pressedY_ = self.cursorY_;
+    const double moved =
+        std::abs(self.cursorX_ - self.pressedX_) + std::abs(self.cursorY_ - self.pressedY_);
+    if (self.looking_ && action == GLFW_RELEASE && moved <= kClickSlack) {
+      self.click_ = {self.cursorX_, self.cursorY_};
+    }
+    self.looking_ = drag;
+  }
   if (button == GLFW_MOUSE_BUTTON_RIGHT) self.orbiting_ = drag;
 }
 
 void Window::onCursor(GLFWwindow* window, double x, double y) {
   Window& self = windowOf(window);
   const double dx = x - self.cursorX_, dy = y - self.cursorY_;
+  self.input.happened = true;
   self.cursorX_ = x;
   self.cursorY_ = y;
   if (self.looking_) self.input.lookX += dx, self.input.lookY += dy;
@@ -234,6 +323,7 @@ void Window::onCursor(GLFWwindow* window, double x, double y) {
 }
 
 void Window::onScroll(GLFWwindow* window, double, double y) {
+  windowOf(window).input.happened = true;
   if (!ImGui::GetIO().WantCaptureMouse) windowOf(window).input.wheel += y;
 }
 

@@ -1,7 +1,10 @@
 // The window: GLFW, OpenGL 2.1 and Dear ImGui. The only file that calls OpenGL.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/image.h"
 #include "viewer/input.h"
@@ -9,6 +12,10 @@
 struct GLFWwindow;
 
 namespace whit::view {
+
+// The shares of a window's width and height that a picture fills which was made for a window of
+// another size: it keeps its shape.
+std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& window);
 
 // Starts GLFW. Throws Error(usage) when there is no display.
 class Display {
@@ -33,20 +40,31 @@ class Window {
   void close();
   ImageSize pixels() const;  // of the framebuffer; zero when minimized
   double contentScale() const;
+  // The framebuffer's pixel at that place of the window.
+  std::array<int, 2> pixelAt(const Input::Click& place) const;
   void setTitle(const std::string& title);
+  void setClipboard(const std::string& text);
   void setVsync(bool on);
   void toggleFullScreen();
   void resize(const ImageSize& size);
   void minimize();
   void restore();
 
+  // The last click on the picture since the last call, the user's or a script's pointer's.
+  std::optional<Input::Click> takeClick() { return std::exchange(click_, std::nullopt); }
+
   // Handles what happened, after waiting for it so long at most.
   void poll(double waitSeconds);
   // Makes poll() return; for other threads.
   static void wake();
 
-  void upload(const DisplayImage& image);
-  // Begins a frame: the image, scaled to the window, and a new ImGui frame over it.
+  // The picture. It was made for a window of that size, and fills as much of another one as its
+  // shape allows; zero: it is stretched to any.
+  void upload(const DisplayImage& image, const ImageSize& madeFor = {});
+  // What lies over it: transparent where there is nothing.
+  void uploadOver(const DisplayImage& image, const ImageSize& madeFor);
+  void dropOver() { over_.size = {}; }
+  // Begins a frame: the picture and what lies over it, and a new ImGui frame over that.
   void begin();
   // Draws what ImGui was given.
   void end();
@@ -62,13 +80,23 @@ class Window {
   static void onFocus(GLFWwindow* window, int focused);
   static void onDrop(GLFWwindow* window, int count, const char** files);
   void drawImage() const;
+  void followPointer();
 
   GLFWwindow* window_ = nullptr;
-  unsigned int texture_ = 0;
-  ImageSize textureSize_;
+  struct Layer {
+    unsigned int texture = 0;
+    ImageSize size, madeFor;  // of zero pixels: there is none
+  };
+  static void fill(Layer& layer, const DisplayImage& image, const ImageSize& madeFor);
+  static void drawLayer(const Layer& layer, const ImageSize& window);
+
+  Layer picture_, over_;
   double cursorX_ = 0, cursorY_ = 0;
   bool looking_ = false, orbiting_ = false;
-  int windowedX_ = 0, windowedY_ = 0;  // before full screen
+  double pressedX_ = 0, pressedY_ = 0;  // where the left button went down
+  std::optional<Input::Click> click_;
+  std::optional<Input::Click> pointed_;  // a script's pointer is down on the picture
+  int windowedX_ = 0, windowedY_ = 0;    // before full screen
   ImageSize windowed_;
 };
 

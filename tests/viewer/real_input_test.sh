@@ -45,6 +45,7 @@ look() {
   within printed $prints
   view_now=$(grep '^whit render' "$work/out" | tail -n 1)
 }
+# Empty where it is the scene's own.
 option() { sed -n "s/.* --$1=\([^ ]*\).*/\1/p" <<<"$view_now"; }
 size() { xdotool getwindowgeometry --shell "$window" | sed -n 's/^\(WIDTH\|HEIGHT\)=//p' | paste -sd x; }
 isSize() { [ "$(size)" = "$1" ]; }
@@ -52,15 +53,21 @@ shows() {
   look
   [ "$(option size)" = "$1" ]
 }
-# acts OPTION BEFORE WORDS...: whether what xdotool does changes the option of the view.
-acts() {
-  local name=$1 before=$2
-  shift 2
-  xdotool "$@"
+moved() {
   look
-  [ "$(option "$name")" != "$before" ]
+  [ "$(option "$1")" != "$2" ]
 }
-# A key that goes up again before a busy machine has shown a frame moves nothing: it is held once more.
+# hold OPTION DOWN UP: what xdotool presses stays down until that option of the view has changed, however
+# busy the machine is; then it is let go.
+hold() {
+  local name=$1 before
+  before=$(option "$name")
+  # shellcheck disable=SC2086  # words
+  xdotool $2
+  within moved "$name" "$before"
+  # shellcheck disable=SC2086
+  xdotool $3
+}
 
 # -noreset: when its only client leaves, as xdotool does, the server would otherwise begin anew and drop a
 # window manager that is just connecting.
@@ -80,12 +87,28 @@ window=$(timeout 60 xdotool search --sync --onlyvisible --name '^whit' | head -n
 xdotool windowactivate --sync "$window"
 
 look
-within acts eye "$(option eye)" keydown w sleep 0.3 keyup w
-within acts eye "$(option eye)" keydown shift keydown d sleep 0.3 keyup d keyup shift
-within acts at "$(option at)" mousemove --window "$window" 200 150 mousedown 1 sleep 0.2 \
-  mousemove_relative -- 40 15 sleep 0.2 mouseup 1
-within acts eye "$(option eye)" mousemove --window "$window" 200 150 mousedown 3 sleep 0.2 \
-  mousemove_relative -- 60 0 sleep 0.2 mouseup 3
+hold eye "keydown w" "keyup w"
+hold eye "keydown shift keydown d" "keyup d keyup shift"
+from="mousemove --window $window 200 150"
+hold at "$from mousedown 1 sleep 0.2 mousemove_relative -- 40 15" "mouseup 1"
+hold eye "$from mousedown 3 sleep 0.2 mousemove_relative -- 60 0" "mouseup 3"
+
+# A key counts while the panel has the mouse, and right after.
+xdotool mousemove --window "$window" 60 20 mousedown 1 sleep 0.2 key c sleep 0.2 mouseup 1
+prints=$((prints + 1))
+within printed $prints
+xdotool mousemove --window "$window" 60 20 click 1 key c
+prints=$((prints + 1))
+within printed $prints
+
+# What C prints is in the clipboard.
+if python3 -c 'import tkinter' 2>/dev/null; then
+  look
+  copied=$(python3 -c 'import tkinter; root = tkinter.Tk(); root.withdraw(); print(root.clipboard_get())')
+  [ "$copied" = "$view_now" ] || fail "the clipboard holds '$copied', not '$view_now'"
+else
+  echo "!! python3-tk is not installed: the clipboard is NOT checked" >&2
+fi
 
 first=$(size)
 xdotool key f

@@ -58,19 +58,28 @@ class ComparisonTest : public testing::Test {
   FrameRequest request_;
 };
 
+// Nobody wants anything else.
+TraceCalls heedless() {
+  TraceCalls calls;
+  calls.superseded = calls.leaving = [] { return false; };
+  calls.publish = [](const TracedFrame&) {};
+  calls.showUnfinished = [](const UnfinishedFrame&) {};
+  return calls;
+}
+
 TEST_F(ComparisonTest, GrowsUntilItIsTheReference) {
   FrameTracer tracer(scene_, common_);
   TracedFrame frame;
   int rows = 0;
-  const auto publish = [&](const TracedFrame& sofar) {
+  TraceCalls calls = heedless();
+  calls.publish = [&](const TracedFrame& sofar) {
     ASSERT_TRUE(sofar.comparison);
     EXPECT_GT(sofar.comparison->rows, rows);
     EXPECT_FALSE(sofar.comparison->complete());
     rows = sofar.comparison->rows;
     EXPECT_DOUBLE_EQ(sofar.comparison->progress(), rows / 70.0);
   };
-  ASSERT_TRUE(tracer.trace(
-      request_, frame, [] { return false; }, [] { return false; }, publish));
+  ASSERT_TRUE(tracer.trace(request_, frame, calls));
   EXPECT_EQ(rows, 70);
   ASSERT_TRUE(frame.comparison && frame.comparison->complete());
 
@@ -92,10 +101,10 @@ TEST_F(ComparisonTest, GivesUpForSomethingElse) {
   TracedFrame frame;
   int published = 0;
   request_.spp = 64;  // for more than one band
-  const bool done = tracer.trace(
-      request_, frame, [&] { return published > 0; }, [] { return false; },
-      [&](const TracedFrame&) { ++published; });
-  EXPECT_FALSE(done);
+  TraceCalls calls = heedless();
+  calls.superseded = [&] { return published > 0; };
+  calls.publish = [&](const TracedFrame&) { ++published; };
+  EXPECT_FALSE(tracer.trace(request_, frame, calls));
   EXPECT_EQ(published, 1);
 }
 
@@ -107,9 +116,10 @@ TEST_F(ComparisonTest, FramesInMotionEndWhenNobodyLooks) {
   request_.options.size = {4000, 4000};
   request_.spp = 64;
   int bands = 0;
-  EXPECT_FALSE(tracer.trace(
-      request_, frame, [] { return true; }, [&] { return ++bands > 2; },
-      [](const TracedFrame&) {}));
+  TraceCalls calls = heedless();
+  calls.superseded = [] { return true; };
+  calls.leaving = [&] { return ++bands > 2; };
+  EXPECT_FALSE(tracer.trace(request_, frame, calls));
   EXPECT_EQ(bands, 3);
 }
 

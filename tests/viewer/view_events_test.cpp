@@ -70,7 +70,7 @@ TEST_F(Viewer, DroppedFilesOpen) {
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_NE(lines[0].find("other.json"), std::string::npos) << lines[0];
-  EXPECT_NE(lines[0].find("--eye=1,3,7"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[0].find("--eye"), std::string::npos) << lines[0];
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }
@@ -119,7 +119,7 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
       "click 30 220\nwait 5 frames\nclick 100 265\nclick 60 289 130 289\n"         // the lamp
       "click 30 346\nwait 5 frames\nclick 60 415 20 415\nclick 110 367 140 367\n"  // the mirror
       "key H\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
-      {"--size", "640x480"});
+      {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   for (const char* edited : {"/lights/0/position=", "/lights/0/intensity=",

@@ -89,5 +89,39 @@ TEST(KnobCosts, WhatWasMeasuredIsOfOneViewOnly) {
   EXPECT_EQ(costs.measured("depth"), nullptr);
 }
 
+KnobCost costOf(const char* name, double now, double then, double spread) {
+  KnobCost cost{name, "off", {}, {}, spread};
+  cost.now.frameMs = now;
+  cost.then.frameMs = then;
+  return cost;
+}
+
+TEST(KnobCosts, OnlyWhatCanBeToldFromNoiseIsSaidTheLargestFirst) {
+  const std::vector<KnobCost> told = toldFromNoise(
+      {costOf("small", 100, 97, 2), costOf("noise", 100, 95, 7), costOf("slower", 100, 135, 7)});
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0].name, "slower");
+  EXPECT_EQ(costText(told[0]), "off would be 35 ms slower");
+  EXPECT_EQ(costText(told[1]), "off would be 3.0 ms faster");
+}
+
+TEST(KnobCosts, WhatIsMeasuredSoFarCounts) {
+  KnobCosts costs;
+  UnfinishedFrame sofar;
+  sofar.request = frameOf(withDepth(8), 20).request;
+  sofar.request.measureKnobs = true;
+  sofar.costs = {costOf("mirror", 20, 12, 1)};
+  costs.learn(sofar);
+  EXPECT_NE(costs.measured("mirror"), nullptr);
+  costs.learn(frameOf(withDepth(8), 20));
+  EXPECT_NE(costs.measured("mirror"), nullptr) << "the same view";
+}
+
+TEST(KnobCosts, LongFramesAreMeasuredSmaller) {
+  EXPECT_EQ(measuredSize({1000, 500}, kMeasuredMs / 1e6), (ImageSize{1000, 500}));
+  EXPECT_EQ(measuredSize({1000, 500}, 8 * kMeasuredMs / 1e6), (ImageSize{500, 250}));
+  EXPECT_EQ(measuredSize({3, 1}, 1e9), (ImageSize{1, 1}));
+}
+
 }  // namespace
 }  // namespace whit::view

@@ -2,73 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
-#include "cli/run_program.h"
-#include "viewer/render_thread.h"
+#include "render_thread_fixture.h"
 
 namespace whit::view {
 namespace {
-
-class RenderThreadTest : public testing::Test {
- protected:
-  RenderThreadTest() {
-    common_.quiet = true;
-    common_.render.threads = 2;
-    name_ = cli::writeTinyScene(folder_);
-    opened_ = cli::openScene(name_, common_, nullptr);
-    scene_ = opened_;
-    request_.camera = scene_->scene.cameras[0];
-    request_.options = common_.render;
-    request_.options.size = {48, 200};  // several bands
-  }
-
-  // A minute at most: far longer than a frame of a few thousand pixels takes.
-  static bool waitFor(const RenderThread& thread) {
-    for (int i = 0; i < 60'000 && thread.busy(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return !thread.busy();
-  }
-
-  TracedFrame traced(RenderThread& thread) {
-    thread.ask(request_);
-    TracedFrame frame;
-    EXPECT_TRUE(waitFor(thread));
-    EXPECT_TRUE(thread.take(frame)) << thread.takeError();
-    return frame;
-  }
-
-  // The picture of a renderer made for this request.
-  Film expected() const {
-    RenderOptions options = request_.options;
-    options.spp = request_.spp;
-    Renderer renderer(scene_->scene, options);
-    Film film = makeFilm(scene_->scene, options);
-    renderer.render(request_.camera, film);
-    return film;
-  }
-
-  void expectRightPicture(RenderThread& thread) {
-    const TracedFrame frame = traced(thread);
-    const Film film = expected();
-    ASSERT_EQ(frame.film.image.pixels.size(), film.image.pixels.size());
-    EXPECT_EQ(std::memcmp(frame.film.image.pixels.data(), film.image.pixels.data(),
-                          film.image.pixels.size() * sizeof(Rgb)),
-              0);
-    EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
-  }
-
-  cli::TemporaryFolder folder_;
-  cli::CommonOptions common_;
-  std::string name_;
-  std::shared_ptr<cli::OpenScene> opened_;
-  std::shared_ptr<const cli::OpenScene> scene_;  // that pictures are expected to show
-  FrameRequest request_;
-};
 
 TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
@@ -92,6 +32,48 @@ TEST_F(RenderThreadTest, BandsMakeTheSamePicture) {
   request_.interruptible = true;
   request_.spp = 256;  // long enough for more than one band on any machine of today
   request_.options.size = {480, 200};
+  expectRightPicture(thread);
+}
+
+// Seen on its way, a picture is opaque where it is done, and there as it will be.
+TEST_F(RenderThreadTest, PicturesAreSeenWhileTheyAreTraced) {
+  RenderThread thread(opened_, common_, [] {});
+  traced(thread);
+  request_.interruptible = true;
+  request_.spp = 64;
+  request_.options.size = {480, 320};
+  thread.ask(request_);
+  std::vector<UnfinishedFrame> seen;
+  while (thread.busy()) {
+    if (auto frame = thread.takeUnfinished()) seen.push_back(std::move(*frame));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_FALSE(thread.takeUnfinished()) << "it is finished";
+  const Film film = expected();
+  ASSERT_GT(seen.size(), 1u);
+  EXPECT_LT(seen.front().done, seen.back().done);
+  for (const UnfinishedFrame& frame : seen) {
+    ASSERT_EQ(frame.display.rgba.size(), film.display.rgba.size());
+    std::size_t opaque = 0;
+    for (std::size_t i = 0; i < film.display.rgba.size(); i += 4) {
+      if (frame.display.rgba[i + 3] == 0) continue;
+      ++opaque;
+      for (std::size_t c = 0; c < 4; ++c) {
+        ASSERT_EQ(frame.display.rgba[i + c], film.display.rgba[i + c]) << i;
+      }
+    }
+    EXPECT_GE(static_cast<double>(opaque), frame.done * 480 * 320);
+    EXPECT_LT(opaque, 480u * 320u);
+  }
+}
+
+TEST_F(RenderThreadTest, ASmallerDepthIsTracedOnlyWhereItIsAskedFor) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.depth = 0;
+  const TracedFrame flat = traced(thread);
+  EXPECT_EQ(flat.stats.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(flat.options.depth, 0);
+  request_.depth = kDepthLimit;
   expectRightPicture(thread);
 }
 

@@ -1,6 +1,8 @@
 // The scale that holds a frame rate. A frame may take 1000 / 60 = 16.7 ms unless said otherwise.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "core/options.h"
 #include "viewer/resolution_control.h"
 
@@ -9,10 +11,12 @@ namespace {
 
 constexpr double kPixels = 1e6;
 
-// As after many frames of `ms` for the whole window.
+// As after many frames of `ms` for the whole window, at any depth.
 ResolutionControl learned(double ms, double rate = kDefaultRate) {
   ResolutionControl control(rate, 1);
-  for (int i = 0; i < 100; ++i) control.learn(ms, kPixels);
+  for (int i = 0; i < 100; ++i) {
+    for (const int depth : kMotionDepths) control.learn(ms, kPixels, depth);
+  }
   return control;
 }
 
@@ -22,9 +26,15 @@ double scaleOf(ResolutionControl& control) {
   return control.moving(kPixels).scale;
 }
 
-TEST(ResolutionControl, BeginsWithAllPixels) {
+TEST(ResolutionControl, BeginsWithWhatIsSoonThere) {
   ResolutionControl control(kDefaultRate, 3);
-  EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 3}));
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1, kFirstDepth}));
+}
+
+TEST(ResolutionControl, FewCoresAreAskedForLess) {
+  EXPECT_EQ(defaultRate(2), 30);
+  EXPECT_EQ(defaultRate(4), 30);
+  EXPECT_EQ(defaultRate(5), 60);
 }
 
 TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
@@ -87,28 +97,74 @@ TEST(ResolutionControl, IgnoresFramesWithoutTime) {
   EXPECT_EQ(scaleOf(control), 1);
 }
 
+// Where nothing of the view is there yet and all of it takes that long.
+std::vector<Sharpness> stepsAtRest(ResolutionControl& control, bool supersample,
+                                   double shownScale = 0) {
+  control.startSharpening(kPixels, shownScale);
+  std::vector<Sharpness> steps{control.still(supersample)};
+  while (control.sharpen(supersample)) steps.push_back(control.still(supersample));
+  return steps;
+}
+
 TEST(ResolutionControl, SharpensAtRestStepByStep) {
-  ResolutionControl control = learned(100);
-  EXPECT_EQ(control.still(), (Sharpness{1, 1}));
-  EXPECT_TRUE(control.sharpen());
-  EXPECT_EQ(control.still(), (Sharpness{1, 4}));
-  EXPECT_TRUE(control.sharpen());
-  EXPECT_EQ(control.still(), (Sharpness{1, 16}));
-  EXPECT_FALSE(control.sharpen());
-  control.restartSharpening();
-  EXPECT_EQ(control.still(), (Sharpness{1, 1}));
+  using Steps = std::vector<Sharpness>;
+  ResolutionControl slow = learned(1e5);
+  EXPECT_EQ(stepsAtRest(slow, true),
+            (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}, {1, 16}}));
+  EXPECT_EQ(stepsAtRest(slow, false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}}));
+  ResolutionControl middling = learned(150);  // 37 ms for a half
+  EXPECT_EQ(stepsAtRest(middling, false), (Steps{{0.5, 1}, {1, 1}}));
+  ResolutionControl fast = learned(10);
+  EXPECT_EQ(stepsAtRest(fast, true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
+}
+
+TEST(ResolutionControl, WhatIsShownGetsNoCoarser) {
+  ResolutionControl slow = learned(1e5);
+  EXPECT_EQ(stepsAtRest(slow, false, 0.25).front().scale, 0.25);
+  EXPECT_EQ(stepsAtRest(slow, false, 0.375).front().scale, 0.5);
+  EXPECT_EQ(stepsAtRest(slow, false, 1).front().scale, 1);
+}
+
+TEST(ResolutionControl, ComparedPicturesHaveTheSamplesAskedFor) {
+  ResolutionControl control = learned(10);
+  stepsAtRest(control, true);
+  EXPECT_EQ(control.still(true), (Sharpness{1, 16}));
+  EXPECT_EQ(control.still(false), (Sharpness{1, 1}));
 }
 
 TEST(ResolutionControl, SamplesStayWithinTheirLimit) {
   ResolutionControl control(kDefaultRate, kSppLimit);
-  EXPECT_FALSE(control.sharpen());
-  EXPECT_EQ(control.still().spp, kSppLimit);
+  const Sharpness last = stepsAtRest(control, true).back();
+  EXPECT_EQ(last, (Sharpness{1, kSppLimit}));
+}
+
+// All pixels take 400 ms at full depth, 120 at 8, 60 at 4, of which half the sides need 15.
+TEST(ResolutionControl, ASmallerDepthPaysForResolution) {
+  ResolutionControl control(kDefaultRate, 1);
+  control.learn(400, kPixels);
+  control.learn(120, kPixels, 8);
+  control.learn(60, kPixels, 4);
+  scaleOf(control);
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{0.5, 1, 4}));
+  control.setRate(30);  // 33.3 ms: 30 for half the sides at 8, but not well below it
+  scaleOf(control);
+  EXPECT_EQ(control.moving(kPixels).depth, 4);
+  control.setRate(25);
+  scaleOf(control);
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{0.5, 1, 8}));
+  control.setDepth(4);  // what the user asks for is never exceeded
+  EXPECT_EQ(control.moving(kPixels).depth, kDepthLimit);
+}
+
+TEST(ResolutionControl, ADepthThatSavesNothingIsLeftAlone) {
+  ResolutionControl control = learned(1000);
+  EXPECT_EQ(control.moving(kPixels).depth, kDepthLimit);
 }
 
 TEST(ResolutionControl, LargestScaleHoldsAtRestAndInMotion) {
   ResolutionControl control = learned(1);
   control.stepLargestScale(-2);
-  EXPECT_EQ(control.still().scale, 0.75);
+  EXPECT_EQ(stepsAtRest(control, false).back().scale, 0.75);
   EXPECT_EQ(scaleOf(control), 0.75);
   control.stepLargestScale(-100);
   EXPECT_EQ(control.largestScale(), kScales.back());

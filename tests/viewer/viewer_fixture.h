@@ -42,8 +42,11 @@ class Viewer : public testing::Test {
   }
   // Runs a command that the viewer has printed, as a shell would.
   void render(const std::string& command, const std::string& file) {
+    paste(command + " --quiet -o " + file);
+  }
+  void paste(const std::string& command) {
     ASSERT_EQ(command.rfind("whit render ", 0), 0u) << command;
-    const std::string line = WHIT_PROGRAM + command.substr(4) + " --quiet -o " + file;
+    const std::string line = WHIT_PROGRAM + command.substr(4);
     const cli::Outcome outcome = runOn("", folder_.path().string(), {"/bin/sh", "-c", line});
     ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
   }

@@ -1,0 +1,129 @@
+// The rays of a pixel that is clicked on: they are those of the picture, in the place where it
+// shows what they meet, and leave no trace where nobody asks for them.
+#include <gtest/gtest.h>
+
+#include "render_thread_fixture.h"
+#include "viewer/ray_panel.h"
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+using RayPicking = RenderThreadTest;
+
+RayQuery queryFor(const FrameRequest& request, int x, int y) {
+  RayQuery query;
+  query.camera = request.camera;
+  query.options = request.options;
+  query.x = x, query.y = y;
+  return query;
+}
+
+TEST_F(RayPicking, TheRaysAreThoseOfThePicture) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {48, 32};
+  const TracedFrame frame = traced(thread);
+  for (const auto& [x, y] : {std::pair{24, 14}, {20, 25}, {3, 30}}) {
+    thread.query(queryFor(request_, x, y));
+    ASSERT_TRUE(waitFor(thread));
+    const auto pick = thread.takePick();
+    ASSERT_TRUE(pick) << thread.takeError();
+    EXPECT_EQ(pick->rays.packets.pixel, frame.film.image.at(x, y)) << x << "," << y;
+    EXPECT_EQ(pick->words.size(), pick->rays.packets.nodes.size());
+    EXPECT_EQ(pick->words[0].met.rfind(y == 14 ? "mirror, " : "floor, ", 0), 0u)
+        << pick->words[0].met;
+    EXPECT_FALSE(thread.takePick());
+  }
+  expectRightPicture(thread);
+}
+
+TEST_F(RayPicking, WhatWasMetIsSelected) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {48, 32};
+  const auto selected = [&](int x, int y) {
+    thread.query(queryFor(request_, x, y));
+    EXPECT_TRUE(waitFor(thread));
+    RayView view;
+    select(thread.takePick().value(), view);
+    return view;
+  };
+  const RayView sphere = selected(24, 14), nothing = selected(0, 0);
+  ASSERT_LT(sphere.material, scene_->scene.materials.size());
+  EXPECT_EQ(scene_->scene.materials[sphere.material].name, "mirror");
+  EXPECT_EQ(sphere.light, 0u);
+  EXPECT_EQ(nothing.material, kNoCounterpart);
+  EXPECT_EQ(nothing.light, kNoCounterpart);
+}
+
+// Coarser, deeper or brighter frames around them change nothing, nor do they change the frames.
+TEST_F(RayPicking, PicturesUnderWayGoOn) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {48, 32};
+  const TracedFrame small = traced(thread);
+  const RayQuery query = queryFor(request_, 24, 14);
+  request_.options.size = {480, 320};
+  request_.spp = 64;
+  request_.interruptible = true;
+  thread.ask(request_);
+  thread.query(query);
+  ASSERT_TRUE(waitFor(thread));
+  TracedFrame frame;
+  ASSERT_TRUE(thread.take(frame)) << "the question has ended it";
+  const Film film = expected();
+  EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
+  const auto pick = thread.takePick();
+  ASSERT_TRUE(pick);
+  EXPECT_EQ(pick->rays.packets.pixel, small.film.image.at(24, 14));
+}
+
+TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {48, 32};
+  thread.query(queryFor(request_, 24, 14));
+  ASSERT_TRUE(waitFor(thread));
+  const auto pick = thread.takePick();
+  ASSERT_TRUE(pick);
+  constexpr double kRounding = 1e-3;  // pixels
+  const LineView view(request_.camera, 48, 32);
+  const RayNode& primary = pick->rays.packets.nodes[0];
+  const auto seen = view.see(primary.position, primary.position + Vec3d{0, 0, 1e-9});
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->x1, 24.5, kRounding);
+  EXPECT_NEAR(seen->y1, 14.5, kRounding);
+  // Behind the camera there is nothing to see.
+  const Vec3d eye(request_.camera.eye), back = eye - Vec3d(request_.camera.at);
+  EXPECT_FALSE(view.see(eye + back, eye + back * 2));
+  // From aside, all that was met is in the picture.
+  const LineView aside(cameraAside(pick->rays.packets, request_.camera), 48, 32);
+  for (const RayNode& n : pick->rays.packets.nodes) {
+    if (n.triangle == kMiss) continue;
+    const auto at = aside.see(n.position, n.position);
+    ASSERT_TRUE(at);
+    EXPECT_TRUE(at->x1 > 0 && at->x1 < 48 && at->y1 > 0 && at->y1 < 32);
+  }
+}
+
+TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
+  play(
+      "key H\nkey N\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nwait sharp\n"
+      "screenshot rays.png\nkey T\nwait 2 frames\nscreenshot hidden.png\nkey T\n"
+      "mouse right 60 0\nwait 20 frames\nwait sharp\nscreenshot aside.png\nkey T\nwait 2 frames\n"
+      "screenshot plain-aside.png\n",
+      {"--size", "240x160"});
+  EXPECT_NE(codes("rays.png").codes, codes("plain.png").codes);
+  expectSameCodes("hidden.png", "plain.png");
+  EXPECT_NE(codes("aside.png").codes, codes("plain-aside.png").codes);
+}
+
+TEST_F(Viewer, AClickTurnsThePanelToTheRays) {
+  play(
+      "key N\nwait sharp\npanel keys\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
+      "wait 250 frames\nscreenshot rays.png\n",
+      {"--size", "800x480"});
+  play("key N\nwait sharp\npanel keys\nwait 2 frames\nwait 250 frames\nscreenshot keys.png\n",
+       {"--size", "800x480"});
+  EXPECT_NE(codes("rays.png").codes, codes("keys.png").codes);
+}
+
+}  // namespace
+}  // namespace whit::view

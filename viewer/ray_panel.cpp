@@ -1,0 +1,248 @@
+#include "viewer/ray_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/display.h"
+#include "core/formatted.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr double kLeastUnfolded = 0.05;  // share of the pixel's radiance
+
+ImU32 colorOf(RayLook look) {
+  const auto& c = kRayColors[static_cast<std::size_t>(look)];
+  return IM_COL32(c[0], c[1], c[2], 255);
+}
+
+ImVec4 textColorOf(RayKind kind) {
+  switch (kind) {
+    case RayKind::reflection:
+      return {1, 0.5f, 0.5f, 1};
+    case RayKind::refraction:
+      return {0.5f, 0.75f, 1, 1};
+    default:
+      return {1, 1, 1, 1};
+  }
+}
+
+std::string textOf(const RgbD& c) { return formatted("%.4f %.4f %.4f", c.x, c.y, c.z); }
+
+class RayTreeTab {
+ public:
+  RayTreeTab(const RayPick& pick, const TracedFrame& frame, RayView& view)
+      : pick_(pick), tree_(pick.rays.packets), view_(view) {
+    const RenderOptions& options = frame.request.options;
+    scale_ = std::exp2(double{options.exposure.ev});
+    curve_ = options.toneCurve;
+    encoding_ = options.srgb;
+  }
+
+  void draw() {
+    drawPixel();
+    drawButtons();
+    view_.pointedAt = kNoCounterpart;
+    const float height = std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetFontSize());
+    ImGui::BeginChild("tree", ImVec2(0, height), false, ImGuiWindowFlags_HorizontalScrollbar);
+    for (const std::size_t primary : tree_.primaries) drawNode(primary);
+    ImGui::EndChild();
+  }
+
+ private:
+  std::array<std::uint8_t, 3> codesOf(const Rgb& pixel) const {
+    return displayCodes(pixel, scale_, curve_, encoding_);
+  }
+
+  void drawPixel() const {
+    const Rgb p = tree_.pixel, r = pick_.rays.reference.pixel;
+    const auto codes = codesOf(p), other = codesOf(r);
+    ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y,
+                pick_.query.options.size->width, pick_.query.options.size->height);
+    ImGui::Text("packets   %s  codes %d %d %d", textOf(RgbD(p)).c_str(), codes[0], codes[1],
+                codes[2]);
+    ImGui::Text("reference %s  codes %d %d %d", textOf(RgbD(r)).c_str(), other[0], other[1],
+                other[2]);
+    std::size_t shadows = 0;
+    for (const RayNode& n : tree_.nodes) {
+      shadows += static_cast<std::size_t>(
+          std::count_if(n.lights.begin(), n.lights.end(),
+                        [](const LightContribution& light) { return light.traced; }));
+    }
+    ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), shadows);
+  }
+
+  void drawButtons() {
+    if (ImGui::Button("look from aside")) view_.fromAside = true;
+    ImGui::SameLine();
+    ImGui::Checkbox("lines (T)", &view_.lines);
+    ImGui::SameLine();
+    if (ImGui::Button("forget")) view_.forget = true;
+  }
+
+  // By how many codes the pixel would differ without the node and all below it, at most.
+  int codesAdded(const RgbD& added) const {
+    const auto with = codesOf(tree_.pixel);
+    const auto without = codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f)));
+    int most = 0;
+    for (std::size_t c = 0; c < with.size(); ++c) {
+      most = std::max(most, std::abs(int{with[c]} - int{without[c]}));
+    }
+    return most;
+  }
+
+  void point(std::size_t node) {
+    if (ImGui::IsItemHovered()) view_.pointedAt = node;
+  }
+
+  void drawNode(std::size_t number) {
+    const RayNode& n = tree_.nodes[number];
+    const RgbD added = cli::addedBy(tree_, number, n.radiance);
+    const double share = maxComponent(added) / std::max(1e-12, double{maxComponent(tree_.pixel)});
+    ImGui::PushID(static_cast<int>(number));
+    ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
+    ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
+    const std::string text =
+        formatted("%s to %s: %d codes", kRayKindNames[static_cast<std::size_t>(n.kind)].data(),
+                  pick_.words[number].met.c_str(), codesAdded(added));
+    const bool open =
+        ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
+    ImGui::PopStyleColor();
+    point(number);
+    if (open) {
+      drawOwn(number);
+      for (const std::size_t child : n.children) drawNode(child);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+
+  void drawOwn(std::size_t number) {
+    const RayNode& n = tree_.nodes[number];
+    const RayWords& words = pick_.words[number];
+    const auto adds = [&](const char* what, const RgbD& own) {
+      ImGui::BulletText("%s adds %s", what, textOf(cli::addedBy(tree_, number, own)).c_str());
+      point(number);
+    };
+    ImGui::BulletText("weight %s, in %s", textOf(n.weight).c_str(), words.medium.c_str());
+    point(number);
+    if (maxComponent(n.emitted) > 0) {
+      adds(n.triangle == kMiss ? "sky" : "emission and ambient", n.emitted);
+    }
+    for (std::size_t l = 0; l < n.lights.size(); ++l) {
+      const LightContribution& light = n.lights[l];
+      const std::string& name = words.lights[l];
+      if (light.visible) {
+        adds(name.c_str(), light.radiance);
+      } else {
+        ImGui::BulletText("%s is in shadow", name.c_str());
+        point(number);
+      }
+    }
+    drawEnd("reflection", n.reflectionEnd);
+    drawEnd("refraction", n.refractionEnd);
+    if (words.parting.empty()) return;
+    ImGui::TextColored(ImVec4(1, 0.75f, 0.3f, 1), "here the reference parts: %s",
+                       words.parting.c_str());
+  }
+
+  static void drawEnd(const char* what, PathEnd end) {
+    if (end != PathEnd::none) ImGui::BulletText("no %s: %s", what, cli::nameOf(end));
+  }
+
+  const RayPick& pick_;
+  const RayTree& tree_;
+  RayView& view_;
+  double scale_ = 1;
+  ToneCurve curve_ = ToneCurve::none;
+  SrgbEncoding encoding_ = SrgbEncoding::exact;
+};
+
+// What lies in the window, so that no coordinate is larger than lines are drawn well with.
+bool clip(ScreenLine& line, double width, double height) {
+  double from = 0, to = 1;
+  const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
+  const auto keep = [&](double step, double room) {  // step * t <= room
+    if (step == 0) return room >= 0;
+    const double t = room / step;
+    if (step > 0) {
+      to = std::min(to, t);
+    } else {
+      from = std::max(from, t);
+    }
+    return from <= to;
+  };
+  const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
+                    keep(dy, height - line.y1);
+  if (!seen) return false;
+  line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
+  return true;
+}
+
+void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width) {
+  constexpr double kDash = 5, kPeriod = 9;  // pixels
+  const double length = std::hypot(l.x2 - l.x1, l.y2 - l.y1);
+  if (!(length > 0)) return;
+  const double dx = (l.x2 - l.x1) / length, dy = (l.y2 - l.y1) / length;
+  const auto at = [&](double way) {
+    return ImVec2(static_cast<float>(l.x1 + way * dx), static_cast<float>(l.y1 + way * dy));
+  };
+  for (int dash = 0; dash * kPeriod < length; ++dash) {
+    const double begin = dash * kPeriod;
+    list.AddLine(at(begin), at(std::min(begin + kDash, length)), color, width);
+  }
+}
+
+}  // namespace
+
+void select(const RayPick& pick, RayView& view) {
+  view.material = view.light = kNoCounterpart;
+  const RayNode& met = pick.rays.packets.nodes.front();
+  if (met.triangle == kMiss) return;
+  view.material = met.material;
+  double most = 0;
+  for (const LightContribution& light : met.lights) {
+    const double radiance = maxComponent(light.radiance);
+    if (radiance <= most) continue;
+    most = radiance;
+    view.light = light.light;
+  }
+}
+
+void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view) {
+  if (!pick.scene) {
+    ImGui::TextWrapped(
+        "Click on the picture: the rays of that pixel are listed here and drawn "
+        "into the scene.");
+    return;
+  }
+  RayTreeTab(pick, frame, view).draw();
+}
+
+void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  if (!pick.scene || !view.lines || window.x < 1 || window.y < 1) return;
+  const LineView seen(camera, static_cast<int>(window.x), static_cast<int>(window.y));
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto draw = [&](const RayLine& line, double extra) {
+    auto at = seen.see(line.from, line.to);
+    if (!at || !clip(*at, double{window.x}, double{window.y})) return;
+    const auto width = static_cast<float>(line.width + extra);
+    const ImU32 color = colorOf(line.look);
+    if (line.look == RayLook::lit || line.look == RayLook::blocked) {
+      drawDashed(list, *at, color, width + 0.5f);
+      return;
+    }
+    const ImVec2 from(static_cast<float>(at->x1), static_cast<float>(at->y1));
+    const ImVec2 to(static_cast<float>(at->x2), static_cast<float>(at->y2));
+    list.AddLine(from, to, IM_COL32(0, 0, 0, 120), width + 2);  // legible on bright ground, too
+    list.AddLine(from, to, color, width);
+    list.AddCircleFilled(to, width + 1, color);
+  };
+  for (const RayLine& line : pick.lines) draw(line, line.node == view.pointedAt ? 3 : 0);
+}
+
+}  // namespace whit::view
