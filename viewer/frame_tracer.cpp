@@ -129,16 +129,23 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   return !request.withReference || traceReference(request, frame, calls);
 }
 
+// Milliseconds a pixel of frames in one piece, as those that are measured: blocks have taken longer.
+// Of a coarse frame, and of finer ones while starting the workers may be most of the time.
+double FrameTracer::probe(const Camera& camera, const ImageSize& whole) {
+  double ms = 0;
+  for (int coarser = 8; coarser >= 1 && ms < kMeasuredMs / 8; coarser /= 2) {
+    const ImageSize size{std::max(whole.width / coarser, 1), std::max(whole.height / coarser, 1)};
+    sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
+    renderer_->render(camera, band_);
+    ms = renderer_->render(camera, band_).frameMs;
+  }
+  return ms / static_cast<double>(band_.image.pixels.size());
+}
+
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
   const ImageSize whole = request.options.size.value();
-  // In one piece, as those that are measured: blocks have taken longer.
-  constexpr int kCoarser = 8;
-  const ImageSize probe{std::max(whole.width / kCoarser, 1), std::max(whole.height / kCoarser, 1)};
-  sizeFilm(band_, probe, Crop{0, 0, probe.width, probe.height});
-  renderer_->render(request.camera, band_);
-  const double msPerPixel = renderer_->render(request.camera, band_).frameMs /
-                            static_cast<double>(band_.image.pixels.size());
+  const double msPerPixel = probe(request.camera, whole);
   const ImageSize size = measuredSize(whole, msPerPixel);
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /

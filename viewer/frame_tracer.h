@@ -59,6 +59,7 @@ class FrameTracer {
   // The one after `last`, which is empty before the first.
   Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs);
   bool fits(double blockMs, const ImageSize& size, const Crop& part);
+  double probe(const Camera& camera, const ImageSize& whole);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 

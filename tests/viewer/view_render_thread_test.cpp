@@ -120,6 +120,7 @@ TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
 TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
   RenderThread thread(opened_, common_, [] {});
   request_.measureKnobs = true;
+  request_.options.size = {24, 16};  // so few pixels that frames of all of them are measured
   const TracedFrame frame = traced(thread);
   const auto costOf = [&](const std::string& name) {
     for (const KnobCost& cost : frame.costs) {
