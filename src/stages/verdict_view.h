@@ -37,9 +37,11 @@ struct VerdictView {
   const std::uint32_t* parts = nullptr;
   // kCellsASide words a place, a row of cells each, two bits a Verdict.
   const std::uint32_t* cells = nullptr;
-  // A byte a part: how many rays have missed its verdict, up to 255. Written while frames are
-  // traced, by any worker.
+  // A byte a part: 1 where rays have missed its verdict. Written while frames are traced, by any
+  // worker.
   std::uint8_t* wanted = nullptr;
+  // Nothing is known yet: parts are noted, and all rays traced.
+  bool empty = true;
   bool serves() const { return first != nullptr; }
 };
 
