@@ -69,9 +69,8 @@ class Renderer {
   // More frames of this scene are to come: shadows may have verdicts from now on (--verdicts), in
   // tables of no more than so many bytes. Not while rendering.
   void expectFrames(std::uint64_t mostBytes);
-  // Looks at parts of triangles where at least so many shadow rays found no verdict, for about so
-  // long. Not while rendering.
-  FillReport fillVerdicts(unsigned atLeast, double mostMs);
+  // Looks at parts of triangles where shadow rays found no verdict. Not while rendering.
+  FillReport fillVerdicts();
   bool decidesShadows() const { return verdicts_ && !lightsWithVerdicts(plan_).empty(); }
   std::uint64_t verdictBytes() const { return verdicts_ ? verdicts_->bytes() : 0; }
 

@@ -48,8 +48,8 @@ void Renderer::renewVerdicts() {
   }
 }
 
-FillReport Renderer::fillVerdicts(unsigned atLeast, double mostMs) {
-  return decidesShadows() ? verdicts_->fill(scheduler_.pool(), atLeast, mostMs) : FillReport();
+FillReport Renderer::fillVerdicts() {
+  return decidesShadows() ? verdicts_->fill(scheduler_.pool()) : FillReport();
 }
 
 void Renderer::shadingChanged() {

@@ -8,10 +8,15 @@ namespace whit {
 
 namespace {
 
-// Half a unit in the last place of a float, and how many of them each kind of sum may be off:
-// counted (a difference, the products and sums of a cross product and of a dot product), twice.
+// Half a unit in the last place of a float, and how many of them each kind of sum may be off. No
+// more than eight roundings follow one another from a vertex to a sum: its difference from the
+// origin and from another vertex, the product and difference of a cross product, the product and
+// two sums of a dot product, and the length to the light; 12 leaves room.
 constexpr double kHalfUlp = 0x1p-24;
 constexpr double kRoundings = 12;
+// Products below the range of a float are flushed to zero: six of a cross product, each times a
+// length, and three of a dot product, by less than 2^-126 each.
+constexpr double kFlushed = 0x1p-122;
 // Embree takes edge functions for zero that are so small a part of their sum.
 constexpr double kEdgeTolerance = 0x1p-21;
 
@@ -82,12 +87,14 @@ Caster::Bounds Caster::boundsFor(const Receiver& receiver) const {
   b.way = light_.directional ? 1 : length(light_.position - receiver.center) + spread;
   const double unit = kRoundings * kHalfUlp, aside = 2 * farthest(receiver);
   for (std::size_t i = 0; i < 3; ++i) {
-    b.edge[i] = unit * b.away * (edgeLength_[i] * b.way + aside) + gradient_[i] * receiver.reach;
+    b.edge[i] = unit * b.away * (edgeLength_[i] * b.way + aside) + gradient_[i] * receiver.reach +
+                kFlushed * (1 + b.way);
     b.largestEdge = std::max(b.largestEdge, b.edge[i]);
   }
   const double turned = unit * (area2_ + longest_ * b.away);
-  b.slope = turned * b.way + (light_.directional ? 0 : area2_ * receiver.reach);
-  b.height = turned * b.away + area2_ * receiver.reach;
+  b.slope =
+      turned * b.way + (light_.directional ? 0 : area2_ * receiver.reach) + kFlushed * (1 + b.way);
+  b.height = turned * b.away + area2_ * receiver.reach + kFlushed * (1 + b.away);
   return b;
 }
 

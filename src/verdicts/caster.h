@@ -1,8 +1,8 @@
 // What one triangle does to all shadow rays from a receiver to a light: proofs that hold for what
 // Embree's robust traversal computes in single precision, not only for exact rays.
 //
-// Embree's test (Woop et al. 2013, "Watertight ray/triangle intersection", in Pluecker coordinates)
-// has, with corners a, b, c relative to the ray's origin O and its direction D, three edge
+// Embree's robust test ("modified Pluecker", kernels/geometry/triangle_intersector_pluecker.h) has,
+// with corners a, b, c relative to the ray's origin O and its direction D, three edge
 // functions D.(a x b), D.(b x c), D.(c x a), all of one sign where the line meets the triangle, and
 // the distance (a.N) / (D.N), N the normal. With D = L - O each of these numbers is linear in O:
 // over a convex receiver its extremes lie at the corners. What rounding may add to each is bounded

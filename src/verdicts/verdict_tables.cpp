@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
+#include "scene/instance_bounds.h"
 #include "verdicts/decide_part.h"
 
 namespace whit {
@@ -20,6 +21,27 @@ constexpr float kLargest = 0x1p24f;
 // A cell is no finer than this part of the scene's size, which is about a pixel's where a view
 // shows all of it.
 constexpr double kFinestCell = 0x1p-13;
+
+// Rays between two such points are taken by Embree, in an instance's space as well (their
+// coordinates and directions sum up to less).
+constexpr float kNeededReach = 16 * kLargest;
+
+bool isNear(const Vec3f& lower, const Vec3f& upper) {
+  return maxComponent(max(abs(lower), abs(upper))) < kLargest;
+}
+
+// Whether proofs hold for the scene's coordinates.
+bool inRange(const Scene& scene) {
+  return isNear(scene.lower, scene.upper) &&
+         std::all_of(scene.instances.begin(), scene.instances.end(), [](const auto& instance) {
+           return instanceReach(instance.toWorld) > kNeededReach;
+         });
+}
+
+bool inRange(const LightPoint& light) {
+  const Vec3f point(light.position);
+  return isNear(point, point);
+}
 
 int partsASide(double edge, double cell) {
   const double parts = edge / (cell * kCellsASide);
@@ -44,7 +66,7 @@ VerdictParts VerdictParts::of(const Scene& scene) {
   const Geometry& world = scene.geometries[0];
   const std::size_t count = world.classBegin[kTriangleClasses];
   if (count == 0 || count > kMostParts || scene.triangles.size() >= CasterRef::kBox) return parts;
-  if (!(maxComponent(max(abs(scene.lower), abs(scene.upper))) < kLargest)) return parts;
+  if (!inRange(scene)) return parts;
   std::vector<double> edges(count);
   for (std::size_t i = 0; i < count; ++i) {
     edges[i] = longestEdge(scene.triangles[world.firstTriangle + i]);
@@ -141,13 +163,19 @@ VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>&
   for (const std::size_t number : lights) {
     lights_.push_back(
         std::make_unique<OfLight>(scene.lights[number], number, parts_.count(), mostCells));
-    OfLight& table = *lights_.back();
-    views_[number] = {parts_.first.data(), table.parts.data(), table.cells.data(),
-                      table.wanted.data()};
+    serve(*lights_.back());
   }
 }
 
 VerdictTables::~VerdictTables() = default;
+
+void VerdictTables::serve(OfLight& light) {
+  VerdictView& view = views_[light.number];
+  view = VerdictView();
+  if (!inRange(light.point) || light.idle()) return;
+  view = {parts_.first.data(), light.parts.data(), light.cells.data(), light.wanted.data(),
+          light.seen == 0};
+}
 
 void VerdictTables::forgetMovedLights() {
   for (auto& light : lights_) {
@@ -155,49 +183,40 @@ void VerdictTables::forgetMovedLights() {
     if (now == light->point) continue;
     light->point = now;
     light->forget();
+    serve(*light);
   }
 }
 
-FillReport VerdictTables::fill(WorkerPool& pool, unsigned atLeast, double mostMs) {
+FillReport VerdictTables::fill(WorkerPool& pool) {
   const Stopwatch stopwatch;
   FillReport report;
   for (auto& light : lights_) {
     if (!views_[light->number].serves()) continue;
-    fillLight(*light, pool, atLeast, mostMs - stopwatch.ms(), report);
-    views_[light->number].cells = light->cells.data();
-    if (light->idle()) views_[light->number] = VerdictView();
+    report.parts += fillLight(*light, pool);
+    serve(*light);
   }
   report.ms = stopwatch.ms();
   return report;
 }
 
-void VerdictTables::fillLight(OfLight& light, WorkerPool& pool, unsigned atLeast, double mostMs,
-                              FillReport& report) const {
-  const Stopwatch stopwatch;
+// Returns how many parts it looked at.
+std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool) const {
   std::vector<std::uint32_t> asked;
   for (std::size_t i = 0; i < light.wanted.size(); ++i) {
-    if (light.wanted[i] >= atLeast) asked.push_back(static_cast<std::uint32_t>(i));
+    if (light.wanted[i] != 0) asked.push_back(static_cast<std::uint32_t>(i));
   }
-  if (asked.empty()) return;
+  if (asked.empty()) return 0;
   if (!light.tree) light.tree = std::make_unique<CasterTree>(scene_, *casters_, light.point);
   std::vector<PartVerdict> verdicts(asked.size());
   std::atomic<std::size_t> next{0};
   pool.run([&](int) {
     PartScratch scratch;
     for (std::size_t i = next++; i < asked.size(); i = next++) {
-      if (stopwatch.ms() > mostMs) return;
       verdicts[i] = decide(light, asked[i], scratch);
     }
   });
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (!verdicts[i].known()) {
-      ++report.waiting;
-      continue;
-    }
-    light.keep(asked[i], verdicts[i]);
-    ++report.parts;
-    if (!verdicts[i].divided && verdicts[i].whole == Verdict::mixed) ++report.mixed;
-  }
+  for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], verdicts[i]);
+  return asked.size();
 }
 
 PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,

@@ -26,16 +26,15 @@ struct VerdictParts {
   double cell = 0;                   // as long as a cell's edge shall be, at least
   std::size_t count() const { return owner.size(); }
 
-  // None where the scene has too many triangles, or coordinates that proofs do not reach.
+  // None where the scene has too many triangles, or coordinates that proofs do not reach: its own,
+  // or those of its rays in the space of an instance.
   static VerdictParts of(const Scene& scene);
 };
 
 // What filling has brought.
 struct FillReport {
-  double ms = 0;              // wall-clock
-  std::uint64_t parts = 0;    // looked at
-  std::uint64_t waiting = 0;  // wanted still
-  std::uint64_t mixed = 0;    // of these, as a whole
+  double ms = 0;            // wall-clock
+  std::uint64_t parts = 0;  // looked at
 };
 
 inline constexpr std::uint64_t kMostBytesALight = std::uint64_t{32} << 20;
@@ -43,7 +42,8 @@ inline constexpr std::uint64_t kMostBytesALight = std::uint64_t{32} << 20;
 class VerdictTables {
  public:
   // For the lights of these numbers, in about `mostBytes`, and no more than kMostBytesALight of
-  // them for each. Lights have none where that is too little. The scene must outlive them.
+  // them for each. Lights have none where that is too little, or while they are too far away. The
+  // scene must outlive them.
   VerdictTables(const Scene& scene, const std::vector<std::size_t>& lights,
                 std::uint64_t mostBytes);
   ~VerdictTables();
@@ -54,9 +54,8 @@ class VerdictTables {
   // One a light of the scene; those without a table do not serve. Valid as long as the tables are.
   const std::vector<VerdictView>& views() const { return views_; }
 
-  // Looks at the parts that at least so many rays have missed, for about so long. Not while a frame
-  // is traced.
-  FillReport fill(WorkerPool& pool, unsigned atLeast, double mostMs);
+  // Looks at the parts that rays have missed. Not while a frame is traced.
+  FillReport fill(WorkerPool& pool);
   // What is known of lights that are not where they were any more. Not while a frame is traced.
   void forgetMovedLights();
 
@@ -65,8 +64,8 @@ class VerdictTables {
  private:
   struct OfLight;
 
-  void fillLight(OfLight& light, WorkerPool& pool, unsigned atLeast, double mostMs,
-                 FillReport& report) const;
+  std::uint64_t fillLight(OfLight& light, WorkerPool& pool) const;
+  void serve(OfLight& light);
   PartVerdict decide(const OfLight& light, std::uint32_t part, PartScratch& scratch) const;
 
   const Scene& scene_;
