@@ -129,8 +129,8 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   return !request.withReference || traceReference(request, frame, calls);
 }
 
-// Milliseconds a pixel of frames in one piece, as those that are measured: blocks have taken longer.
-// Of a coarse frame, and of finer ones while starting the workers may be most of the time.
+// Milliseconds a pixel of frames in one piece, as those that are measured: blocks have taken
+// longer. Of a coarse frame, and of finer ones while starting the workers may be most of the time.
 double FrameTracer::probe(const Camera& camera, const ImageSize& whole) {
   double ms = 0;
   for (int coarser = 8; coarser >= 1 && ms < kMeasuredMs / 8; coarser /= 2) {

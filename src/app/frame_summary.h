@@ -16,7 +16,7 @@ namespace whit::cli {
 
 // Shadows that were proved before their rays were traced.
 struct VerdictUse {
-  double coldMs = 0;  // the first frame, that knew none; 0: not told apart
+  double coldMs = 0;  // the median frame that knew none; 0: not told apart
   double fillMs = 0;  // looking for them, between frames
   std::uint64_t bytes = 0;
 };
@@ -56,6 +56,10 @@ double writtenPerSecond(const RunSummary& run);
 
 // The median frame's time that is not spent inside Embree's calls.
 double outsideEmbreeMs(const RunSummary& run);
+
+// Runs that come in pairs: the scene's effects and all of them; all shadow rays traced and warm
+// verdicts.
+enum class RunPairs { none, effects, verdicts };
 
 // `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
 // else the machine did to both of a turn's frames cancels. 0 for none.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kBenchUsage = "whit bench SCENE... [options]";
 constexpr const char* kBenchSummary =
-    "Renders frames and says where their time goes. With --widths and --ab-effects the frames\n"
+    "Renders frames and says where their time goes. With --widths and the --ab options the frames\n"
     "of all runs take turns, so that whatever else the machine does hits all of them alike.";
 constexpr int kWidths[] = {1, 4, 8, 16};
 
@@ -25,7 +25,7 @@ struct BenchJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   int frames = 0;  // 0: not given
-  bool floor = false, widths = false, abEffects = false;
+  bool floor = false, widths = false, abEffects = false, abVerdicts = false;
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
@@ -33,11 +33,17 @@ struct BenchJob {
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
+    // After the frame that fills queues, an odd number that verdicts of shadow know nothing of.
+    if (abVerdicts) turns.warmUp = 6;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;
   }
-  bool comparesRuns() const { return widths || abEffects; }
+  bool comparesRuns() const { return widths || abEffects || abVerdicts; }
+  RunPairs pairs() const {
+    if (abVerdicts) return RunPairs::verdicts;
+    return abEffects ? RunPairs::effects : RunPairs::none;
+  }
 };
 
 OptionList listOptions(BenchJob& job) {
@@ -49,6 +55,10 @@ OptionList listOptions(BenchJob& job) {
   list.flag("widths", "packets of 1, 4, 8 and 16 as separate runs", job.widths);
   list.flag("ab-effects", "kernels with the scene's effects and with every effect as two runs",
             job.abEffects);
+  list.flag("ab-verdicts",
+            "all shadow rays traced, and those left out that are proved from frame to frame, as "
+            "two runs",
+            job.abVerdicts);
   list.value({"json", "FILE"}, "all runs for machines; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -73,8 +83,26 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
       options.effects = choice;
       add(options);
     }
+  } else if (job.abVerdicts) {
+    for (const Verdicts verdicts : {Verdicts::off, job.common.render.verdicts}) {
+      options.verdicts = verdicts;
+      add(options);
+    }
+    runs.back()->proveShadows();
   } else {
     add(options);
+    if (options.verdicts == Verdicts::audit) runs.back()->proveShadows();
+  }
+}
+
+void checkVerdictTurns(const BenchJob& job, const Farm& farm) {
+  if (job.reference()) throwUsage("--ab-verdicts is for packets, not --mode reference");
+  if (farm.ranks() > 1) throwUsage("--ab-verdicts is for one process, not for mpirun");
+  if (job.widths || job.abEffects) {
+    throwUsage("--ab-verdicts, --ab-effects and --widths are runs of their own: give one of them");
+  }
+  if (job.common.render.verdicts == Verdicts::off) {
+    throwUsage("--ab-verdicts runs without verdicts as well: leave out --verdicts off");
   }
 }
 
@@ -87,6 +115,7 @@ void checkJob(const BenchJob& job, const Farm& farm) {
   if (job.widths && job.common.given.contains("packet")) {
     throwUsage("--widths runs every packet width: leave out --packet");
   }
+  if (job.abVerdicts) checkVerdictTurns(job, farm);
   if (!job.abEffects) return;
   if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
   if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");
@@ -118,11 +147,11 @@ int bench(const Words& words, Farm& farm) {
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
-    for (std::size_t i = 0; job.abEffects && i + 1 < summaries.size(); i += 2) {
-      std::fprintf(people, "%s", effectsRatioText(summaries[i], summaries[i + 1]).c_str());
+    for (std::size_t i = 0; job.pairs() != RunPairs::none && i + 1 < summaries.size(); i += 2) {
+      std::fprintf(people, "%s", ratioText(job.pairs(), summaries[i], summaries[i + 1]).c_str());
     }
   }
-  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.abEffects));
+  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.pairs()));
   return 0;
 }
 

@@ -1,7 +1,5 @@
 #include "cli/bench_run.h"
 
-#include <limits>
-
 #include "accuracy/digest.h"
 #include "render/auto_exposure.h"
 #include "render/floor.h"
@@ -26,23 +24,24 @@ FrameStats BenchRun::frame() {
                : renderFrame(renderer_, options_.mode, camera_, film_);
 }
 
-// The first frame knows nothing of shadows; after it, all that it has asked for is found out.
 void BenchRun::warmUp() {
   const bool shared = farm_ && farm_->ranks() > 1;
-  if (summary_.verdicts || shared || options_.mode == Mode::reference) {
-    frame();
-    return;
-  }
-  renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_));
-  const FrameStats first = frame();
-  if (!renderer_.decidesShadows()) return;
+  const bool proves = proves_ && begun_ && !shared && options_.mode != Mode::reference;
+  if (proves) renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_));
+  const FrameStats stats = frame();
+  if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
+  begun_ = true;
+}
+
+void BenchRun::fillVerdicts() {
   VerdictUse& use = summary_.verdicts.emplace();
-  use.coldMs = first.frameMs;
-  use.fillMs = renderer_.fillVerdicts(1, std::numeric_limits<double>::infinity()).ms;
+  use.coldMs = quantile(coldMs_, 0.5);
+  use.fillMs = renderer_.fillVerdicts().ms;
   use.bytes = renderer_.verdictBytes();
 }
 
 void BenchRun::measure(bool floor) {
+  if (!coldMs_.empty() && !summary_.verdicts) fillVerdicts();
   summary_.frames.push_back(frame());
   summary_.imageHash = accuracy::digestOf(film_.image);
   if (farm_ && farm_->ranks() > 1) summary_.shares.push_back(farm_->lastFrame());

@@ -18,6 +18,11 @@ class BenchRun {
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
            const RenderOptions& options, Progress* progress, Farm* farm = nullptr);
 
+  // From the second frame of warming up on shadows have verdicts: frames that know none yet, and
+  // from the first that is measured on frames that know all that these have asked for. Not in
+  // reference mode, nor in frames that several processes share.
+  void proveShadows() { proves_ = true; }
+
   void warmUp();
   void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
   const RunSummary& summary() const { return summary_; }
@@ -29,6 +34,7 @@ class BenchRun {
 
  private:
   FrameStats frame();
+  void fillVerdicts();
 
   std::shared_ptr<const OpenScene> open_;
   Farm* farm_;
@@ -37,6 +43,8 @@ class BenchRun {
   Camera camera_;
   Film film_;
   std::uint64_t maxMemoryBytes_;
+  bool proves_ = false, begun_ = false;
+  std::vector<double> coldMs_;
   RunSummary summary_;
 };
 

@@ -125,15 +125,16 @@ Json runJson(const RunSummary& run) {
   return json;
 }
 
-Json benchJson(const std::vector<RunSummary>& runs, bool abEffects) {
+Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
   Json json{{"schema", kSchema}, {"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
-  for (std::size_t i = 0; abEffects && i + 1 < runs.size(); i += 2) {
+  const char* const name = pairs == RunPairs::verdicts ? "warm_over_off" : "all_over_auto";
+  for (std::size_t i = 0; pairs != RunPairs::none && i + 1 < runs.size(); i += 2) {
     const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
-    json["all_over_auto"].push_back({{"scene", runs[i].scene},
-                                     {"frame", ratio.frame},
-                                     {"outside_embree", ratio.outsideEmbree}});
+    json[name].push_back({{"scene", runs[i].scene},
+                          {"frame", ratio.frame},
+                          {"outside_embree", ratio.outsideEmbree}});
   }
   return json;
 }

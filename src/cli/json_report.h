@@ -22,9 +22,9 @@ Json machineJson(const Machine& machine);
 // `rays` and what follows are those of the median frame; a run of no frames, whose images were all
 // there, has none of what is measured on frames.
 Json runJson(const RunSummary& run);
-// `abEffects`: the runs come in pairs, the scene's effects and all of them; adds the latter over
-// the former as `all_over_auto`.
-Json benchJson(const std::vector<RunSummary>& runs, bool abEffects = false);
+// Of runs that come in pairs adds the second of each over the first: `all_over_auto`, of effects,
+// or `warm_over_off`, of verdicts.
+Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs = RunPairs::none);
 
 struct Comparison {
   ImageDifference difference;

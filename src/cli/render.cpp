@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -200,7 +199,7 @@ class ImageWriter {
 
   void lookForVerdicts() {
     if (!run_.verdicts) return;
-    run_.verdicts->fillMs += renderer_.fillVerdicts(1, std::numeric_limits<double>::infinity()).ms;
+    run_.verdicts->fillMs += renderer_.fillVerdicts().ms;
     run_.verdicts->bytes = renderer_.verdictBytes();
   }
 

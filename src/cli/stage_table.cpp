@@ -52,7 +52,9 @@ void appendVerdicts(std::string& text, const RunSummary& run) {
   const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
   text += formatted("  warm: verdicts for %.1f %% of the shadow rays; ",
                     rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
-  if (run.verdicts->coldMs > 0) text += formatted("first frame %.2f ms, ", run.verdicts->coldMs);
+  if (run.verdicts->coldMs > 0) {
+    text += formatted("cold, with none known, a frame took %.2f ms, ", run.verdicts->coldMs);
+  }
   text += formatted("tables filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
                     static_cast<double>(run.verdicts->bytes) / 1e6);
 }
@@ -127,15 +129,23 @@ std::string stageTable(const RunSummary& run) {
   return text;
 }
 
-std::string effectsRatioText(const RunSummary& scenes, const RunSummary& all) {
-  const RunRatio ratio = ratioOf(all, scenes);
-  std::string text;
-  text += formatted("%s, every effect over the scene's, medians of %zu turns\n",
-                    scenes.scene.c_str(), scenes.frames.size());
-  text += formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", "whole frame", ratio.frame,
-                    medianFrame(all).frameMs, medianFrame(scenes).frameMs);
-  text += formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", "outside Embree", ratio.outsideEmbree,
-                    outsideEmbreeMs(all), outsideEmbreeMs(scenes));
+std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second) {
+  const RunRatio ratio = ratioOf(second, first);
+  const double base = medianFrame(first).frameMs;
+  const auto row = [](const char* what, double of, double a, double b) {
+    return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
+  };
+  std::string text = formatted("%s, %s, medians of %zu turns\n", first.scene.c_str(),
+                               pairs == RunPairs::effects ? "every effect over the scene's"
+                                                          : "warm over all shadow rays traced",
+                               first.frames.size());
+  text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
+  text +=
+      row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(second), outsideEmbreeMs(first));
+  if (second.verdicts && base > 0) {
+    const double cold = second.verdicts->coldMs;
+    text += row("cold, with no verdict known", cold / base, cold, base);
+  }
   return text;
 }
 

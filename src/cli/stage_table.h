@@ -12,8 +12,7 @@ namespace whit::cli {
 // measured.
 std::string stageTable(const RunSummary& run);
 
-// What it costs to compile in every effect: the ratios of two runs of one scene, whose frames took
-// turns.
-std::string effectsRatioText(const RunSummary& scenes, const RunSummary& all);
+// The second of two runs of one scene, whose frames took turns, over the first.
+std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second);
 
 }  // namespace whit::cli
