@@ -34,7 +34,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
       thread_(scene, options.common, &Window::wake),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
-      read_{scene, scene->scene.materials, scene->scene.lights, {}},
+      read_(withoutEdits(scene)),
       edit_(read_),
       traced_(read_) {
   watch(options.scene);
@@ -62,6 +62,7 @@ bool App::step() {
     obey(step);
   }
   handleInput();
+  doWhatThePanelAsks();
   restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
   watchSceneFile(seconds);
   followRays();
@@ -273,16 +274,18 @@ void App::askForFrame() {
 void App::drawPanel() {
   if (!settings_.shown || !shown_.scene) return;
   const PanelSettings before = settings_;
-  const bool edited = panel_.draw(shown_, rays_, control_.speed(), settings_, edit_);
-  if (edited) {
-    ++edits_;
-    edit_.settings = editSettings(read_, edit_);
-    thread_.edit(edit_);
-  }
+  const bool edited = panel_.draw(shown_, rays_, control_.speed(), settings_, read_.sky, edit_);
+  if (edited) passOnEdit();
   if (edited || settings_.options != before.options || settings_.view != before.view) {
     restSeconds_ = 0;
   }
   if (settings_.compare != before.compare) showPicture();
+}
+
+void App::passOnEdit() {
+  ++edits_;
+  edit_.settings = editSettings(read_, edit_);
+  thread_.edit(edit_);
 }
 
 void App::draw(const std::string& screenshot) {

@@ -56,6 +56,7 @@ class App {
   void showPicture();
   void followRays();
   void drawPanel();
+  void passOnEdit();
   void draw(const std::string& screenshot);
   void say(const std::string& message);
   void fail(const std::string& error);
@@ -79,12 +80,17 @@ class App {
   void obey(const ScriptStep& step);
   std::string command() const;
   std::string viewCommand() const;
+  RenderOptions viewOptions() const;
+  void saveScene();
+  void doWhatThePanelAsks();
 
   // app_scene.cpp
   void watchSceneFile(double seconds);
   void watch(const std::string& scene);
   void reload();
   void open(const std::string& name);
+  void openFile(const std::string& file);
+  void showSky(const std::string& file);
   void takeScene();
 
   const ViewOptions& options_;

@@ -8,6 +8,7 @@
 
 #include "core/formatted.h"
 #include "viewer/app.h"
+#include "viewer/save_scene.h"
 #include "viewer/view_files.h"
 
 namespace whit::view {
@@ -66,8 +67,22 @@ void App::handleInput() {
       fail(error.what());
     }
   }
+  for (const int key : input.commands) {
+    settings_.saveScene |= key == GLFW_KEY_S;
+    if (key == GLFW_KEY_C) printView();
+  }
   if (const auto click = window_.takeClick()) pick(*click);
-  if (!input.dropped.empty()) open(input.dropped.front());
+  if (!input.dropped.empty()) openFile(input.dropped.front());
+}
+
+void App::doWhatThePanelAsks() {
+  if (std::exchange(settings_.saveScene, false)) {
+    try {
+      saveScene();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
 }
 
 // That makes the picture shown.
@@ -75,8 +90,8 @@ std::string App::command() const {
   return renderCommand(sceneName_, options_.common, shown_, shown_.options);
 }
 
-// Likewise, but of a view that is not sharp yet as it will be with the samples asked for.
-std::string App::viewCommand() const {
+// That make it, but of a view that is not sharp yet as it will be with the samples asked for.
+RenderOptions App::viewOptions() const {
   RenderOptions options = shown_.options;
   if (shown_.request.coarse || !shown_.request.interruptible) {
     const Sharpness full{resolution_.largestScale(), settings_.options.spp, kDepthLimit};
@@ -84,7 +99,11 @@ std::string App::viewCommand() const {
     options.spp = full.spp;
     options.depth = settings_.options.depth;
   }
-  return renderCommand(sceneName_, options_.common, shown_, options);
+  return options;
+}
+
+std::string App::viewCommand() const {
+  return renderCommand(sceneName_, options_.common, shown_, viewOptions());
 }
 
 void App::obey(const ScriptStep& step) {
@@ -159,6 +178,15 @@ void App::printView() {
   std::fflush(stdout);
   window_.setClipboard(text);
   say("the view as whit render makes it: printed, and in the clipboard");
+}
+
+void App::saveScene() {
+  if (!shown_.scene) return;
+  const SavedScene saved =
+      view::saveScene(options_.common.load, sceneName_, *scene_, edit_, control_.camera());
+  std::printf("%s\n", commandFor(saved, scene(), viewOptions()).c_str());
+  std::fflush(stdout);
+  say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
 
 void App::expose(float step) {

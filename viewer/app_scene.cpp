@@ -49,10 +49,24 @@ void App::open(const std::string& name) {
   say("reading " + name);
 }
 
+// A scene, or an image to be its sky.
+void App::openFile(const std::string& file) {
+  const std::string extension = extensionOf(file);
+  if (extension == ".hdr" || extension == ".exr") return showSky(file);
+  open(file);
+}
+
+void App::showSky(const std::string& file) {
+  edit_.sky = chooseSky(file);
+  passOnEdit();
+  restSeconds_ = 0;
+  say("sky: " + file);
+}
+
 // The frame just fetched shows a scene that was read anew.
 void App::takeScene() {
   scene_ = shown_.scene;
-  read_ = edit_ = traced_ = {scene_, scene().materials, scene().lights, {}};
+  read_ = edit_ = traced_ = withoutEdits(scene_);
   edits_ = tracedEdits_ = 0;
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();

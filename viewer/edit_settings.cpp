@@ -1,21 +1,10 @@
-// Edits of materials and lights as settings of the scene.
-#include <cstdlib>
-
-#include "core/option_values.h"
-#include "io/json_text.h"
+// Edits as settings of the scene.
+#include "io/describe_scene.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
 
 namespace {
-
-// The shortest decimals that are read as this float.
-Json jsonOf(float x) {
-  const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
-  return static_cast<float>(shortest) == x ? shortest : static_cast<double>(x);
-}
-Json jsonOf(const Vec3f& v) { return Json::array({jsonOf(v.x), jsonOf(v.y), jsonOf(v.z)}); }
-Json jsonOf(bool flag) { return flag; }
 
 template <typename Item>
 class Differences {
@@ -29,7 +18,7 @@ class Differences {
   }
   template <typename Field>
   void add(const char* name, Field Item::*field) {
-    if (changed(field)) say(name, jsonOf(edited_.*field));
+    if (changed(field)) say(name, describe(edited_.*field));
   }
   void say(const char* name, const Json& value) {
     settings_.push_back(edited_.pointer + "/" + name + "=" + value.dump());
@@ -53,15 +42,15 @@ void addMaterial(const Material& read, const Material& edited, std::vector<std::
   d.add("emission", &Material::emission);
   d.add("mirror", &Material::mirror);
   if (d.changed(&Material::mirror)) {
-    d.say("mirrorGrazing", jsonOf(edited.mirrorGrazing));
+    d.say("mirrorGrazing", describe(edited.mirrorGrazing));
   } else {
     d.add("mirrorGrazing", &Material::mirrorGrazing);
   }
   d.add("transmission", &Material::transmission);
-  if (d.changed(&Material::transmission)) d.say("castsShadow", jsonOf(read.castsShadow));
+  if (d.changed(&Material::transmission)) d.say("castsShadow", read.castsShadow);
   if (d.changed(&Material::mirror) || d.changed(&Material::mirrorGrazing) ||
       d.changed(&Material::transmission)) {
-    d.say("glossyReflection", jsonOf(edited.glossyReflection));
+    d.say("glossyReflection", edited.glossyReflection);
   }
   d.add("ior", &Material::ior);
   d.add("absorption", &Material::absorption);
@@ -77,7 +66,24 @@ void addLight(const Light& read, const Light& edited, std::vector<std::string>& 
   d.add("outerConeAngle", &Light::outerConeAngle);
 }
 
+// `whole`: also what has not changed.
+void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
+            std::vector<std::string>& settings) {
+  const auto say = [&](const char* pointer, const Json& value) {
+    settings.push_back(pointer + ("=" + value.dump()));
+  };
+  if (edited == read && !whole) return;
+  if (!edited.source.empty()) return say("/sky", describeSky(edited));
+  if (edited.scale != read.scale) say("/sky/scale", describe(edited.scale));
+  if (edited.rotation != read.rotation) say("/sky/rotation", describe(edited.rotation));
+}
+
 }  // namespace
+
+ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene) {
+  return {scene,         scene->scene.materials, scene->scene.lights,
+          skyOf(*scene), scene->scene.ambient,   {}};
+}
 
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited) {
   std::vector<std::string> settings;
@@ -86,6 +92,14 @@ std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit
   }
   for (std::size_t i = 0; i < read.materials.size(); ++i) {
     addMaterial(read.materials[i], edited.materials[i], settings);
+  }
+  const bool ambientChanged = !sameAmbient(read.ambient, edited.ambient);
+  // Ambient light is made from a sky of the scene's own, which one given by --sky is not.
+  addSky(read.sky, edited.sky, ambientChanged && edited.ambient.ofSky > 0, settings);
+  // A model's own would follow another sky.
+  const bool ambientFollows = read.scene && read.scene->scene.isModel && edited.sky != read.sky;
+  if (ambientFollows || ambientChanged) {
+    settings.push_back("/ambient=" + describe(edited.ambient).dump());
   }
   return settings;
 }

@@ -7,6 +7,7 @@
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
+#include "io/named_sky.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
@@ -63,7 +64,8 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
     : common_(common),
       scene_(std::move(scene)),
       options_(common.render),
-      renderer_(std::make_unique<Renderer>(scene_->scene, options_)) {}
+      renderer_(std::make_unique<Renderer>(scene_->scene, options_)),
+      sky_(skyOf(*scene_)) {}
 
 void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
@@ -73,13 +75,35 @@ void FrameTracer::load(const SceneChoice& choice) {
   renderer_ = std::move(renderer);  // before the scene that the old one reads goes
   scene_ = std::move(scene);
   editSettings_.clear();
+  sky_ = skyOf(*scene_);
+  ownSky_ = Sky();
 }
 
 void FrameTracer::edit(ShadingEdit edit) {
   if (edit.scene != scene_) return;
+  Sky opened;  // first of all: files cannot be trusted
+  if (edit.sky.source != sky_.source && !edit.sky.source.empty()) {
+    Warnings warnings(common_.render.strict);
+    opened = namedSky(edit.sky.source, common_.load.maxMemoryBytes, warnings);
+  }
   editShading(scene_->scene, std::move(edit.materials), std::move(edit.lights));
+  if (edit.sky != sky_ || !sameAmbient(edit.ambient, scene_->scene.ambient)) {
+    editSurroundings(edit, std::move(opened));
+  }
   renderer_->shadingChanged();
   editSettings_ = std::move(edit.settings);
+}
+
+void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
+  const bool another = edit.sky.source != sky_.source;
+  Sky next = std::move(!another ? scene_->scene.sky : edit.sky.source.empty() ? ownSky_ : opened);
+  next.scale = edit.sky.scale;
+  next.rotation = edit.sky.rotation;
+  const Ambient ambient =
+      edit.ambient.ofSky > 0 ? ambientFromSky(next, edit.ambient.ofSky) : edit.ambient;
+  editSky(scene_->scene, next, ambient);
+  if (another && sky_.source.empty()) ownSky_ = std::move(next);
+  sky_ = edit.sky;
 }
 
 void FrameTracer::applyOptions(const FrameRequest& request) {
@@ -121,7 +145,11 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.metadata = describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
   frame.settings = scene_->settings;
   frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());
-  cli::addSettings(frame.settings, scene_->sky, frame.metadata);
+  frame.sky = scene_->sky;
+  for (const std::string& setting : editSettings_) {
+    if (setting.starts_with("/sky")) frame.sky.clear();
+  }
+  cli::addSettings(frame.settings, frame.sky, frame.metadata);
   frame.effects = renderer_->plan().effects;
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();

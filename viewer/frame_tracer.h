@@ -39,7 +39,7 @@ class FrameTracer {
 
   // Reads a scene; the old one stays when that fails.
   void load(const SceneChoice& choice);
-  // Changes materials and lights; nothing when the scene is another one by now.
+  // Changes materials, lights and surroundings; nothing when the scene is another one by now.
   void edit(ShadingEdit edit);
 
   // The rays of a pixel. Also called from what trace() calls, between blocks; leaves the renderer's
@@ -51,6 +51,7 @@ class FrameTracer {
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
+  void editSurroundings(const ShadingEdit& edit, Sky opened);
   void applyOptions(const FrameRequest& request);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // Blocks are meant to take `blockMs`; false when `givenUp` said so between two of them.
@@ -68,6 +69,8 @@ class FrameTracer {
   RenderOptions options_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<std::string> editSettings_;  // of the scene as it is now
+  SkyChoice sky_;                          // that the scene has now
+  Sky ownSky_;                             // its own, while it has another one
   Film band_;
   double msPerSample_ = 0;                  // 0: nothing traced yet
   CostMap costs_;                           // of samples, ms

@@ -12,6 +12,7 @@ namespace whit::view {
 struct Input {
   std::set<int> held;                // keys that are down, by their GLFW codes
   std::vector<int> pressed;          // keys that went down since the last frame
+  std::vector<int> commands;         // those of them that went down with Ctrl, which are not above
   double lookX = 0, lookY = 0;       // pixels dragged with the left button; y grows downwards
   double orbitX = 0, orbitY = 0;     // with the right button
   double wheel = 0;                  // notches
@@ -33,6 +34,7 @@ struct Input {
   // Forgets what happened, keeps what is held.
   void endFrame() {
     pressed.clear();
+    commands.clear();
     dropped.clear();
     lookX = lookY = orbitX = orbitY = wheel = 0;
     happened = false;

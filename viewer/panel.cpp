@@ -27,18 +27,6 @@ bool drawColor(const char* label, Rgb& color) {
   return true;
 }
 
-// Color and strength of what has no upper limit. The color's largest channel is 1.
-bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
-  float strength = maxComponent(value);
-  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
-  const bool recolored = drawColor(label, color);
-  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
-  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
-  if (!recolored && !turned) return false;
-  value = color * strength;
-  return true;
-}
-
 // A direction that was dragged to nowhere stays as it was.
 bool drawDirection(Vec3f& direction) {
   Vec3f turned = normalized(direction, {0, -1, 0});
@@ -282,6 +270,18 @@ std::string fraction(double scale) {
 
 }  // namespace
 
+// The color's largest channel is 1.
+bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
+  float strength = maxComponent(value);
+  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
+  const bool recolored = drawColor(label, color);
+  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
+  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
+  if (!recolored && !turned) return false;
+  value = color * strength;
+  return true;
+}
+
 std::string sharpnessText(const FrameRequest& request) {
   const int window = std::max(request.window.width, 1);
   const int width = request.options.size ? request.options.size->width : window;
@@ -318,7 +318,7 @@ void Panel::drawTimes(const TracedFrame& frame) const {
 }
 
 bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
-                     ShadingEdit& scene) const {
+                     const SkyChoice& ownSky, ShadingEdit& scene) const {
   bool edited = false;
   const std::string chosen = std::exchange(settings.tab, std::string());
   const auto tab = [&](const char* name, auto&& draw) {
@@ -356,10 +356,15 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
+    settings.openScene |= ImGui::Button("open (Ctrl+O)");
+    ImGui::SameLine();
+    settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
     ImGui::TextDisabled("lights");
     edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
     ImGui::TextDisabled("materials");
     edited |= drawItems(scene.materials, "material", settings.rays.material, drawMaterial);
+    ImGui::TextDisabled("surroundings");
+    edited |= drawSurroundings(ownSky, settings.openSky, scene);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();
@@ -367,7 +372,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
 }
 
 bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
-                 PanelSettings& settings, ShadingEdit& scene) const {
+                 PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) const {
   constexpr float kMargin = 10, kWidth = 32;  // pixels; heights of the font
   constexpr float kFolds = 800,
                   kUsualFont = 13;  // the window's width, where the font has that height
@@ -384,7 +389,7 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
     drawTimes(frame);
     graph_.draw(settings.rate);
     ImGui::Text("speed %.3g units a second", speed);
-    edited = drawTabs(frame, pick, settings, scene);
+    edited = drawTabs(frame, pick, settings, ownSky, scene);
   }
   ImGui::End();
   return edited;

@@ -32,6 +32,8 @@ struct PanelSettings {
   CompareMode compare = CompareMode::off;
   bool measureKnobs = false;  // until it is done
   RayView rays;
+  bool saveScene = false;                   // asked for
+  bool openScene = false, openSky = false;  // a file is to be chosen
 };
 
 // What the last frames in motion took, as a graph.
@@ -57,7 +59,7 @@ class Panel {
   // Between ImGui's NewFrame and Render. `frame` must hold a picture. Returns whether the scene was
   // edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
-            ShadingEdit& scene) const;
+            const SkyChoice& ownSky, ShadingEdit& scene) const;
   // In a corner of the window, what is on screen, how fast it comes, what is on its way, and what
   // the colors of a view stand for.
   static void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
@@ -69,7 +71,7 @@ class Panel {
  private:
   void drawTimes(const TracedFrame& frame) const;
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
-                ShadingEdit& scene) const;
+                const SkyChoice& ownSky, ShadingEdit& scene) const;
 
   KnobCosts costs_;
   double measured_ = 0;  // share of the options, while they are measured
@@ -93,6 +95,14 @@ void drawDisplay(RenderOptions& options);
 
 // The last change, before and after: frame time and rays by kind. Nothing before the first.
 void drawLastChange(const KnobCosts& costs);
+
+// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's, `openFile`
+// is set where the user wants one from a file. Returns whether something was changed. Between
+// ImGui's Begin and End.
+bool drawSurroundings(const SkyChoice& ownSky, bool& openFile, ShadingEdit& scene);
+
+// Color and strength of what has no upper limit but `largest`. Likewise.
+bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value);
 
 // Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
 // window's width; with `words` also what is what, and what is known about their difference.

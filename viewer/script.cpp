@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -36,6 +37,12 @@ int framesOf(double seconds) {
 
 ScriptCommand keyCommand(const Words& words) {
   if (words.size() != 2 && words.size() != 3) expected("key NAME [SECONDS]");
+  constexpr std::string_view kControl = "Ctrl+";
+  if (words.size() == 2 && words[1].starts_with(kControl)) {
+    return {[key = keyNamed(words[1].substr(kControl.size()))](int, Input& input, ScriptStep&) {
+      input.commands.push_back(key);
+    }};
+  }
   const auto hold = [key = keyNamed(words[1])](int frame, Input& input, ScriptStep&) {
     if (frame == 0) input.pressed.push_back(key);
     input.held.insert(key);

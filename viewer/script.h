@@ -1,6 +1,7 @@
 // A scripted user: lines of a text file, one command each, '#' begins a comment.
 //
 //   key NAME [SECONDS]            held for so long; without SECONDS for one frame
+//   key Ctrl+NAME
 //   mouse left|right DX DY        dragged by so many pixels
 //   wheel NOTCHES
 //   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer

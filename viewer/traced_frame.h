@@ -12,6 +12,7 @@
 #include "render/debug_view.h"
 #include "viewer/comparison.h"
 #include "viewer/knob_measurement.h"
+#include "viewer/sky_choice.h"
 
 namespace whit::view {
 
@@ -59,16 +60,27 @@ inline double samplesOf(const FrameRequest& request) {
   return static_cast<double>(size.width) * size.height * request.spp;
 }
 
-// What a user makes of a scene's surfaces and lights; see scene/edit_shading.h.
+// Whether both give the same light under the same sky.
+inline bool sameAmbient(const Ambient& a, const Ambient& b) {
+  if (a.ofSky > 0 || b.ofSky > 0) return a.ofSky == b.ofSky;
+  return a.up == b.up && a.down == b.down;
+}
+
+// What a user makes of a scene's surfaces, lights and surroundings; see scene/edit_shading.h.
 struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;  // that was edited
   std::vector<Material> materials;
   std::vector<Light> lights;
+  SkyChoice sky;
+  Ambient ambient;                    // of one from the sky only the strength counts
   std::vector<std::string> settings;  // that amount to the same when the scene is read
 };
+// As it has been read, before any edit.
+ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
 
 // What differs between a scene as it was read and as it was edited, as values of --set: read again
-// with these as well, it has the same materials and lights, bit for bit.
+// with these as well, it has the same materials, lights, sky and ambient light, bit for bit. Those
+// of the sky are for a scene that is read without --sky.
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
 
 struct TracedFrame {
@@ -81,6 +93,7 @@ struct TracedFrame {
   EffectSet effects;                               // that were traced
   std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
   std::vector<std::string> settings;  // with which the scene was read, then those of an edit
+  std::string sky;                    // its --sky, unless another was chosen since
   Machine machine;
   std::string legend;                    // of a debug view
   std::optional<Comparison> comparison;  // where the request is with the reference

@@ -10,9 +10,11 @@
 #include "core/formatted.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"
+#include "io/describe_scene.h"
 #include "io/json_text.h"
 #include "io/paths.h"
 #include "io/read_file.h"
+#include "io/scene_settings.h"
 
 namespace whit::view {
 
@@ -29,11 +31,15 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// As one of the scene's cameras, or as the first with what is different.
-void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+void sayNoCamera(RenderOptions& options) {
   options.camera.clear();
   options.eye.reset(), options.at.reset(), options.up.reset();
   options.fov.reset(), options.ortho.reset();
+}
+
+// As one of the scene's cameras, or as the first with what is different.
+void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+  sayNoCamera(options);
   const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                  [&](const Camera& known) { return sameView(known, camera); });
   if (same == scene.cameras.begin()) return;
@@ -77,6 +83,36 @@ Vec3f readVector(const Json& json, const std::string& key, const std::string& fi
 
 }  // namespace
 
+namespace {
+
+std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
+                        const RenderOptions& usual) {
+  // What a preset stands for is said one by one.
+  options.quality = usual.quality;
+  const auto said = pictureOptions(usual);
+  std::string text = "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
+  for (const auto& option : pictureOptions(options)) {
+    if (std::find(said.begin(), said.end(), option) != said.end()) continue;
+    const auto& [name, value] = option;
+    text += " " + (name == "strict" ? "--strict" : quoted("--" + name + "=" + value));
+  }
+  return text;
+}
+
+// Whether these name a sky that the scene's folder does not hold.
+bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
+                     const std::vector<std::string>& settings) {
+  Json root = Json::object();
+  for (const std::string& setting : settings) {
+    const SceneSetting parsed = parseSceneSetting(setting);
+    if (parsed.tokens == std::vector<std::string>{"sky"}) root["sky"] = parsed.value;
+  }
+  const auto folder = findScene(parseSceneName(scene).file, shippedScenes).parent_path();
+  return movePaths(root, folder, folder);
+}
+
+}  // namespace
+
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
@@ -85,19 +121,22 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   if (options.size == ImageSize{shown.width, shown.height}) options.size.reset();
   RenderOptions usual;
   if (shown.isModel) applyModelDefaults(usual, {});
-  // What a preset stands for is said one by one.
-  options.quality = usual.quality;
-  const auto said = pictureOptions(usual);
-  std::string text = "whit render " + quoted(scene) + " -o " + quoted(shown.name + ".png");
-  for (const auto& option : pictureOptions(options)) {
-    if (std::find(said.begin(), said.end(), option) != said.end()) continue;
-    const auto& [name, value] = option;
-    text += " " + (name == "strict" ? "--strict" : quoted("--" + name + "=" + value));
-  }
+  std::string text = commandWith(scene, shown.name, options, usual);
   for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
-  if (!common.load.sky.empty()) text += " --sky " + quoted(common.load.sky);
-  if (common.load.allowOutside) text += " --allow-outside";
+  if (!frame.sky.empty()) text += " --sky " + quoted(frame.sky);
+  if (common.load.allowOutside ||
+      skyLeavesFolder(scene, common.load.shippedScenes, frame.settings)) {
+    text += " --allow-outside";
+  }
   return text;
+}
+
+std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options) {
+  sayNoCamera(options);
+  if (options.size == ImageSize{scene.width, scene.height}) options.size.reset();
+  const std::string name = std::filesystem::path(saved.file).stem().string();
+  return commandWith(saved.file, name, options, {}) +
+         (saved.leavesFolder ? " --allow-outside" : "");
 }
 
 std::string savePicture(const TracedFrame& frame, const std::string& command) {

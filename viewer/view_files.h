@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "viewer/save_scene.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
@@ -13,6 +14,9 @@ namespace whit::view {
 // for a POSIX shell where needed.
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options);
+
+// The same of a scene that was saved with the view.
+std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options);
 
 // Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
 // the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).

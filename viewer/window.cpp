@@ -285,12 +285,13 @@ DisplayImage Window::readPixels() const {
   return image;
 }
 
-void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
+void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   Input& input = windowOf(window).input;
   input.happened = true;
   if (action == GLFW_RELEASE) {
     input.held.erase(key);
   } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
+    if ((mods & GLFW_MOD_CONTROL) != 0) return input.commands.push_back(key);
     input.held.insert(key);
     input.pressed.push_back(key);
   }

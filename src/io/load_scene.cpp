@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "io/describe_scene.h"
 #include "io/json_reader.h"
 #include "io/paths.h"
 #include "io/read_file.h"
@@ -104,33 +105,6 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   return std::move(context.scene);
 }
 
-Json listOf(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
-
-// A light as a scene file has it; every bit comes back.
-Json describeLight(const Light& light) {
-  Json json{{"name", light.name}};
-  if (light.kind != Light::Kind::point) json["direction"] = listOf(light.direction);
-  if (light.kind == Light::Kind::directional) {
-    json.update({{"type", "directional"}, {"irradiance", listOf(light.intensity)}});
-    return json;
-  }
-  json.update({{"position", listOf(light.position)},
-               {"intensity", listOf(light.intensity)},
-               {"radius", light.radius}});
-  if (light.kind == Light::Kind::spot) {
-    json.update({{"type", "spot"},
-                 {"innerConeAngle", light.innerConeAngle},
-                 {"outerConeAngle", light.outerConeAngle}});
-  }
-  return json;
-}
-
-Json describeLights(const std::vector<Light>& lights) {
-  Json list = Json::array();
-  for (const Light& light : lights) list.push_back(describeLight(light));
-  return list;
-}
-
 // Of a model, whose lights are there: as if a scene file gave them with the settings.
 std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
                                     const std::string& file, SceneContext& context) {
@@ -138,7 +112,7 @@ std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
     context.scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }
   if (settings.empty()) return std::nullopt;
-  JsonDocument document{file, {{"lights", describeLights(context.scene.lights)}}, {}};
+  JsonDocument document{file, {{"lights", describe(context.scene.lights)}}, {}};
   for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
   JsonObject view{JsonValue(document)};
   context.scene.lights.clear();

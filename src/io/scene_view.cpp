@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/options.h"
+#include "scene/studio_sky.h"
 
 namespace whit {
 namespace {
@@ -128,6 +129,12 @@ void readSky(JsonObject& file, SceneContext& context) {
     const auto path = context.rules.resolve(image->text(), context.folder, image->where());
     sky.name = path.filename().string();
     if (context.sky.empty()) context.textures.addEnvironment(path.string(), sky.image);
+  } else if (const auto preset = object.find("preset")) {
+    preset->word({kStudio});
+    const float scale = sky.scale;
+    sky = studioSky();
+    sky.scale = scale;
+    sky.rotation = object.number("rotation", sky.rotation);
   } else if (const auto color = object.find("color")) {
     sky.kind = Sky::Kind::color;
     sky.zenith = sky.horizon = sky.ground = color->color();
@@ -139,7 +146,8 @@ void readSky(JsonObject& file, SceneContext& context) {
   } else {
     object.finish();
     value->fail(
-        "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", or with \"image\"");
+        "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", with \"image\" or with "
+        "\"preset\"");
   }
   object.finish();
 }

@@ -182,6 +182,8 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
   }
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
+  tables.sky = skyTable(scene.sky, effects);
+  tables.ambient = scene.ambient;
 }
 
 }  // namespace whit

@@ -1,6 +1,7 @@
 #include "scene/edit_shading.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "scene/finalize_steps.h"
@@ -78,6 +79,23 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
     numberMedia(scene);
     throw;
   }
+  gatherEffects(scene);
+}
+
+void editSky(Scene& scene, Sky& sky, const Ambient& ambient) {
+  SceneDescription d;
+  d.name = scene.name;
+  d.sky = std::move(sky);
+  d.ambient = ambient;
+  Warnings warnings(false);
+  try {
+    validate(d, warnings);
+  } catch (...) {
+    sky = std::move(d.sky);
+    throw;
+  }
+  sky = std::exchange(scene.sky, std::move(d.sky));
+  scene.ambient = ambient;
   gatherEffects(scene);
 }
 

@@ -1,4 +1,4 @@
-// Changing what surfaces and lights are like in a scene that is already baked.
+// Changing what surfaces, lights and surroundings are like in a scene that is already baked.
 #pragma once
 
 #include <vector>
@@ -14,5 +14,8 @@ namespace whit {
 // being what it was; Error(usage) for another number of items. Renderers of the scene have to be
 // told (Renderer::shadingChanged) before their next frame.
 void editShading(Scene& scene, std::vector<Material> materials, std::vector<Light> lights);
+
+// Exchanges the scene's sky for `sky`, and replaces its ambient light. Judged and told as above.
+void editSky(Scene& scene, Sky& sky, const Ambient& ambient);
 
 }  // namespace whit

@@ -90,8 +90,10 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
   return lookUp(sky.image, u, v) * sky.scale;
 }
 
-Ambient ambientFromSky(const Sky& sky, double strength) {
-  const double factor = strength * sky.scale;
+namespace {
+
+// Its means, times `factor`.
+Ambient meansOf(const Sky& sky, double factor) {
   // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
   constexpr double kMeanSine = 2.0 / 3.0;
   switch (sky.kind) {
@@ -107,6 +109,14 @@ Ambient ambientFromSky(const Sky& sky, double strength) {
   }
   return {Rgb(hemisphereMean(sky.image, true) * factor),
           Rgb(hemisphereMean(sky.image, false) * factor)};
+}
+
+}  // namespace
+
+Ambient ambientFromSky(const Sky& sky, double strength) {
+  Ambient ambient = meansOf(sky, strength * sky.scale);
+  ambient.ofSky = strength;
+  return ambient;
 }
 
 }  // namespace whit

@@ -65,6 +65,7 @@ struct Sky {
 // down + (up - down) * (1 + n.y) / 2.
 struct Ambient {
   Rgb up{0, 0, 0}, down{0, 0, 0};
+  double ofSky = 0;  // the strength by which ambientFromSky() made it; 0: given by itself
 };
 
 // What it is called: none, color, gradient, studio, or the name of its image's file.

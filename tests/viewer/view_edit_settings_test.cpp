@@ -16,7 +16,7 @@ ShadingEdit readEdit(const std::string& name, const std::vector<std::string>& se
   options.settings = settings;
   Warnings warnings;
   const SceneDescription scene = loadScene(name, options, warnings);
-  return {nullptr, scene.materials, scene.lights, settings};
+  return {nullptr, scene.materials, scene.lights, {}, {}, settings};
 }
 
 template <typename Item, typename Field>

@@ -116,8 +116,8 @@ void expectSameFile(const std::string& viewed, const std::string& rendered) {
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
-      "click 30 220\nwait 5 frames\nclick 100 265\nclick 60 289 130 289\n"         // the lamp
-      "click 30 346\nwait 5 frames\nclick 60 415 20 415\nclick 110 367 140 367\n"  // the mirror
+      "click 30 244\nwait 5 frames\nclick 100 289\nclick 60 313 130 313\n"         // the lamp
+      "click 30 370\nwait 5 frames\nclick 60 439 20 439\nclick 110 391 140 391\n"  // the mirror
       "key H\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);

@@ -145,7 +145,7 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);
-  ShadingEdit edit{scene_, scene_->scene.materials, scene_->scene.lights, {}};
+  ShadingEdit edit = withoutEdits(scene_);
   for (Material& m : edit.materials) m.mirror = m.mirrorGrazing = {0, 0, 0};
   for (Material& m : edit.materials) m.diffuse = {0.2f, 0.9f, 0.1f};
   edit.lights[0].position.x = -2;

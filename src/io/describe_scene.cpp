@@ -1,0 +1,119 @@
+#include "io/describe_scene.h"
+
+#include <cstdlib>
+
+#include "core/option_values.h"
+#include "io/paths.h"
+
+namespace whit {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Json describeLight(const Light& light) {
+  Json json{{"name", light.name}};
+  if (light.kind != Light::Kind::point) json["direction"] = describe(light.direction);
+  if (light.kind == Light::Kind::directional) {
+    json.update({{"type", "directional"}, {"irradiance", describe(light.intensity)}});
+    return json;
+  }
+  json.update({{"position", describe(light.position)},
+               {"intensity", describe(light.intensity)},
+               {"radius", describe(light.radius)}});
+  if (light.kind == Light::Kind::spot) {
+    json.update({{"type", "spot"},
+                 {"innerConeAngle", describe(light.innerConeAngle)},
+                 {"outerConeAngle", describe(light.outerConeAngle)}});
+  }
+  return json;
+}
+
+class PathMover {
+ public:
+  PathMover(fs::path from, fs::path to) : from_(std::move(from)), to_(std::move(to)) {}
+
+  bool leaves() const { return leaves_; }
+
+  void moveIn(Json& object, const char* key) {
+    if (!object.is_object()) return;
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_string()) return;
+    const auto text = found->get<std::string>();
+    if (text.starts_with("$")) return;  // $WHIT_DATA, wherever the scene is
+    const std::string moved = describePath(from_ / text, to_);
+    leaves_ |= leavesFolder(moved);
+    *found = moved;
+  }
+  void moveInItems(Json& items) {
+    if (!items.is_array()) return;
+    for (Json& item : items) {
+      moveIn(item, "model");
+      if (item.is_object() && item.contains("group")) moveInItems(item["group"]);
+    }
+  }
+
+ private:
+  fs::path from_, to_;
+  bool leaves_ = false;
+};
+
+template <typename Visit>
+void forEachMember(Json& root, const char* section, const Visit& visit) {
+  const auto found = root.find(section);
+  if (found == root.end() || !found->is_object()) return;
+  for (auto& [name, value] : found->items()) visit(value);
+}
+
+}  // namespace
+
+Json describe(float x) {
+  const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
+  return static_cast<float>(shortest) == x ? shortest : static_cast<double>(x);
+}
+
+Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }
+
+Json describe(const Camera& camera) {
+  Json json{{"eye", describe(camera.eye)},
+            {"at", describe(camera.at)},
+            {"up", describe(camera.up)},
+            {"fov", describe(camera.fov)}};
+  if (camera.orthographicHeight > 0) {
+    json["orthographicHeight"] = describe(camera.orthographicHeight);
+  }
+  return json;
+}
+
+Json describe(const Ambient& ambient) {
+  if (ambient.ofSky > 0) return {{"fromSky", ambient.ofSky}};
+  return {{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
+}
+
+Json describe(const std::vector<Light>& lights) {
+  Json list = Json::array();
+  for (const Light& light : lights) list.push_back(describeLight(light));
+  return list;
+}
+
+std::string describePath(const fs::path& file, const fs::path& folder) {
+  const fs::path real = fs::weakly_canonical(fs::current_path() / file);
+  const fs::path inData = real.lexically_relative(fs::weakly_canonical(dataFolder()));
+  if (!inData.empty() && !leavesFolder(inData.string())) {
+    return (fs::path("$WHIT_DATA") / inData).string();
+  }
+  return real.lexically_relative(fs::weakly_canonical(fs::current_path() / folder)).string();
+}
+
+bool leavesFolder(const std::string& path) { return *fs::path(path).begin() == ".."; }
+
+bool movePaths(Json& root, const fs::path& from, const fs::path& to) {
+  PathMover mover(from, to);
+  if (root.contains("sky")) mover.moveIn(root["sky"], "image");
+  forEachMember(root, "textures", [&](Json& texture) { mover.moveIn(texture, "image"); });
+  forEachMember(root, "objects", [&](Json& items) { mover.moveInItems(items); });
+  if (root.contains("scene")) mover.moveInItems(root["scene"]);
+  return mover.leaves();
+}
+
+}  // namespace whit

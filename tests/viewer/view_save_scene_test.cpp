@@ -1,0 +1,189 @@
+// Scenes saved with their edits: read by whit render they give the picture that was on screen.
+#include <gtest/gtest.h>
+
+#include "io/load_scene.h"
+#include "viewer/save_scene.h"
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SavedScenes : public Viewer {
+ protected:
+  void SetUp() override {
+    Viewer::SetUp();
+    Image sky(4, 2);
+    for (std::size_t i = 0; i < sky.pixels.size(); ++i) {
+      sky.pixels[i] = {0.2f * static_cast<float>(i), 1, i == 1 ? 5.0f : 0.5f};
+    }
+    writeExr(folder_ / "sky.exr", sky, {});
+  }
+  // Of the second picture, which is to show what the first does.
+  void expectThatItShows(const std::string& picture, const std::string& command) {
+    render(command, "again.png");
+    expectSameCodes(picture, "again.png");
+  }
+  Json read(const std::string& file) { return Json::parse(cli::readFile(folder_ / file)); }
+};
+
+TEST_F(SavedScenes, KeepWhatWasNotEdited) {
+  const cli::Outcome outcome = play(
+      "key N\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
+      "click 30 244\nwait 5 frames\nclick 100 289\nkey H\nwait 20 frames\nwait sharp\n"
+      "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
+      {"--size", "800x480"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_EQ(lines[0], "whit render tiny-edited.json -o tiny-edited.png --size=800x480");
+  EXPECT_NE(lines[1].find("tiny-edited-2.json"), std::string::npos) << "it was overwritten";
+  expectThatItShows("shown.png", lines[0]);
+  const Json before = read("tiny.json"), after = read("tiny-edited.json");
+  EXPECT_NE(after["lights"][0]["intensity"], before["lights"][0]["intensity"]);
+  for (const char* section : {"size", "materials", "scene"}) {
+    EXPECT_EQ(after[section], before[section]) << section;
+  }
+  EXPECT_EQ(after["cameras"].items().begin().key(), "saved");
+  EXPECT_EQ(after["cameras"]["side"], before["cameras"]["side"]);
+  EXPECT_EQ(after["path"][1], before["path"][1]);
+}
+
+// A path that begins where the first camera is still does.
+TEST_F(SavedScenes, KeepTheirPath) {
+  Json scene = read("tiny.json");
+  scene["path"][0] = Json{{"time", 0}};
+  std::ofstream(folder_ / "tiny.json") << scene.dump();
+  play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
+  LoadOptions options;
+  Warnings warnings;
+  const auto before = loadScene(folder_ / "tiny.json", options, warnings);
+  const auto after = loadScene(folder_ / "tiny-edited.json", options, warnings);
+  EXPECT_FALSE(sameView(before.cameras[0], after.cameras[0]));
+  for (const float time : {0.0f, 0.5f, 1.0f}) {
+    EXPECT_TRUE(sameView(cameraAt(before.cameraPath, time), cameraAt(after.cameraPath, time)));
+  }
+}
+
+TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
+  fs::create_directories(folder_ / "sub/maps");
+  writePng(folder_ / "sub/maps/t.png", DisplayImage{1, 1, {200, 90, 30, 255}}, {});
+  fs::copy(folder_ / "sky.exr", folder_ / "sub/sky.exr");
+  std::ofstream(folder_ / "sub/m.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder_ / "sub/s.json") << R"({"whit": 1, "parameters": {"fov": 40},
+    "cameras": {"c": {"eye": [0, 1, 4], "at": [0, 0.5, 0], "fov": "$fov"}},
+    "sky": {"image": "sky.exr"}, "ambient": {"fromSky": 0.5},
+    "textures": {"t": {"image": "maps/t.png"}}, "materials": {"m": {"diffuseMap": "t"}},
+    "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
+    "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})";
+  const cli::Outcome outcome = play(
+      "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nkey H\n"
+      "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_EQ(lines[0].find("--allow-outside"), std::string::npos) << lines[0];
+  expectThatItShows("shown.png", lines[0]);
+  EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
+}
+
+TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
+  fs::create_directories(folder_ / "sub/deeper");
+  fs::rename(folder_ / "tiny.json", folder_ / "sub/deeper/tiny.json");
+  std::ofstream(folder_ / "tiny.json") << R"({"whit": 1, "sky": {"image": "../sky.exr"},
+    "scene": [{"shape": "sphere"}]})";
+  fs::create_directories(folder_ / "in");
+  fs::rename(folder_ / "tiny.json", folder_ / "in/tiny.json");
+  // The folder that the viewer runs in holds a scene of that name.
+  fs::copy(folder_ / "sub/deeper/tiny.json", folder_ / "tiny.json");
+  const cli::Outcome outcome = play(
+      "drop in/tiny.json\nwait 60 frames\nwait sharp\nkey H\nwait 2 frames\nscreenshot shown.png\n"
+      "key C\nkey Ctrl+S\n",
+      {"--allow-outside"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  expectThatItShows("shown.png", lines[0]);
+  expectThatItShows("shown.png", lines[1]);
+  EXPECT_EQ(read("tiny-edited.json")["sky"]["image"], "sky.exr");
+}
+
+TEST_F(SavedScenes, OfAModelHoldIt) {
+  fs::create_directories(folder_ / "models");
+  std::ofstream(folder_ / "models/m.mtl") << "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n";
+  std::ofstream(folder_ / "models/m.obj")
+      << "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n";
+  const cli::Outcome outcome = play(
+      "drop models/m.obj\nwait 60 frames\nkey D 0.2\nkey H\nwait 20 frames\nwait sharp\n"
+      "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\nwait sharp\n"
+      "screenshot sky.png\nkey Ctrl+S\n",
+      {"--size", "120x80"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  for (const std::string& line : {lines[0], lines[1]}) expectThatItShows("shown.png", line);
+  expectThatItShows("sky.png", lines[2]);
+  const Json scene = read("m-edited.json");
+  EXPECT_EQ(scene["scene"][0]["model"], "models/m.obj");
+  EXPECT_EQ(scene["sky"]["preset"], "studio");
+  EXPECT_EQ(read("m-edited-2.json")["sky"]["image"], "sky.exr");
+}
+
+TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{}, {"--sky", "studio"}, {"--sky", "none"}}) {
+    std::vector<std::string> all{"--size", "120x80"};
+    all.insert(all.end(), words.begin(), words.end());
+    const cli::Outcome outcome = play(
+        "key H\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
+        "wait sharp\nscreenshot sky.png\nkey C\nkey Ctrl+S\n",
+        all);
+    const std::vector<std::string> lines = linesOf(outcome.out);
+    ASSERT_EQ(lines.size(), 3u) << outcome.out;
+    EXPECT_NE(codes("own.png").codes, codes("sky.png").codes);
+    expectThatItShows("own.png", lines[0]);
+    EXPECT_EQ(lines[1].find("--sky"), std::string::npos) << lines[1];
+    expectThatItShows("sky.png", lines[1]);
+    expectThatItShows("sky.png", lines[2]);
+  }
+}
+
+// The sky's list, brightness and rotation; then ambient light from it.
+TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
+  const cli::Outcome outcome = play(
+      "drop sky.exr\nkey N\npanel scene\nwait 30 frames\nwait sharp\n"
+      "click 93 361 120 361\nclick 60 385 150 385\nclick 30 409\nwait 5 frames\n"
+      "key H\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
+      "key Ctrl+S\n",
+      {"--size", "800x560"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  const Json sky = read("tiny-edited.json")["sky"];
+  EXPECT_NE(sky["scale"], 1);
+  EXPECT_NE(sky["rotation"], 0);
+  EXPECT_TRUE(read("tiny-edited.json")["ambient"].contains("fromSky"));
+  for (const std::string& line : lines) expectThatItShows("shown.png", line);
+}
+
+TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
+  std::ofstream(folder_ / "bad.hdr") << "#?RADIANCE\n\n-Y 1 +X 1000000\n";
+  const cli::Outcome outcome = play(
+      "errors show\nkey H\nkey N\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nkey H\n"
+      "key Ctrl+S\nkey C\n");
+  EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png");
+  EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
+}
+
+// The lights that such a model is given are smaller than a scene file can say.
+TEST_F(SavedScenes, AreNotWrittenWhereTheyCouldNotBeRead) {
+  std::ofstream(folder_ / "dust.obj") << "v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n";
+  const cli::Outcome outcome =
+      play("errors show\ndrop dust.obj\nwait 60 frames\nwait sharp\nkey Ctrl+S\n");
+  EXPECT_NE(outcome.err.find("dust-edited.json#/lights/0/radius"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_FALSE(fs::exists(folder_ / "dust-edited.json"));
+}
+
+}  // namespace
+}  // namespace whit::view
