@@ -8,15 +8,12 @@ namespace {
 
 std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
-// The scale, which heatMap() draws beneath the picture, moved over the picture's last rows, so that
-// pixels stay where they are.
-DisplayImage fitted(const DisplayImage& map, int width, int height) {
+// Without the scale that heatMap() draws beneath: panels would cover it.
+DisplayImage withoutScale(const DisplayImage& map, int width, int height) {
   DisplayImage image{width, height, {}};
-  const int scaleRows = std::min(map.height - height, height);
   image.rgba.resize(static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {
-    const int from = y < height - scaleRows ? y : y + map.height - height;
-    const auto row = map.rgba.begin() + from * rowBytes(map);
+    const auto row = map.rgba.begin() + y * rowBytes(map);
     std::copy(row, row + rowBytes(image), image.rgba.begin() + y * rowBytes(image));
   }
   return image;
@@ -26,7 +23,8 @@ DisplayImage fitted(const DisplayImage& map, int width, int height) {
 
 void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison) {
   const Image& reference = comparison.reference.image;
-  comparison.heatMap = fitted(heatMap(frame.image, reference), reference.width, reference.height);
+  comparison.heatMap =
+      withoutScale(heatMap(frame.image, reference), reference.width, reference.height);
   comparison.difference = compareImages(frame.image, reference, exposure, curve);
 }
 

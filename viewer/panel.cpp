@@ -11,6 +11,7 @@
 #include "core/formatted.h"
 #include "scene/light.h"
 #include "scene/material.h"
+#include "viewer/color_scale.h"
 #include "viewer/keys.h"
 #include "viewer/resolution_control.h"
 
@@ -249,7 +250,15 @@ void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
 }
 
 void drawFindings(const TracedFrame& frame, bool heat) {
-  ImGui::TextUnformatted(heat ? "differences in 8-bit codes" : "packets against the reference");
+  if (heat) {
+    ImGui::TextUnformatted("difference, 8-bit codes");
+    const ColorScale scale = differenceScale();
+    const ImVec2 size(ImGui::GetFontSize() * 15, heightOf(scale));
+    drawColorScale(scale, ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList());
+    ImGui::Dummy(size);
+  } else {
+    ImGui::TextUnformatted("packets against the reference");
+  }
   if (!frame.comparison) {
     ImGui::TextDisabled("waits until nothing moves");
   } else if (frame.comparison->complete()) {

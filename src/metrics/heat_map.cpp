@@ -12,8 +12,7 @@ namespace {
 
 using Color = std::array<std::uint8_t, 3>;
 
-constexpr int kLargest = 16;  // codes; differences beyond have the last color
-constexpr std::array<int, 6> kTicks = {0, 1, 2, 4, 8, 16};
+constexpr int kLargest = kHeatTicks.back();  // codes; differences beyond have the last color
 
 // The scale beneath the image, in rows of its own pixels from the top: gap, bar, ticks, digits,
 // gap.
@@ -33,11 +32,6 @@ constexpr std::array<std::array<std::uint8_t, 5>, 10> kDigits{{{7, 5, 5, 5, 7},
                                                                {7, 1, 1, 2, 2},
                                                                {7, 5, 7, 5, 7},
                                                                {7, 5, 7, 1, 7}}};
-
-// Where a difference lies on the scale, 0 to 1.
-double position(int codes) {
-  return std::log2(1.0 + std::min(codes, kLargest)) / std::log2(1.0 + kLargest);
-}
 
 // Draws in coarse pixels, `zoom` of the image's a side, below row `top`.
 class ScalePainter {
@@ -79,14 +73,18 @@ void drawScale(ScalePainter painter) {
   for (int x = 0; x <= length; ++x)
     for (int y = 0; y < kBarRows; ++y)
       painter.set(kMargin + x, kBarTop + y, heatColor(static_cast<double>(x) / length));
-  for (const int tick : kTicks) {
-    const int x = kMargin + static_cast<int>(std::lround(position(tick) * length));
+  for (const int tick : kHeatTicks) {
+    const int x = kMargin + static_cast<int>(std::lround(heatPosition(tick) * length));
     for (int y = 0; y < kTickRows; ++y) painter.set(x, kBarTop + kBarRows + y, kInk);
     painter.digits(x, kDigitTop, std::to_string(tick), kInk);
   }
 }
 
 }  // namespace
+
+double heatPosition(int codes) {
+  return std::log2(1.0 + std::min(codes, kLargest)) / std::log2(1.0 + kLargest);
+}
 
 std::array<std::uint8_t, 3> heatColor(double t) {
   constexpr std::array<std::array<double, 3>, 5> kStops{
@@ -116,7 +114,7 @@ DisplayImage heatMap(const Image& a, const Image& b) {
   for (std::size_t i = 3; i < map.rgba.size(); i += 4) map.rgba[i] = 255;
   std::array<Color, 256> colors{};
   for (int code = 0; code < 256; ++code)
-    colors[static_cast<std::size_t>(code)] = heatColor(position(code));
+    colors[static_cast<std::size_t>(code)] = heatColor(heatPosition(code));
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const std::size_t x = i % static_cast<std::size_t>(width);
     const std::size_t y = i / static_cast<std::size_t>(width);

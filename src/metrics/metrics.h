@@ -41,6 +41,9 @@ std::vector<float> flipMap(const Image& a, const Image& b);
 // Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic) with its
 // scale drawn beneath.
 DisplayImage heatMap(const Image& a, const Image& b);
+// Where a difference of so many codes lies on that scale, 0 to 1; those that it names.
+double heatPosition(int codes);
+inline constexpr std::array kHeatTicks{0, 1, 2, 4, 8, 16};
 // Its colors: from black over violet and orange to a light yellow, lightness growing all the way.
 // `t` in [0, 1]; 8-bit sRGB.
 std::array<std::uint8_t, 3> heatColor(double t);

@@ -94,6 +94,12 @@ TEST_F(ComparisonTest, GrowsUntilItIsTheReference) {
   EXPECT_EQ(comparison.difference->rmse, compareImages(frame.film.image, film.image).rmse);
   EXPECT_EQ(comparison.heatMap.width, 96);
   EXPECT_EQ(comparison.heatMap.height, 70);
+  // To its last row: the scale stands elsewhere.
+  const DisplayImage map = heatMap(frame.film.image, film.image);
+  ASSERT_EQ(map.width, 96);
+  ASSERT_GT(map.height, 70);
+  EXPECT_TRUE(
+      std::equal(comparison.heatMap.rgba.begin(), comparison.heatMap.rgba.end(), map.rgba.begin()));
 }
 
 TEST_F(ComparisonTest, GivesUpForSomethingElse) {
