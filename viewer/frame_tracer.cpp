@@ -192,11 +192,13 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
   frame.legend.clear();
-  if (request.view != DebugView::none) {
-    DebugFrame debug = renderDebugView(*renderer_, request.camera, frame.film, request.view);
-    frame.stats = debug.stats;
-    frame.legend = std::move(debug.legend);
-    return true;
+  frame.watched.reset();
+  const bool views = request.view != DebugView::none;
+  if (views) watched_.assign(frame.film.image.pixels.size(), WatchedPixel());
+  // One worker does it, and is looked at.
+  constexpr double kViewCosts = 4;  // times as much, until it is known
+  if (const bool viewed = learnedFor_ && learnedFor_->view != DebugView::none; viewed != views) {
+    msPerSample_ *= views ? kViewCosts : 1 / kViewCosts;
   }
   const bool deeper = !learnedFor_ || options_.depth > learnedFor_->depth;
   constexpr double kDeeperCosts = 8;  // times as much, until it is known
@@ -210,10 +212,58 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   } else if (expectedMs == 0 || expectedMs > kLongBlockMs) {
     if (!traceInBlocks(request, frame, kLongBlockMs, calls.leaving, calls)) return false;
   } else {
-    frame.stats = renderer_->render(request.camera, frame.film);
+    sizeDisplay(frame.film);
+    frame.stats = traceBlock(request, Crop{0, 0, size.width, size.height}, frame);
   }
+  if (views) finishView(request, frame);
   msPerSample_ = frame.stats.frameMs / samplesOf(request);
   return true;
+}
+
+FrameStats FrameTracer::traceBlock(const FrameRequest& request, const Crop& block,
+                                   TracedFrame& frame) {
+  const ImageSize size = filmSizeOf(frame.film);
+  const bool whole = block == Crop{0, 0, size.width, size.height};
+  if (whole && request.view == DebugView::none) {
+    return renderer_->render(request.camera, frame.film);
+  }
+  sizeFilm(band_, size, block);
+  const FrameStats stats = request.view == DebugView::none
+                               ? renderer_->render(request.camera, band_)
+                               : watchBlock(request, frame);
+  place(band_, frame.film);
+  return stats;
+}
+
+// Painted by the scale of the last picture of this view; before there is one, by what was seen so
+// far.
+FrameStats FrameTracer::watchBlock(const FrameRequest& request, TracedFrame& frame) {
+  const DebugFrame seen = watchFrame(*renderer_, request.camera, band_, request.view);
+  const Crop& block = band_.image.window;
+  const auto width = static_cast<std::size_t>(block.x1 - block.x0);
+  for (int y = block.y0; y < block.y1; ++y) {
+    const std::size_t from = static_cast<std::size_t>(y - block.y0) * width;
+    const std::size_t to = frame.film.image.index(block.x0, y);
+    std::copy_n(seen.pixels.begin() + static_cast<std::ptrdiff_t>(from), width,
+                watched_.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+  if (scaleOf_ != request.view) {
+    const AmountScale scale = scaleOf(request.view, seen.pixels, options_.spp);
+    const bool first = block.x0 == 0 && block.y0 == 0;
+    scale_ = first ? scale
+                   : AmountScale{std::min(scale_.low, scale.low), std::max(scale_.high, scale.high)};
+  }
+  paintView(request.view, seen.pixels, options_.spp, scale_, band_.display);
+  return seen.stats;
+}
+
+void FrameTracer::finishView(const FrameRequest& request, TracedFrame& frame) {
+  scale_ = scaleOf(request.view, watched_, options_.spp);
+  scaleOf_ = request.view;
+  paintView(request.view, watched_, options_.spp, scale_, frame.film.display);
+  frame.legend = legendOf(request.view, scale_);
+  frame.scale = scale_;
+  frame.watched = std::make_shared<const std::vector<WatchedPixel>>(std::move(watched_));
 }
 
 // Whether that part of a picture takes no longer. Where dear pixels are is known from a coarser
@@ -231,8 +281,11 @@ bool FrameTracer::fits(double blockMs, const ImageSize& size, const Crop& part) 
 
 // Row by row: some rows of all columns, or where those would take too long a part of few rows, wide
 // enough for all workers.
-Crop FrameTracer::nextBlock(const ImageSize& size, const Crop& last, double blockMs) {
-  const int narrowest = options_.tile * renderer_->machine().threads;
+Crop FrameTracer::nextBlock(const ImageSize& size, const Crop& last, double blockMs,
+                            DebugView view) {
+  if (view == DebugView::occupancy) return nextTiles(size, last, blockMs);
+  const int workers = view == DebugView::none ? renderer_->machine().threads : 1;
+  const int narrowest = options_.tile * workers;
   const auto crop = [&](int x, int y, int width, int height) {
     return Crop{x, y, std::min(x + width, size.width), std::min(y + height, size.height)};
   };
@@ -255,6 +308,20 @@ Crop FrameTracer::nextBlock(const ImageSize& size, const Crop& last, double bloc
   return crop(0, y, size.width, rows);
 }
 
+// Whole ones, which rays go to Embree with as they do of the whole picture.
+Crop FrameTracer::nextTiles(const ImageSize& size, const Crop& last, double blockMs) {
+  const int tile = options_.tile;
+  const bool rowGoesOn = last.x1 > 0 && last.x1 < size.width;
+  const int x = rowGoesOn ? last.x1 : 0, y = rowGoesOn ? last.y0 : last.y1;
+  const int bottom = std::min(y + tile, size.height);
+  Crop block{x, y, std::min(x + tile, size.width), bottom};
+  for (Crop wider = block; block.x1 < size.width; block = wider) {
+    wider.x1 = std::min(block.x1 + tile, size.width);
+    if (!fits(blockMs, size, wider)) break;
+  }
+  return block;
+}
+
 bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
                                 const std::function<bool()>& givenUp, const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
@@ -266,14 +333,13 @@ bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame,
   Stopwatch sinceShown;
   for (Crop block; block.y1 < size.height || block.x1 < size.width;) {
     if (givenUp()) return false;
-    block = nextBlock(size, block, blockMs);
-    sizeFilm(band_, size, block);
-    const FrameStats stats = renderer_->render(request.camera, band_);
-    place(band_, frame.film);
+    block = nextBlock(size, block, blockMs, request.view);
+    const FrameStats stats = traceBlock(request, block, frame);
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;
     frame.stats.workers = stats.workers;
-    const double samples = static_cast<double>(band_.image.pixels.size()) * options_.spp;
+    const double samples =
+        static_cast<double>(block.x1 - block.x0) * (block.y1 - block.y0) * options_.spp;
     // Without what any block takes, however small.
     leastMs = std::min(leastMs, stats.frameMs);
     costs_.learn(size, block, std::max((stats.frameMs - leastMs) / samples, kLeastMs));

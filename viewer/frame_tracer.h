@@ -54,11 +54,16 @@ class FrameTracer {
   void editSurroundings(const ShadingEdit& edit, Sky opened);
   void applyOptions(const FrameRequest& request);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
+  // What there is to trace in a part of the picture.
+  FrameStats traceBlock(const FrameRequest& request, const Crop& block, TracedFrame& frame);
+  FrameStats watchBlock(const FrameRequest& request, TracedFrame& frame);
+  void finishView(const FrameRequest& request, TracedFrame& frame);
   // Blocks are meant to take `blockMs`; false when `givenUp` said so between two of them.
   bool traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
                      const std::function<bool()>& givenUp, const TraceCalls& calls);
   // The one after `last`, which is empty before the first.
-  Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs);
+  Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs, DebugView view);
+  Crop nextTiles(const ImageSize& size, const Crop& last, double blockMs);
   bool fits(double blockMs, const ImageSize& size, const Crop& part);
   double probe(const Camera& camera, const ImageSize& whole);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
@@ -72,6 +77,9 @@ class FrameTracer {
   SkyChoice sky_;                          // that the scene has now
   Sky ownSky_;                             // its own, while it has another one
   Film band_;
+  std::vector<WatchedPixel> watched_;  // of the view that is being traced
+  AmountScale scale_;                  // of its last picture, by which the next one begins
+  DebugView scaleOf_ = DebugView::none;
   double msPerSample_ = 0;                  // 0: nothing traced yet
   CostMap costs_;                           // of samples, ms
   std::optional<FrameRequest> learnedFor_;  // that both were last learned from

@@ -95,7 +95,10 @@ struct TracedFrame {
   std::vector<std::string> settings;  // with which the scene was read, then those of an edit
   std::string sky;                    // its --sky, unless another was chosen since
   Machine machine;
-  std::string legend;                    // of a debug view
+  // Of a debug view:
+  std::string legend;
+  AmountScale scale;
+  std::shared_ptr<const std::vector<WatchedPixel>> watched;
   std::optional<Comparison> comparison;  // where the request is with the reference
   std::vector<KnobCost> costs;           // where the request is to measure them
 };

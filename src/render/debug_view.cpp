@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <utility>
 
+#include "core/formatted.h"
 #include "core/pixel.h"
-#include "render/false_colors.h"
+#include "metrics/metrics.h"
 #include "render/pixel_tracker.h"
 
 namespace whit {
@@ -50,7 +53,7 @@ class Watcher : public StageObserver {
     pixels_.resize(width * static_cast<std::size_t>(window.y1 - window.y0));
   }
 
-  const std::vector<WatchedPixel>& pixels() const { return pixels_; }
+  std::vector<WatchedPixel> takePixels() { return std::move(pixels_); }
 
   void after(Stage stage, const Chunk& chunk) override {
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
@@ -70,13 +73,14 @@ class Watcher : public StageObserver {
   }
 
  private:
-  void add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
+  WatchedPixel& add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
     const auto x = static_cast<std::size_t>(pixelX(at) - window_.x0);
     const auto y = static_cast<std::size_t>(pixelY(at) - window_.y0);
     WatchedPixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
     pixel.sum += value;
     pixel.count += count;
+    return pixel;
   }
 
   // Ray i of n that go to Embree together.
@@ -112,7 +116,9 @@ class Watcher : public StageObserver {
       if (view_ == DebugView::effects) {
         const EffectSet sky = EffectSet().with(Effect::sky);
         const EffectSet all = hit ? effectsOf(renderer_.scene().materials[s.material[i]]) : sky;
-        add(chunk, i, colorOf(EffectSet(all.bits() & renderer_.plan().effects.bits())), 1);
+        const EffectSet on(all.bits() & renderer_.plan().effects.bits());
+        WatchedPixel& pixel = add(chunk, i, colorOf(on), 1);
+        pixel.effects = EffectSet(pixel.effects.bits() | on.bits());
       } else if (!hit) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
@@ -133,39 +139,127 @@ class Watcher : public StageObserver {
   Clock::time_point last_;
 };
 
+// Empty of views without a scale.
+std::string amountName(DebugView view) {
+  switch (view) {
+    case DebugView::depth:
+      return "distance";
+    case DebugView::rays:
+      return "rays a pixel and sample";
+    case DebugView::cost:
+      return "microseconds a pixel and sample";
+    case DebugView::occupancy:
+      return "share of live lanes";
+    default:
+      return "";
+  }
+}
+
+std::string namesOf(EffectSet effects) {
+  std::string names;
+  for (int i = 0; i < kEffectCount; ++i) {
+    if (!effects.has(static_cast<Effect>(i))) continue;
+    names += (names.empty() ? "" : ", ") + std::string(kEffectNames[static_cast<std::size_t>(i)].name);
+  }
+  return names.empty() ? "none" : names;
+}
+
 }  // namespace
 
 std::span<const EffectColor> effectColors() { return kEffectColors; }
 
-DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
+DebugFrame watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
   Watcher watcher(renderer, film.image.window, view);
   StageObserver* const observers[] = {&watcher};
-  DebugFrame frame{renderer.observe(camera, film, observers), ""};
-  const std::vector<WatchedPixel>& pixels = watcher.pixels();
-  const std::vector<double> amounts = amountsOf(pixels, renderer.options().spp);
+  DebugFrame frame;
+  frame.stats = renderer.observe(camera, film, observers);
+  frame.pixels = watcher.takePixels();
+  return frame;
+}
+
+AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples) {
   switch (view) {
     case DebugView::depth:
-      frame.legend = paintDepth(pixels, film.display);
-      break;
+      return depthScale(pixels);
     case DebugView::rays:
-      frame.legend = paintHeat(amounts, "rays a pixel and sample", film.display);
-      break;
     case DebugView::cost:
-      frame.legend = paintHeat(amounts, "microseconds a pixel and sample", film.display);
-      break;
+      return heatScale(amountsOf(pixels, samples));
+    default:
+      return {0, 1};
+  }
+}
+
+void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
+               const AmountScale& scale, DisplayImage& display) {
+  switch (view) {
+    case DebugView::depth:
+      return paintDepth(pixels, scale, display);
+    case DebugView::rays:
+    case DebugView::cost:
+      return paintHeat(amountsOf(pixels, samples), scale, display);
     case DebugView::occupancy:
-      frame.legend = paintShare(amounts, "share of live lanes", film.display);
-      break;
+      return paintShare(amountsOf(pixels, samples), display);
     case DebugView::normals:
     case DebugView::effects:
-      paintColors(pixels, false, film.display);
-      break;
     case DebugView::albedo:
-      paintColors(pixels, true, film.display);
-      break;
+      return paintColors(pixels, view == DebugView::albedo, display);
+    case DebugView::none:
+      return;
+  }
+}
+
+bool hasScale(DebugView view) { return !amountName(view).empty(); }
+
+std::string legendOf(DebugView view, const AmountScale& scale) {
+  if (!hasScale(view)) return "";
+  return formatted("%s, from %.3g to %.3g", amountName(view).c_str(), scale.low, scale.high);
+}
+
+std::array<std::uint8_t, 3> colorAt(DebugView view, double share) {
+  if (view != DebugView::depth) return heatColor(share);
+  constexpr float kBrightest = 255;
+  const auto code = static_cast<std::uint8_t>(std::lround(kBrightest * depthGray(share)));
+  return {code, code, code};
+}
+
+double amountAt(DebugView view, const AmountScale& scale, double share) {
+  const bool logarithmic = view == DebugView::rays || view == DebugView::cost;
+  if (logarithmic && scale.low > 0) return scale.low * std::pow(scale.high / scale.low, share);
+  return scale.low + share * (scale.high - scale.low);
+}
+
+std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
+  const double count = pixel.count;
+  const auto amount = static_cast<double>(pixel.sum.x) / (count > 0 ? count : samples);
+  const RgbD mean = RgbD(pixel.sum) / std::max(count, 1.0);
+  switch (view) {
+    case DebugView::depth:
+      return count > 0 ? formatted("distance %.5g units", amount) : "nothing is hit";
+    case DebugView::normals:
+      if (isBlack(pixel.sum)) return "nothing is hit";
+      return formatted("normal %.3f %.3f %.3f", 2 * mean.x - 1, 2 * mean.y - 1, 2 * mean.z - 1);
+    case DebugView::albedo:
+      return formatted("albedo %.3f %.3f %.3f, linear", mean.x, mean.y, mean.z);
+    case DebugView::rays:
+      return formatted("%.4g rays a sample", amount);
+    case DebugView::cost:
+      return formatted("%.3g microseconds a sample", amount);
+    case DebugView::effects:
+      return "effects: " + namesOf(pixel.effects);
+    case DebugView::occupancy:
+      return formatted("%.1f %% of the lanes live", 100 * amount);
     case DebugView::none:
       break;
   }
+  return "";
+}
+
+DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
+  DebugFrame frame = watchFrame(renderer, camera, film, view);
+  const int samples = renderer.options().spp;
+  frame.scale = scaleOf(view, frame.pixels, samples);
+  paintView(view, frame.pixels, samples, frame.scale, film.display);
+  frame.legend = legendOf(view, frame.scale);
   return frame;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "core/display.h"
@@ -27,17 +26,12 @@ int codeOf(float x) {
 }
 
 // Smallest and largest amount but for outliers.
-std::pair<double, double> rangeOf(std::vector<double> amounts) {
-  if (amounts.empty()) return {0, 0};
-  std::sort(amounts.begin(), amounts.end());
+AmountScale rangeOf(std::vector<double> amounts) {
+  if (amounts.empty()) return {};
   const auto last = static_cast<double>(amounts.size() - 1);
-  return {amounts.front(), amounts[static_cast<std::size_t>(std::lround(last * (1 - kOutliers)))]};
-}
-
-std::string legendOf(const char* what, double low, double high) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%s, from %.3g to %.3g", what, low, high);
-  return text;
+  const auto highest = amounts.begin() + std::lround(last * (1 - kOutliers));
+  std::nth_element(amounts.begin(), highest, amounts.end());
+  return {*std::min_element(amounts.begin(), highest + 1), *highest};
 }
 
 }  // namespace
@@ -53,21 +47,28 @@ void paintColors(const std::vector<WatchedPixel>& pixels, bool linear, DisplayIm
   }
 }
 
-std::string paintDepth(const std::vector<WatchedPixel>& pixels, DisplayImage& display) {
+AmountScale depthScale(const std::vector<WatchedPixel>& pixels) {
   std::vector<double> distances;
   for (const WatchedPixel& p : pixels) {
     if (p.count > 0) distances.push_back(static_cast<double>(p.sum.x) / p.count);
   }
-  const auto [low, high] = rangeOf(std::move(distances));
+  return rangeOf(std::move(distances));
+}
+
+float depthGray(double share) {
   constexpr double kFarthest = 0.08;  // still told from nothing
+  return static_cast<float>(1 - (1 - kFarthest) * std::clamp(share, 0.0, 1.0));
+}
+
+void paintDepth(const std::vector<WatchedPixel>& pixels, const AmountScale& scale,
+                DisplayImage& display) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const WatchedPixel& p = pixels[i];
-    const double t = p.count > 0 ? static_cast<double>(p.sum.x) / p.count : high;
-    const double depth = high > low ? std::min((t - low) / (high - low), 1.0) : 0;
-    const int code = p.count > 0 ? codeOf(static_cast<float>(1 - (1 - kFarthest) * depth)) : 0;
+    const double t = p.count > 0 ? static_cast<double>(p.sum.x) / p.count : scale.high;
+    const double depth = scale.high > scale.low ? (t - scale.low) / (scale.high - scale.low) : 0;
+    const int code = p.count > 0 ? codeOf(depthGray(depth)) : 0;
     setCode(display, i, code, code, code);
   }
-  return legendOf("distance", low, high);
 }
 
 std::vector<double> amountsOf(const std::vector<WatchedPixel>& pixels, double samples) {
@@ -79,24 +80,28 @@ std::vector<double> amountsOf(const std::vector<WatchedPixel>& pixels, double sa
   return amounts;
 }
 
-std::string paintHeat(const std::vector<double>& amounts, const char* what, DisplayImage& display) {
+AmountScale heatScale(const std::vector<double>& amounts) {
   constexpr double kLongestScale = 1000;
-  const auto [smallest, high] = rangeOf(amounts);
-  const double low = std::max(smallest, high / kLongestScale);
+  const AmountScale range = rangeOf(amounts);
+  return {std::max(range.low, range.high / kLongestScale), range.high};
+}
+
+void paintHeat(const std::vector<double>& amounts, const AmountScale& scale,
+               DisplayImage& display) {
+  const bool flat = !(scale.high > scale.low);
+  const double perLog = flat ? 0 : 1 / std::log(scale.high / scale.low);
   for (std::size_t i = 0; i < amounts.size(); ++i) {
-    const double share = high > low ? std::log(amounts[i] / low) / std::log(high / low) : 0;
+    const double share = flat ? 0 : std::log(amounts[i] / scale.low) * perLog;
     const auto color = heatColor(share > 0 ? std::min(share, 1.0) : 0);
     setCode(display, i, color[0], color[1], color[2]);
   }
-  return legendOf(what, low, high);
 }
 
-std::string paintShare(const std::vector<double>& shares, const char* what, DisplayImage& display) {
+void paintShare(const std::vector<double>& shares, DisplayImage& display) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const auto color = heatColor(std::clamp(shares[i], 0.0, 1.0));
     setCode(display, i, color[0], color[1], color[2]);
   }
-  return legendOf(what, 0, 1);
 }
 
 }  // namespace whit
