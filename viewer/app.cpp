@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/printable.h"
 #include "io/image_file.h"
+#include "viewer/inspector.h"
 #include "viewer/panel.h"
 
 namespace whit::view {
@@ -288,6 +289,15 @@ void App::passOnEdit() {
   thread_.edit(edit_);
 }
 
+void App::inspectPointed() const {
+  const bool somebodyPoints = !script_ || window_.input.pointer;
+  if (!settings_.shown || !settings_.inspects || !somebodyPoints) return;
+  const auto at = window_.pointed();
+  if (!at) return;
+  const bool compared = settings_.compare != CompareMode::off;
+  drawInspection(inspect(shown_, compared, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
+}
+
 void App::draw(const std::string& screenshot) {
   window_.begin();
   if (settings_.compare != CompareMode::off && shown_.scene) {
@@ -298,6 +308,7 @@ void App::draw(const std::string& screenshot) {
   if (settings_.shown && shown_.scene) {
     Panel::drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
   }
+  inspectPointed();
   if (!error_.empty()) {
     if (!Panel::drawError(error_)) error_.clear();
   } else if (settings_.shown && messageSeconds_ > 0) {

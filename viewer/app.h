@@ -58,6 +58,7 @@ class App {
   void followRays();
   void drawPanel();
   void passOnEdit();
+  void inspectPointed() const;
   void draw(const std::string& screenshot);
   void say(const std::string& message);
   void fail(const std::string& error);

@@ -121,6 +121,10 @@ void App::obey(const ScriptStep& step) {
   if (step.resize) window_.resize(*step.resize);
   if (step.minimize) window_.minimize();
   if (step.restore) window_.restore();
+  if (step.tellNews) {
+    std::printf("longest without news: %.2f ms\n", news_.longestMs());
+    news_ = NewsMeter();
+  }
   if (!step.tab.empty()) settings_.tab = step.tab;
   if (step.showErrors) surviveErrors_ = *step.showErrors;
 }
@@ -153,6 +157,7 @@ void App::handleKey(int key) {
          settings_.measureKnobs = true;
          say("measuring what each knob and effect costs");
        }},
+      {GLFW_KEY_I, [&] { settings_.inspects = !settings_.inspects; }},
       {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
       // The viewpoint.
       {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},

@@ -250,8 +250,9 @@ FrameStats FrameTracer::watchBlock(const FrameRequest& request, TracedFrame& fra
   if (scaleOf_ != request.view) {
     const AmountScale scale = scaleOf(request.view, seen.pixels, options_.spp);
     const bool first = block.x0 == 0 && block.y0 == 0;
-    scale_ = first ? scale
-                   : AmountScale{std::min(scale_.low, scale.low), std::max(scale_.high, scale.high)};
+    scale_ = first
+                 ? scale
+                 : AmountScale{std::min(scale_.low, scale.low), std::max(scale_.high, scale.high)};
   }
   paintView(request.view, seen.pixels, options_.spp, scale_, band_.display);
   return seen.stats;

@@ -13,6 +13,7 @@
 #include "scene/material.h"
 #include "viewer/color_scale.h"
 #include "viewer/keys.h"
+#include "viewer/label.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -211,18 +212,6 @@ void drawKeys() {
 constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
-
-constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
-
-// A shade goes beyond the text by `margin`, and is as round. Above panels, which would hide it.
-void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
-               ImU32 shade = kShade) {
-  const ImVec2 size = ImGui::CalcTextSize(text);
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
-                     ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
-  list.AddText(at, color, text);
-}
 
 // The line behind the panels, over the picture; the words above all: in a small window a panel may
 // lie where they belong.

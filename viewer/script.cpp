@@ -94,6 +94,12 @@ ScriptCommand clickCommand(const Words& words) {
   return {point, kFrames};
 }
 
+ScriptCommand pointCommand(const Words& words) {
+  if (words.size() != 3) expected("point X Y");
+  const Input::Pointer rest{number(words[1]), number(words[2])};
+  return {[rest](int, Input&, ScriptStep& step) { step.rest = rest; }};
+}
+
 ScriptCommand panelCommand(const Words& words) {
   if (words.size() != 2) expected("panel NAME");
   const std::vector<std::string> tabs(kPanelTabs.begin(), kPanelTabs.end());
@@ -127,14 +133,22 @@ ScriptCommand errorsCommand(const Words& words) {
 }
 
 constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = {
-    {"key", keyCommand},       {"mouse", mouseCommand}, {"wheel", wheelCommand},
-    {"wait", waitCommand},     {"click", clickCommand}, {"screenshot", screenshotCommand},
-    {"panel", panelCommand},   {"drop", dropCommand},   {"resize", resizeCommand},
+    {"key", keyCommand},
+    {"mouse", mouseCommand},
+    {"wheel", wheelCommand},
+    {"wait", waitCommand},
+    {"click", clickCommand},
+    {"point", pointCommand},
+    {"screenshot", screenshotCommand},
+    {"panel", panelCommand},
+    {"drop", dropCommand},
+    {"resize", resizeCommand},
     {"errors", errorsCommand},
 };
 constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
     {"minimize", &ScriptStep::minimize},
     {"restore", &ScriptStep::restore},
+    {"news", &ScriptStep::tellNews},
     {"quit", &ScriptStep::quit}};
 
 ScriptCommand commandOf(const Words& words) {
@@ -146,8 +160,9 @@ ScriptCommand commandOf(const Words& words) {
     return {[flag = flag](int, Input&, ScriptStep& step) { step.*flag = true; }};
   }
   expected(
-      "key, mouse, wheel, wait, screenshot, click, panel, drop, resize, minimize, restore, errors "
-      "or quit, got '" +
+      "key, mouse, wheel, wait, screenshot, click, point, panel, drop, resize, minimize, restore, "
+      "errors, "
+      "news or quit, got '" +
       words[0] + "'");
 }
 
@@ -176,12 +191,15 @@ ScriptStep ScriptPlayer::next(bool sharp, Input& input) {
   step.quit = at_ >= commands_.size();
   if (step.quit) return step;
   const ScriptCommand& command = commands_[at_];
-  if (command.waitsUntilSharp && !sharp) return step;
-  if (command.act) command.act(frame_, input, step);
-  if (++frame_ >= command.frames) {
-    frame_ = 0;
-    ++at_;
+  if (!command.waitsUntilSharp || sharp) {
+    if (command.act) command.act(frame_, input, step);
+    if (++frame_ >= command.frames) {
+      frame_ = 0;
+      ++at_;
+    }
   }
+  if (step.rest) rest_ = step.rest;
+  if (!input.pointer) input.pointer = rest_;
   return step;
 }
 

@@ -8,10 +8,13 @@
 //                                 no finer and no file dialog is open
 //   screenshot FILE.png           what the window shows
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
+//   point X Y                     the pointer rests there from now on
 //   panel NAME                    turns to that tab of the panel
 //   drop FILE                     a file dropped on the window
 //   resize W H | minimize | restore
 //   errors show | errors end      errors are shown as to a user; by default they end the script
+//   news                          prints the longest time without anything new on screen, of a
+//                                 picture that was not sharp yet, since the last such line
 //   quit
 //
 // Time is that of the frames: 1/60 s each, however long they take.
@@ -35,8 +38,10 @@ struct ScriptStep {
   bool quit = false;       // the end of the script quits too
   std::optional<ImageSize> resize;
   bool minimize = false, restore = false;
-  std::string tab;                 // of the panel; empty: it stays
-  std::optional<bool> showErrors;  // false: they end the script
+  bool tellNews = false;
+  std::string tab;                     // of the panel; empty: it stays
+  std::optional<Input::Pointer> rest;  // of the pointer, from now on
+  std::optional<bool> showErrors;      // false: they end the script
 };
 
 struct ScriptCommand {
@@ -60,6 +65,7 @@ class ScriptPlayer {
   std::vector<ScriptCommand> commands_;
   std::size_t at_ = 0;
   int frame_ = 0;  // of the current command
+  std::optional<Input::Pointer> rest_;
 };
 
 }  // namespace whit::view

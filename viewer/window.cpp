@@ -171,6 +171,13 @@ void Window::minimize() { glfwIconifyWindow(window_); }
 
 void Window::restore() { glfwRestoreWindow(window_); }
 
+std::optional<Input::Click> Window::pointed() const {
+  if (ImGui::GetIO().WantCaptureMouse || looking_ || orbiting_) return std::nullopt;
+  if (input.pointer) return Input::Click{input.pointer->x, input.pointer->y};
+  if (!glfwGetWindowAttrib(window_, GLFW_HOVERED)) return std::nullopt;
+  return Input::Click{cursorX_, cursorY_};
+}
+
 void Window::poll(double waitSeconds) {
   if (waitSeconds > 0) {
     glfwWaitEventsTimeout(waitSeconds);

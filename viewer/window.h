@@ -53,6 +53,10 @@ class Window {
   // The last click on the picture since the last call, the user's or a script's pointer's.
   std::optional<Input::Click> takeClick() { return std::exchange(click_, std::nullopt); }
 
+  // Where the pointer is over the picture, not over a panel, and no button is down. Of a script, if
+  // it has one.
+  std::optional<Input::Click> pointed() const;
+
   // Handles what happened, after waiting for it so long at most.
   void poll(double waitSeconds);
   // Makes poll() return; for other threads.

@@ -159,7 +159,8 @@ std::string namesOf(EffectSet effects) {
   std::string names;
   for (int i = 0; i < kEffectCount; ++i) {
     if (!effects.has(static_cast<Effect>(i))) continue;
-    names += (names.empty() ? "" : ", ") + std::string(kEffectNames[static_cast<std::size_t>(i)].name);
+    names +=
+        (names.empty() ? "" : ", ") + std::string(kEffectNames[static_cast<std::size_t>(i)].name);
   }
   return names.empty() ? "none" : names;
 }

@@ -69,9 +69,8 @@ TEST_P(ViewPieces, AreGivenUpInBetween) {
   EXPECT_EQ(pieces_, 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, ViewPieces, testing::Range<std::size_t>(1, kDebugViewNames.size()),
-    [](const auto& view) { return std::string(kDebugViewNames[view.param]); });
+INSTANTIATE_TEST_SUITE_P(All, ViewPieces, testing::Range<std::size_t>(1, kDebugViewNames.size()),
+                         [](const auto& view) { return std::string(kDebugViewNames[view.param]); });
 
 }  // namespace
 }  // namespace whit::view

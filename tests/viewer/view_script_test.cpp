@@ -37,8 +37,9 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("wheel nan"), "walk.txt:1: expected a number of at most 1e6, got 'nan'");
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
-            "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, panel, drop, resize, "
-            "minimize, restore, errors or quit, got 'jump'");
+            "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, point, panel, drop, "
+            "resize, "
+            "minimize, restore, errors, news or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
@@ -119,6 +120,30 @@ TEST(Script, WaitsAndQuits) {
   EXPECT_EQ(framesOf("wait 2 frames\nquit\nwait 9 frames"), 2);
   EXPECT_EQ(framesOf("wait sharp", true), 1);
   EXPECT_EQ(framesOf("wait sharp", false), 1000);  // for as long as it takes
+}
+
+TEST(Script, ThePointerRests) {
+  ScriptPlayer player(parseScript("wait 1 frames\npoint 3 4\nwait 1 frames", "walk.txt"));
+  Input input;
+  player.next(true, input);
+  EXPECT_FALSE(input.pointer);
+  for (int frame = 0; frame < 2; ++frame) {
+    input = Input();
+    player.next(true, input);
+    ASSERT_TRUE(input.pointer);
+    EXPECT_EQ(input.pointer->x, 3);
+    EXPECT_EQ(input.pointer->y, 4);
+    EXPECT_FALSE(input.pointer->down);
+  }
+}
+
+TEST(Script, ControlIsForCommands) {
+  ScriptPlayer player(parseScript("key Ctrl+S", "walk.txt"));
+  Input input;
+  player.next(true, input);
+  EXPECT_EQ(input.commands, std::vector<int>{'S'});
+  EXPECT_TRUE(input.pressed.empty());
+  EXPECT_FALSE(input.isHeld('S'));
 }
 
 TEST(Script, ScreenshotsOnce) {
