@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/formatted.h"
 #include "metrics/metrics.h"
 
 namespace whit::view {
@@ -18,6 +19,14 @@ ColorScale differenceScale() {
   for (const int codes : kHeatTicks) {
     const bool last = codes == kHeatTicks.back();
     scale.ticks.push_back({heatPosition(codes), std::to_string(codes) + (last ? "+" : "")});
+  }
+  return scale;
+}
+
+ColorScale scaleOfView(DebugView view, const AmountScale& amounts) {
+  ColorScale scale{[view](double share) { return colorAt(view, share); }, {}};
+  for (const double at : {0.0, 0.5, 1.0}) {
+    scale.ticks.push_back({at, formatted("%.3g", amountAt(view, amounts, at))});
   }
   return scale;
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "render/debug_view.h"
+
 namespace whit::view {
 
 struct ColorScale {
@@ -23,6 +25,9 @@ struct ColorScale {
 
 // That of the map of differences, in 8-bit codes.
 ColorScale differenceScale();
+
+// That of a view that has one.
+ColorScale scaleOfView(DebugView view, const AmountScale& amounts);
 
 // Bar and numbers, as high as that, and as wide.
 float heightOf(const ColorScale& scale);

@@ -406,9 +406,17 @@ void Panel::drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, do
   if (frame.request.view == DebugView::none) return;
   text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
   if (!frame.legend.empty()) text += ": " + frame.legend;
-  drawLabel(ImVec2(window.x - kMargin - ImGui::CalcTextSize(text.c_str()).x,
-                   window.y - kMargin - 3 * kPadding - 2 * size.y),
-            text.c_str(), kPadding);
+  const ImVec2 said = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 corner(window.x - kMargin - said.x, window.y - kMargin - 3 * kPadding - 2 * size.y);
+  drawLabel(corner, text.c_str(), kPadding);
+  if (!hasScale(frame.request.view)) return;
+  const ColorScale scale = scaleOfView(frame.request.view, frame.scale);
+  const float height = heightOf(scale) + 2 * kPadding, top = corner.y - height - kPadding;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(ImVec2(corner.x - kPadding, top - kPadding),
+                     ImVec2(corner.x + said.x + kPadding, top + height - kPadding), kShade,
+                     kPadding);
+  drawColorScale(scale, ImVec2(corner.x, top), said.x, list);
 }
 
 void Panel::drawMessage(const std::string& message) {
@@ -458,8 +466,12 @@ void FrameGraph::draw(double rate) const {
   std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
   // Below its line, unless that lies low.
   const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
-  list.AddText(ImVec2(to.x - padding.x - ImGui::CalcTextSize(text.c_str()).x, below), color,
-               text.c_str());
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 at(to.x - padding.x - words.x, below);
+  // So that the curve does not strike it through.
+  list.AddRectFilled(at, ImVec2(at.x + words.x, at.y + words.y),
+                     ImGui::GetColorU32(ImGuiCol_FrameBg));
+  list.AddText(at, color, text.c_str());
   if (count_ == 0) return;
   text = formatted("%.1f ms at most", static_cast<double>(highest));
   list.AddText(ImVec2(from.x + padding.x, from.y), color, text.c_str());

@@ -242,7 +242,7 @@ std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
     case DebugView::albedo:
       return formatted("albedo %.3f %.3f %.3f, linear", mean.x, mean.y, mean.z);
     case DebugView::rays:
-      return formatted("%.4g rays a sample", amount);
+      return formatted("%.4g ray%s a sample", amount, amount == 1 ? "" : "s");
     case DebugView::cost:
       return formatted("%.3g microseconds a sample", amount);
     case DebugView::effects:

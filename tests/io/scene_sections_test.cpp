@@ -1,4 +1,5 @@
 // Cameras, lights, sky, materials and textures of scene files.
+#include "scene/studio_sky.h"
 #include "scene/texture.h"
 #include "scene_files.h"
 
@@ -94,6 +95,17 @@ TEST_F(SceneSections, SkyOfOneColorAndAmbientFromIt) {
   constexpr float kQuadrature = 1e-3f;
   EXPECT_NEAR(scene.ambient.up.x, 0.125f, kQuadrature);
   EXPECT_NEAR(scene.ambient.down.z, 0.5f, kQuadrature);
+}
+
+TEST_F(SceneSections, TheStudioIsAPreset) {
+  const SceneDescription scene =
+      loadMembers("\"sky\": {\"preset\": \"studio\", \"scale\": 2, \"rotation\": 30}");
+  EXPECT_EQ(scene.sky.name, kStudio);
+  EXPECT_EQ(scene.sky.image.r, studioSky().image.r);
+  EXPECT_EQ(scene.sky.scale, 2);
+  EXPECT_EQ(scene.sky.rotation, 30);
+  EXPECT_NE(errorOfMembers("\"sky\": {\"preset\": \"stadium\"}").find("#/sky/preset"),
+            std::string::npos);
 }
 
 TEST_F(SceneSections, SkyGradientAndImage) {

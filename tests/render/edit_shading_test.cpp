@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/edit_shading.h"
+#include "scene/studio_sky.h"
 #include "shipped_scene.h"
 
 namespace whit::test {
@@ -98,6 +99,45 @@ TEST(EditShading, MapsAndShadowsStay) {
   EXPECT_EQ(scene.materials[0].castsShadow, first.castsShadow);
   EXPECT_EQ(scene.materials[0].diffuseMap, first.diffuseMap);
   EXPECT_EQ(scene.materials[0].alphaCutoff, first.alphaCutoff);
+}
+
+// With the same renderer, as if the scene had been read like that; and back again.
+TEST(EditShading, SkiesAreExchanged) {
+  const RenderOptions options = smallOptions();
+  Warnings warnings;
+  for (const Sky& other : {studioSky(), Sky()}) {
+    SceneDescription description = loadScene("whitted", LoadOptions{}, warnings);
+    description.sky = other;
+    description.ambient = ambientFromSky(other, 0.5);
+    const Scene read = Scene::finalize(std::move(description), warnings);
+    Scene edited = load("whitted");
+    Renderer renderer(edited, options);
+    Film film = makeFilm(edited, options);
+    const Camera camera = chooseCamera(edited, options);
+    renderer.render(camera, film);
+    const Image before = film.image;
+    const Ambient ambient = edited.ambient;
+    Sky sky = other;
+    editSky(edited, sky, ambientFromSky(other, 0.5));
+    renderer.shadingChanged();
+    renderer.render(camera, film);
+    EXPECT_EQ(firstDifference(render(read, options).image, film.image), "");
+    EXPECT_EQ(edited.effects, read.effects);
+    editSky(edited, sky, ambient);
+    renderer.shadingChanged();
+    renderer.render(camera, film);
+    EXPECT_EQ(firstDifference(before, film.image), "");
+  }
+}
+
+TEST(EditShading, SkiesThatCannotBeAreRefused) {
+  Scene scene = load("whitted");
+  const Rgb zenith = scene.sky.zenith;
+  Sky sky = studioSky();
+  sky.scale = std::nanf("");
+  EXPECT_THROW(editSky(scene, sky, Ambient()), Error);
+  EXPECT_EQ(scene.sky.zenith, zenith);
+  EXPECT_EQ(sky.name, kStudio);
 }
 
 TEST(EditShading, WhatCannotBeIsRefused) {

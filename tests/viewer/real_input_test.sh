@@ -4,7 +4,7 @@
 # Exit 77: a program it needs is not installed.
 set -euo pipefail
 
-view=$1
+view=$(realpath "$1")
 for program in Xvfb xdotool openbox; do
   if ! command -v "$program" >/dev/null; then
     echo "!! $program is not installed: real input is NOT checked" >&2
@@ -79,6 +79,7 @@ export DISPLAY
 openbox >/dev/null 2>&1 &
 children+=($!)
 within managed
+cd "$work"  # where files are saved
 "$view" matte --size 320x200 --quiet >"$work/out" 2>"$work/err" &
 viewer=$!
 children+=($viewer)
@@ -109,6 +110,16 @@ if python3 -c 'import tkinter' 2>/dev/null; then
 else
   echo "!! python3-tk is not installed: the clipboard is NOT checked" >&2
 fi
+
+# Ctrl+S saves, and is no S, which flies.
+look
+eye=$(option eye)
+xdotool key ctrl+s
+prints=$((prints + 1))
+within printed $prints
+[ -s matte-edited.json ] || fail "Ctrl+S has saved nothing"
+look
+[ "$(option eye)" = "$eye" ] || fail "Ctrl+S has moved the camera"
 
 first=$(size)
 xdotool key f
