@@ -22,15 +22,15 @@ namespace {
 #define WHIT_SCENE_FILES "*.json *.gltf *.glb *.obj *.ply"
 #define WHIT_SKY_FILES "*.hdr *.exr"
 
-using Words = std::array<const char*, 7>;  // null at the end
+using CommandWords = std::array<const char*, 7>;  // null at the end
 
-constexpr Words kZenity[] = {
+constexpr CommandWords kZenity[] = {
     {"zenity", "--file-selection", "--title=whit: open a scene, a model or a sky",
      "--file-filter=Scenes, models and skies | " WHIT_SCENE_FILES " " WHIT_SKY_FILES,
      "--file-filter=All files | *", nullptr},
     {"zenity", "--file-selection", "--title=whit: the image of a sky",
      "--file-filter=Skies | " WHIT_SKY_FILES, "--file-filter=All files | *", nullptr}};
-constexpr Words kKdialog[] = {
+constexpr CommandWords kKdialog[] = {
     {"kdialog", "--title", "whit: open a scene, a model or a sky", "--getopenfilename", ".",
      WHIT_SCENE_FILES " " WHIT_SKY_FILES "|Scenes, models and skies", nullptr},
     {"kdialog", "--title", "whit: the image of a sky", "--getopenfilename", ".",
