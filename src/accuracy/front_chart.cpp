@@ -138,8 +138,10 @@ std::string axes(const LogScale& x, const LogScale& y, bool zeros) {
     const double at = x.at(tick);
     svg += formatted("<line class=\"grid\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.0f\" y2=\"%.0f\"/>\n", at,
                      at, kPlot.top, kPlot.bottom);
-    svg += formatted("<text class=\"s\" x=\"%.1f\" y=\"%.0f\" text-anchor=\"middle\">%g</text>\n",
-                     at, kPlot.bottom + 16, tick);
+    const std::string text = formatted("%g", tick);
+    const double half = kCharWidth / 2 * static_cast<double>(text.size());
+    svg += formatted("<text class=\"s\" x=\"%.1f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n",
+                     std::min(at, kChartWidth - half), kPlot.bottom + 16, text.c_str());
   }
   const auto level = [&](double at, const std::string& text) {
     svg += formatted("<line class=\"grid\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.1f\" y2=\"%.1f\"/>\n",

@@ -197,6 +197,21 @@ TEST(FrontChart, PlacesPointsOnLogarithmicScales) {
 }
 
 // Without an error at all, a point stands below the scale, not at minus infinity.
+// A tick at the very end of the scale, with a long number.
+TEST(FrontChart, NumbersBelowTheScaleStayInTheChart) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[2] = pointOf(PointKind::knob, "depth", "16", 100000 / 1.5, 0.025);
+  const std::string svg = frontSvg(sweep, Against::reference, ChartLinks());
+  const std::regex number("x=\"([0-9.]+)\" y=\"390\" text-anchor=\"middle\">([0-9.e+]+)<");
+  double last = 0;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it) {
+    const double halfWidth = 4.1 * static_cast<double>((*it)[2].length());
+    last = std::stod((*it)[1]) + halfWidth;
+    EXPECT_LE(last, kChartWidth) << (*it)[2];
+  }
+  EXPECT_GT(last, kChartWidth - 1) << "one lies at the end";
+}
+
 TEST(FrontChart, NoErrorHasALineOfItsOwn) {
   const std::string svg = frontSvg(sweepOfThree(), Against::sameSamples, {});
   expectBalanced(svg);
