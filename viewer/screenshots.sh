@@ -7,7 +7,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "${1:-$root/scenes/pictures}"
 folder=$(cd "${1:-$root/scenes/pictures}" && pwd)
 view=$root/build/whit-view
-largest=400000  # bytes a picture
+largest=500000  # bytes a picture
 
 if [ ! -x "$view" ]; then
   echo "viewer/screenshots.sh: there is no $view; build it first: cmake --build build" >&2
