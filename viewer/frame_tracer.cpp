@@ -344,7 +344,8 @@ bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame,
     // Without what any block takes, however small.
     leastMs = std::min(leastMs, stats.frameMs);
     costs_.learn(size, block, std::max((stats.frameMs - leastMs) / samples, kLeastMs));
-    if (sinceShown.ms() < kUnfinishedMs) continue;
+    const bool last = block.y1 == size.height && block.x1 == size.width;
+    if (last || sinceShown.ms() < kUnfinishedMs) continue;
     sinceShown = Stopwatch();
     const double done = static_cast<double>(block.y0) / size.height;
     calls.showUnfinished({request, frame.film.display, done, {}});
