@@ -5,6 +5,18 @@
 
 namespace whit::accuracy {
 
+std::string beginChart(const char* kind, double height, const char* style,
+                       const std::string& title) {
+  std::string svg = formatted(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"%s\" viewBox=\"0 0 %.0f %.0f\" "
+      "width=\"%.0f\" height=\"%.0f\" role=\"img\">\n",
+      kind, kChartWidth, height, kChartWidth, height);
+  svg += std::string("<style>\n") + style + "</style>\n";
+  svg += "<title>" + escaped(title) + "</title>\n";
+  return svg + formatted("<rect class=\"back\" width=\"%.0f\" height=\"%.0f\" rx=\"6\"/>\n",
+                         kChartWidth, height);
+}
+
 std::string pictureId(std::size_t scene, const SceneSweep& sweep, const Point& point) {
   return formatted("s%zu-p%zu", scene, static_cast<std::size_t>(&point - sweep.points.data()));
 }

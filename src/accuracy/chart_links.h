@@ -1,4 +1,4 @@
-// What the charts of a sweep share: their width, and links to the pictures of points.
+// What the charts of a sweep share: how they begin, and links to the pictures of points.
 #pragma once
 
 #include <string>
@@ -9,6 +9,11 @@ namespace whit::accuracy {
 
 // Charts are laid out for the width of a telephone; wider screens scale them up.
 inline constexpr double kChartWidth = 480;
+
+// An SVG image of that width up to its background, to be closed by "</svg>". `kind`: the class that
+// the rules of `style` name; `title` is text.
+std::string beginChart(const char* kind, double height, const char* style,
+                       const std::string& title);
 
 struct ChartLinks {
   std::size_t scene = 0;  // its number in the report

@@ -95,41 +95,33 @@ std::string labelOf(const Mark& mark) {
   return label.size() <= kMostLetters ? label : label.substr(0, kMostLetters - 1) + "\u2026";
 }
 
+constexpr const char* kFrontStyle =
+    ".pareto text{font:14px system-ui,sans-serif;fill:#1f2328}\n"
+    ".pareto .h{font-size:16px;font-weight:600}.pareto .s,.pareto .d{fill:#59636e}\n"
+    ".pareto .back{fill:#fff}.pareto .grid{stroke:#d8dee4}.pareto .axis{stroke:#8c959f}\n"
+    ".pareto .front{fill:none;stroke:#1f5fa8;stroke-width:2}.pareto .p{fill:#1f5fa8}\n"
+    ".pareto .q{fill:#afb8c1}.pareto .lead{stroke:#8c959f;stroke-width:.7}\n"
+    ".pareto .one{fill:none;stroke:#8c959f;stroke-width:1.5;stroke-dasharray:2 1.5}\n"
+    ".pareto .w{stroke:#1f5fa8}.pareto .f{font-weight:600}.pareto .area{fill:transparent}\n"
+    ".pareto .f,.pareto .d{paint-order:stroke;stroke:#fff;stroke-width:3px}\n"
+    ".pareto a:hover .area{fill:#1f5fa833}\n"
+    "@media(prefers-color-scheme:dark){.pareto text{fill:#f0f6fc}\n"
+    ".pareto .s,.pareto .d{fill:#9da7b1}.pareto .back{fill:#0d1117}\n"
+    ".pareto .grid{stroke:#262c36}.pareto .front{stroke:#79b8ff}.pareto .p{fill:#79b8ff}\n"
+    ".pareto .q{fill:#59636e}.pareto .w{stroke:#79b8ff}\n"
+    ".pareto .f,.pareto .d{stroke:#0d1117}}\n"
+    "@media print{.pareto text{fill:#000}.pareto .back{fill:#fff}.pareto .f,.pareto "
+    ".d{stroke:#fff}\n"
+    ".pareto .front{stroke:#1f5fa8}.pareto .p{fill:#1f5fa8}.pareto .q{fill:#afb8c1}}\n";
+
 std::string head(const SceneSweep& sweep, Against against) {
-  std::string svg = formatted(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"pareto\" viewBox=\"0 0 %.0f %.0f\" "
-      "width=\"%.0f\" height=\"%.0f\" role=\"img\">\n",
-      kChartWidth, kHeight, kChartWidth, kHeight);
-  svg +=
-      "<style>\n"
-      ".pareto text{font:14px system-ui,sans-serif;fill:#1f2328}\n"
-      ".pareto .h{font-size:16px;font-weight:600}.pareto .s,.pareto .d{fill:#59636e}\n"
-      ".pareto .back{fill:#fff}.pareto .grid{stroke:#d8dee4}.pareto .axis{stroke:#8c959f}\n"
-      ".pareto .front{fill:none;stroke:#1f5fa8;stroke-width:2}.pareto .p{fill:#1f5fa8}\n"
-      ".pareto .q{fill:#afb8c1}.pareto .lead{stroke:#8c959f;stroke-width:.7}\n"
-      ".pareto .one{fill:none;stroke:#8c959f;stroke-width:1.5;stroke-dasharray:2 1.5}\n"
-      ".pareto .w{stroke:#1f5fa8}.pareto .f{font-weight:600}.pareto .area{fill:transparent}\n"
-      ".pareto .f,.pareto .d{paint-order:stroke;stroke:#fff;stroke-width:3px}\n"
-      ".pareto a:hover .area{fill:#1f5fa833}\n"
-      "@media(prefers-color-scheme:dark){.pareto text{fill:#f0f6fc}\n"
-      ".pareto .s,.pareto .d{fill:#9da7b1}.pareto .back{fill:#0d1117}\n"
-      ".pareto .grid{stroke:#262c36}.pareto .front{stroke:#79b8ff}.pareto .p{fill:#79b8ff}\n"
-      ".pareto .q{fill:#59636e}.pareto .w{stroke:#79b8ff}\n"
-      ".pareto .f,.pareto .d{stroke:#0d1117}}\n"
-      "@media print{.pareto text{fill:#000}.pareto .back{fill:#fff}.pareto .f,.pareto "
-      ".d{stroke:#fff}\n"
-      ".pareto .front{stroke:#1f5fa8}.pareto .p{fill:#1f5fa8}.pareto .q{fill:#afb8c1}}\n"
-      "</style>\n";
   const char* const what =
       against == Against::reference ? "error over time" : "error at equal samples";
-  svg += formatted("<title>%s: %s</title>\n", escaped(sweep.scene).c_str(), what);
-  svg += formatted("<rect class=\"back\" width=\"%.0f\" height=\"%.0f\" rx=\"6\"/>\n", kChartWidth,
-                   kHeight);
-  svg += formatted("<text class=\"h\" x=\"12\" y=\"24\">%s: %s</text>\n",
-                   escaped(sweep.scene).c_str(), what);
-  return svg + formatted(
-                   "<text class=\"s\" x=\"12\" y=\"44\">mean FLIP; gray: beaten in both; "
-                   "dashed: too few frames</text>\n");
+  const std::string title = sweep.scene + ": " + what;
+  return beginChart("pareto", kHeight, kFrontStyle, title) +
+         formatted("<text class=\"h\" x=\"12\" y=\"24\">%s</text>\n", escaped(title).c_str()) +
+         "<text class=\"s\" x=\"12\" y=\"44\">mean FLIP; gray: beaten in both; "
+         "dashed: too few frames</text>\n";
 }
 
 std::string axes(const LogScale& x, const LogScale& y, bool zeros) {

@@ -57,34 +57,22 @@ const Point* chosenOf(const std::vector<const Point*>& values, const SceneSweep&
   return best ? best : values.front();
 }
 
-std::string head(const SceneSweep& sweep, double height) {
-  std::string svg = formatted(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"knobs\" viewBox=\"0 0 %.0f %.0f\" "
-      "width=\"%.0f\" height=\"%.0f\" role=\"img\">\n",
-      kChartWidth, height, kChartWidth, height);
-  svg +=
-      "<style>\n"
-      ".knobs text{font:14px system-ui,sans-serif;fill:#1f2328}\n"
-      ".knobs .h{font-size:16px;font-weight:600}.knobs .b{font-weight:600}\n"
-      ".knobs .s{fill:#59636e}.knobs .back{fill:#fff}.knobs .n{fill:#d8dee4}\n"
-      ".knobs .zero{stroke:#8c959f}.knobs .t{fill:#1f5fa8;stroke:#1f5fa8}\n"
-      ".knobs .e{fill:#c4501b;stroke:#c4501b}.knobs rect.one,.knobs path.one{fill:none;"
-      "stroke-dasharray:3 2}\n"
-      ".knobs text.t,.knobs text.e,.knobs tspan.t,.knobs tspan.e{stroke:none}\n"
-      ".knobs tspan.s{fill:#59636e}.knobs .w{stroke:#1f2328;stroke-width:1.5}\n"
-      ".knobs .row{fill:transparent}.knobs a:hover .row{fill:#1f5fa81a}\n"
-      "@media(prefers-color-scheme:dark){.knobs text{fill:#f0f6fc}\n"
-      ".knobs .s,.knobs tspan.s{fill:#9da7b1}.knobs .back{fill:#0d1117}.knobs .n{fill:#343b44}\n"
-      ".knobs .t{fill:#79b8ff;stroke:#79b8ff}.knobs .e{fill:#ff9a62;stroke:#ff9a62}\n"
-      ".knobs .w{stroke:#f0f6fc}}\n"
-      "@media print{.knobs text{fill:#000}.knobs .back{fill:#fff}.knobs .n{fill:#d8dee4}\n"
-      ".knobs .t{fill:#1f5fa8;stroke:#1f5fa8}.knobs .e{fill:#c4501b;stroke:#c4501b}}\n"
-      "</style>\n";
-  svg +=
-      formatted("<title>%s: time and error of each knob</title>\n", escaped(sweep.scene).c_str());
-  return svg + formatted("<rect class=\"back\" width=\"%.0f\" height=\"%.0f\" rx=\"6\"/>\n",
-                         kChartWidth, height);
-}
+constexpr const char* kKnobStyle =
+    ".knobs text{font:14px system-ui,sans-serif;fill:#1f2328}\n"
+    ".knobs .h{font-size:16px;font-weight:600}.knobs .b{font-weight:600}\n"
+    ".knobs .s{fill:#59636e}.knobs .back{fill:#fff}.knobs .n{fill:#d8dee4}\n"
+    ".knobs .zero{stroke:#8c959f}.knobs .t{fill:#1f5fa8;stroke:#1f5fa8}\n"
+    ".knobs .e{fill:#c4501b;stroke:#c4501b}.knobs rect.one,.knobs path.one{fill:none;"
+    "stroke-dasharray:3 2}\n"
+    ".knobs text.t,.knobs text.e,.knobs tspan.t,.knobs tspan.e{stroke:none}\n"
+    ".knobs tspan.s{fill:#59636e}.knobs .w{stroke:#1f2328;stroke-width:1.5}\n"
+    ".knobs .row{fill:transparent}.knobs a:hover .row{fill:#1f5fa81a}\n"
+    "@media(prefers-color-scheme:dark){.knobs text{fill:#f0f6fc}\n"
+    ".knobs .s,.knobs tspan.s{fill:#9da7b1}.knobs .back{fill:#0d1117}.knobs .n{fill:#343b44}\n"
+    ".knobs .t{fill:#79b8ff;stroke:#79b8ff}.knobs .e{fill:#ff9a62;stroke:#ff9a62}\n"
+    ".knobs .w{stroke:#f0f6fc}}\n"
+    "@media print{.knobs text{fill:#000}.knobs .back{fill:#fff}.knobs .n{fill:#d8dee4}\n"
+    ".knobs .t{fill:#1f5fa8;stroke:#1f5fa8}.knobs .e{fill:#c4501b;stroke:#c4501b}}\n";
 
 std::string textAt(const char* kind, double x, double y, const char* anchor,
                    const std::string& content) {
@@ -221,7 +209,9 @@ std::string knobSvg(const SceneSweep& sweep, const std::vector<const Point*>& ro
                     const ChartLinks& links) {
   const Trade noise = noiseOf(sweep);
   const double bottom = kTop + kRow * static_cast<double>(rows.size());
-  std::string svg = head(sweep, bottom + 8) + scales(sweep, bottom);
+  std::string svg =
+      beginChart("knobs", bottom + 8, kKnobStyle, sweep.scene + ": time and error of each knob") +
+      scales(sweep, bottom);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double y = kTop + kRow * static_cast<double>(i);
     svg += linkToPicture(links, sweep, *rows[i], rowOf(sweep, *rows[i], noise, y)) + "\n";
