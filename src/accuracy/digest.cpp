@@ -152,10 +152,10 @@ void add(Digester& d, const Sky& sky) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, width, height, cameras, cameraPath, lights, sky, ambient, materials,
-               mediumOfMaterial, media, textures, geometries, instances, triangles, firstSphere,
-               normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
-               flush, effects, reasons] = scene;
+  const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
+               materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
+               firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
+               instancedSpheres, flush, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

@@ -37,6 +37,7 @@ struct RunSummary {
   // Of frames whose images are written, each beside the tracing of the next: how long it took to
   // write them, and how long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
+  std::vector<double> updateMs;   // of a scene that moves: to bring it to each frame's instant
   double tracedAndWrittenMs = 0;  // from the first frame to the last file
   std::size_t kept = 0;           // frames whose images were there
 };

@@ -114,6 +114,13 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              "studio)",
              common.load.sky)
       .placeholder = "none|studio|FILE";
+  list.value({"time", "SECONDS", -1e9, 1e9},
+             "the instant at which animations and the camera's path are looked at (default: models "
+             "stand as their files have them, without animations)",
+             common.load.instant.seconds);
+  list.value({"animation", "NAME"},
+             "which animation of models is played (default: the first of each)",
+             common.load.instant.animation);
   list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
              common.maxMemoryGb)
       .everyday = false;

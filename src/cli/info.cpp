@@ -39,6 +39,11 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");
   for (const Camera& camera : s.cameras) std::printf("%s ", printable(camera.name).c_str());
+  for (const Animation& animation : s.animations) {
+    std::printf("\n  %-12s%s: %g s, moves %zu node%s", "animation",
+                printable(animation.name).c_str(), animation.seconds, animation.nodes,
+                animation.nodes == 1 ? "" : "s");
+  }
   std::printf("\n  %-12s%.1f MB\n", "memory", memoryMb(s, renderer));
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
               renderer.buildMs());

@@ -95,6 +95,7 @@ void addFrames(const RunSummary& run, Json& json) {
     json["floor_ms"] = floor;
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
+  if (!run.updateMs.empty()) json["updateScene_ms"] = quantile(run.updateMs, 0.5);
   if (!run.writingMs.empty()) {
     json["writing_ms"] = {{"spent", quantile(run.writingMs, 0.5)},
                           {"waited", quantile(run.waitedMs, 0.5)}};
@@ -181,6 +182,11 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"memory_mb", memoryMb(scene, renderer)}};
   const VerdictOutlook verdicts = verdictOutlook(scene, options);
   json["verdicts"] = {{"lights", verdicts.lights}, {"parts", verdicts.parts}};
+  json["animations"] = Json::array();
+  for (const Animation& animation : scene.animations) {
+    json["animations"].push_back(
+        {{"name", animation.name}, {"seconds", animation.seconds}, {"nodes", animation.nodes}});
+  }
   json["cameras"] = Json::array();
   for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera.name);
   json["warnings"] = Json::object();

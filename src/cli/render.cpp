@@ -1,11 +1,13 @@
-// whit render: one image, or the frames of a scene's camera path.
+// whit render: one image, or the frames of a scene that moves.
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "accuracy/digest.h"
 #include "app/background_writer.h"
@@ -31,9 +33,9 @@ namespace {
 
 constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
 constexpr const char* kRenderSummary =
-    "Renders one image, or with --frames the frames of the scene's camera path. To standard "
-    "output\n"
-    "(-o -) frames follow each other, as ffmpeg -f image2pipe reads them.";
+    "Renders one image, or with --frames those of the scene's animation and camera path. To "
+    "standard\n"
+    "output (-o -) frames follow each other, as ffmpeg -f image2pipe reads them.";
 
 struct RenderJob {
   CommonOptions common;
@@ -55,9 +57,10 @@ OptionList listOptions(RenderJob& job) {
             "image to write, .exr (linear) or .png; - is a PNG to standard output; may be repeated",
             job.outputs)
       .shortName = "o";
-  list.value({"frames", "A..B"}, "frames of the camera path; FILE has #### for the number",
+  list.value({"frames", "A..B"},
+             "frames of the animation and the camera path; FILE has #### for the number",
              job.frames);
-  list.value({"fps", "N", 0.001, 1e6}, "frames a second of the camera path", job.fps);
+  list.value({"fps", "N", 0.001, 1e6}, "frames a second", job.fps);
   list.flag(
       "resume",
       "leave out images that are there, whole and made with the same options of the same contents "
@@ -101,7 +104,18 @@ void checkJob(const RenderJob& job, const Farm& farm) {
   }
   parseFrameRange(job.frames);
   for (const std::string& output : job.outputs) frameName(output, 0);
-  if (job.common.given.contains("camera")) {
+  if (job.common.load.instant.seconds) {
+    throwUsage("--time is one instant, --frames are many: give one");
+  }
+}
+
+void checkFilmed(const RenderJob& job, const Scene& scene) {
+  if (job.frames.empty()) return;
+  if (scene.cameraPath.empty() && scene.animations.empty()) {
+    throwUsage("--frames: nothing moves in scene '" + scene.name +
+               "', it has no camera path and no animation");
+  }
+  if (job.common.given.contains("camera") && !scene.cameraPath.empty()) {
     throwUsage("--camera names a still viewpoint, --frames follows the scene's path: give one");
   }
 }
@@ -129,14 +143,30 @@ class ImageWriter {
   ImageWriter(const RenderJob& job, const OpenScene& open, Farm& farm, Progress* progress)
       : job_(job),
         farm_(farm),
-        open_(open),
+        open_(&open),
         options_(optionsFor(open.scene, job.common)),
-        renderer_(open.scene, options_, progress),
         films_(openFilms(job, open.scene)) {
-    // One for all frames of a path, whichever of them are asked for.
-    settleExposure(renderer_, firstCamera(), options_);
-    run_ = summarize(open.scene, options_, renderer_, films_[0], open.loadMs);
+    renderer_.emplace(open.scene, options_, progress);
+    // One for all frames, whichever of them are asked for.
+    settleExposure(*renderer_, firstCamera(), options_);
+    run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
+  }
+
+  // Of a scene that moves: frames to come are those of another instant. All of it is read and built
+  // anew, so that a frame's bits are the same in a film and alone.
+  void updateScene(double seconds) {
+    const Stopwatch stopwatch;
+    CommonOptions common = job_.common;
+    common.load.instant.seconds = seconds;
+    common.quiet = true;  // what was repaired has been said
+    auto moved = openScene(job_.scenes[0], common, nullptr);
+    renderer_.emplace(moved->scene, options_);
+    moved_ = std::move(moved);
+    open_ = moved_.get();
+    if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
+    run_.updateMs.push_back(stopwatch.ms());
+    run_.tracedAndWrittenMs += run_.updateMs.back();
   }
 
   // With --resume, nothing is traced when all files are there. The files are there after finish().
@@ -144,8 +174,8 @@ class ImageWriter {
              const ImageMetadata& more = {}) {
     const Stopwatch stopwatch;
     Film& film = films_[film_];
-    ImageMetadata metadata = describeImage(open_.scene, camera, renderer_, film, options_);
-    addSettings(open_.settings, open_.sky, metadata);
+    ImageMetadata metadata = describeImage(open_->scene, camera, *renderer_, film, options_);
+    addSettings(open_->settings, open_->sky, metadata);
     metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
     if (farm_.leads() && job_.resume && areWhole(files, film.image, metadata)) {
@@ -154,14 +184,21 @@ class ImageWriter {
       return;
     }
     prepareAudit(camera, film);
-    run_.frames.push_back(renderShared(farm_, renderer_, options_, camera, film, progress));
+    run_.frames.push_back(renderShared(farm_, *renderer_, options_, camera, film, progress));
     if (!farm_.leads()) return;
     if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
-    refuseNonFinite(open_.scene, options_, run_.frames.back());
+    refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
     lookForVerdicts();
     run_.tracedAndWrittenMs += stopwatch.ms();
+  }
+
+  const Scene& scene() const { return open_->scene; }
+  // Of the film's frame at that time; the scene is there already.
+  Camera filmCamera(double seconds) const {
+    return scene().cameraPath.empty() ? chooseCamera(scene(), options_)
+                                      : cameraOnPath(scene(), options_, seconds);
   }
 
   void finish() {
@@ -181,8 +218,7 @@ class ImageWriter {
 
  private:
   Camera firstCamera() const {
-    return job_.frames.empty() ? chooseCamera(open_.scene, options_)
-                               : cameraOnPath(open_.scene, options_, 0);
+    return job_.frames.empty() ? chooseCamera(scene(), options_) : filmCamera(0);
   }
 
   // Of an audit: the first frame asks for verdicts of shadow, and those after it have them.
@@ -190,17 +226,17 @@ class ImageWriter {
     if (options_.verdicts != Verdicts::audit || options_.mode == Mode::reference) return;
     if (run_.verdicts || farm_.ranks() > 1) return;
     const std::uint64_t most = job_.common.load.maxMemoryBytes;
-    renderer_.expectFrames(memoryLeft(open_.scene, renderer_, most));
-    if (!renderer_.decidesShadows()) return;
+    renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
+    if (!renderer_->decidesShadows()) return;
     run_.verdicts.emplace();
-    renderer_.render(camera, film);
+    renderer_->render(camera, film);
     lookForVerdicts();
   }
 
   void lookForVerdicts() {
     if (!run_.verdicts) return;
-    run_.verdicts->fillMs += renderer_.fillVerdicts().ms;
-    run_.verdicts->bytes = renderer_.verdictBytes();
+    run_.verdicts->fillMs += renderer_->fillVerdicts().ms;
+    run_.verdicts->bytes = renderer_->verdictBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -215,7 +251,7 @@ class ImageWriter {
 
   void startWriting(const Film& film, const std::vector<std::string>& files,
                     ImageMetadata metadata) {
-    const ImageFormat format{job_.exr, renderer_.machine().threads};
+    const ImageFormat format{job_.exr, renderer_->machine().threads};
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
       for (const std::string& file : files) writeImage(file, film, options_, metadata, format);
     });
@@ -226,9 +262,10 @@ class ImageWriter {
 
   const RenderJob& job_;
   Farm& farm_;
-  const OpenScene& open_;
-  RenderOptions options_;  // with an automatic exposure settled
-  Renderer renderer_;
+  const OpenScene* open_;
+  std::unique_ptr<OpenScene> moved_;  // of the last updateScene()
+  RenderOptions options_;             // with an automatic exposure settled
+  std::optional<Renderer> renderer_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;
@@ -261,7 +298,8 @@ class PathProgress : public Progress {
   double kept_ = 0;
 };
 
-void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Progress* progress) {
+void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
+  const bool moves = !writer.scene().animations.empty();
   const FrameRange range = parseFrameRange(job.frames);
   std::optional<PathProgress> path;
   if (progress) path.emplace(*progress, range);
@@ -269,8 +307,10 @@ void writePath(const RenderJob& job, const Scene& scene, ImageWriter& writer, Pr
     std::vector<std::string> files;
     for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
     if (path) path->begin(frame, writer.kept());
-    writer.write(cameraOnPath(scene, job.common.render, frame / job.fps), files,
-                 path ? &*path : nullptr, {{"frame", std::to_string(frame)}});
+    const double seconds = frame / job.fps;
+    if (moves) writer.updateScene(seconds);
+    writer.write(writer.filmCamera(seconds), files, path ? &*path : nullptr,
+                 {{"frame", std::to_string(frame)}});
   }
 }
 
@@ -294,11 +334,12 @@ int render(const Words& words, Farm& farm) {
 
   auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.scenes[0], job.common, progress.get());
+  checkFilmed(job, open->scene);
   ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {
     writer.write(chooseCamera(open->scene, job.common.render), job.outputs, progress.get());
   } else {
-    writePath(job, open->scene, writer, progress.get());
+    writeFilm(job, writer, progress.get());
   }
   writer.finish();
   progress.reset();

@@ -74,6 +74,12 @@ void appendStages(std::string& text, const FrameStats& frame) {
                     100 * frame.embreeMs() / whole);
 }
 
+void appendUpdate(std::string& text, const RunSummary& run) {
+  if (run.updateMs.empty()) return;
+  text +=
+      formatted("  %-34s%10.3f\n", "updateScene, before the frame", quantile(run.updateMs, 0.5));
+}
+
 void appendWriting(std::string& text, const RunSummary& run) {
   if (run.writingMs.empty()) return;
   text += formatted("  %-34s%10.3f%8s  %.3f waited for\n", "writing the image",
@@ -115,6 +121,7 @@ std::string stageTable(const RunSummary& run) {
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
+  appendUpdate(text, run);
   appendWriting(text, run);
   appendRays(text, frame);
   if (!run.floorMs.empty()) {

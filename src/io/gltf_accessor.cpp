@@ -230,6 +230,22 @@ GltfColors readColors(const GltfDocument& document, std::size_t accessor) {
   return result;
 }
 
+std::vector<float> readTuples(const GltfDocument& document, std::size_t accessor, int type) {
+  const auto each =
+      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+  const Reader reader(document, accessor, type,
+                      type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
+                      : type == TINYGLTF_TYPE_MAT4 ? "MAT4"
+                      : type == TINYGLTF_TYPE_VEC3 ? "VEC3"
+                                                   : "VEC4");
+  document.budget().charge(reader.count(), each * sizeof(float), reader.where());
+  std::vector<float> components(reader.count() * each);
+  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
+    for (std::size_t k = 0; k < each; ++k) components[i * each + k] = reader.componentAt(from, k);
+  });
+  return components;
+}
+
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor) {
   const Reader reader(document, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
   if (!isIndexType(reader.componentType())) {

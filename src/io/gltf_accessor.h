@@ -25,6 +25,9 @@ struct GltfColors {
   bool translucent = false;
 };
 GltfColors readColors(const GltfDocument& document, std::size_t accessor);
+// The components of all elements, one after the other; `type` is a TINYGLTF_TYPE of floats without
+// padding: SCALAR, VEC3, VEC4, MAT4 (column by column).
+std::vector<float> readTuples(const GltfDocument& document, std::size_t accessor, int type);
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor);
 
 }  // namespace whit

@@ -1,4 +1,4 @@
-// Animations: not played, but a file whose animations are wrong is wrong.
+// Animations, played or not: what of them the specification forbids.
 #include <array>
 #include <cmath>
 #include <set>

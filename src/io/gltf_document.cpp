@@ -296,6 +296,8 @@ void GltfDocument::readStructure(Source& source) {
 
 // What tinygltf would load or does not need is taken out before.
 void GltfDocument::readWithTinygltf(Json& json) {
+  if (json.contains("animations")) animations_ = std::move(json["animations"]);
+  if (json.contains("skins")) skins_ = std::move(json["skins"]);
   for (const char* list : {"buffers", "images", "animations", "skins", "extras"}) json.erase(list);
   for (const auto& [name, list] : json.items()) {
     if (list.is_array()) budget_.charge(list.size(), kBytesPerElement, name_);

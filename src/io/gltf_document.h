@@ -12,6 +12,7 @@
 
 #include "core/warnings.h"
 #include "io/json_text.h"
+#include "io/loose_json.h"
 #include "io/memory_budget.h"
 #include "io/paths.h"
 
@@ -46,6 +47,9 @@ class GltfDocument {
   std::string where(const std::string& list, std::size_t index, const std::string& rest = "") const;
   Bytes view(std::size_t bufferView) const;
   const std::vector<GltfImageSource>& images() const { return images_; }
+  // As the file has them: nothing about them is checked.
+  LooseJson animations() const { return LooseJson(animations_); }
+  LooseJson skins() const { return LooseJson(skins_); }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
 
@@ -64,6 +68,7 @@ class GltfDocument {
   Warnings& warnings_;
   std::vector<std::string> buffers_;
   std::vector<GltfImageSource> images_;
+  Json animations_, skins_;
   tinygltf::Model model_;
 };
 

@@ -16,8 +16,12 @@ constexpr char kDraco[] = "KHR_draco_mesh_compression";
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                  const std::vector<GltfMaterial>& materials, std::string where)
-      : document_(document), primitive_(primitive), where_(std::move(where)) {
+                  const std::vector<GltfMaterial>& materials, const GltfDeformation& deformation,
+                  std::string where)
+      : document_(document),
+        primitive_(primitive),
+        deformation_(deformation),
+        where_(std::move(where)) {
     const bool named = primitive.material >= 0;
     material_ = named ? static_cast<std::size_t>(primitive.material) : materials.size() - 1;
     coordinates_ = materials[material_].coordinates();
@@ -42,7 +46,7 @@ class PrimitiveReader {
     readVertexColors(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (!primitive_.targets.empty()) warn("morph targets left out");
+    if (!deformation_.none()) deform(document_, primitive_, deformation_, where_, mesh);
     return !mesh.triangles.empty();
   }
 
@@ -144,6 +148,7 @@ class PrimitiveReader {
 
   const GltfDocument& document_;
   const tinygltf::Primitive& primitive_;
+  const GltfDeformation& deformation_;
   std::string where_;
   std::size_t material_ = 0;
   GltfMaterial::Coordinates coordinates_;
@@ -153,14 +158,16 @@ class PrimitiveReader {
 }  // namespace
 
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t index,
-                               const std::vector<GltfMaterial>& materials) {
+                               const std::vector<GltfMaterial>& materials,
+                               const GltfDeformation& deformation) {
   const tinygltf::Mesh& source = document.model().meshes[index];
   std::vector<Mesh> meshes;
   for (std::size_t i = 0; i < source.primitives.size(); ++i) {
     const std::string where = document.where("meshes", index, "/primitives/" + std::to_string(i));
     Mesh mesh;
     mesh.name = source.name;
-    if (PrimitiveReader(document, source.primitives[i], materials, where).read(mesh)) {
+    PrimitiveReader reader(document, source.primitives[i], materials, deformation, where);
+    if (reader.read(mesh)) {
       meshes.push_back(std::move(mesh));
     }
   }

@@ -22,17 +22,21 @@ namespace {
 class GltfModel : public Model {
  public:
   GltfModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-            Warnings& warnings);
+            Warnings& warnings, const Instant& instant);
 
   const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override;
-  // A body for each mesh of the file, which nodes share.
+  // A body for each mesh of the file, which nodes share unless they bend it.
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
   // The picture takes the first camera's aspect ratio.
   void addView(SceneDescription& scene) override;
+  std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
 
  private:
+  std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
+                        const std::vector<std::uint32_t>& materials) const;
+
   GltfDocument document_;
   std::vector<GltfMaterial> sources_;
   std::vector<Material> materials_;  // of sources_
@@ -63,11 +67,11 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
 }
 
 GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
-                     MemoryBudget& budget, Warnings& warnings)
+                     MemoryBudget& budget, Warnings& warnings, const Instant& instant)
     : document_(path, rules, budget, warnings),
       sources_(readGltfMaterials(document_)),
       maps_(document_),
-      stage_(readGltfNodes(document_)) {
+      stage_(readGltfNodes(document_, poseGltf(document_, instant))) {
   for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
 }
 
@@ -92,19 +96,25 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
   return {std::move(material), renewed};
 }
 
+std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
+                                 const std::vector<std::uint32_t>& materials) const {
+  const std::uint32_t body = layout.add(document_.model().meshes[placed.mesh].name);
+  addParts(readGltfMesh(document_, placed.mesh, sources_, placed.deformation), materials,
+           document_.name(), document_.budget(), layout.body(body));
+  return body;
+}
+
 Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) {
   std::map<std::size_t, std::uint32_t> bodies;
   bool empty = true;
   Body all;
   for (const GltfPlacedMesh& placed : stage_.meshes) {
-    const auto [known, isNew] = bodies.try_emplace(placed.mesh);
-    if (isNew) {
-      known->second = layout.add(document_.model().meshes[placed.mesh].name);
-      addParts(readGltfMesh(document_, placed.mesh, sources_), materials, document_.name(),
-               document_.budget(), layout.body(known->second));
-      empty = empty && layout.body(known->second).parts.empty();
-    }
-    all.children.push_back({known->second, placed.toScene, 0});
+    const auto known = bodies.find(placed.mesh);
+    const bool shared = placed.deformation.none() && known != bodies.end();
+    const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
+    if (placed.deformation.none()) bodies.emplace(placed.mesh, body);
+    empty = empty && layout.body(body).parts.empty();
+    all.children.push_back({body, placed.toScene, 0});
   }
   if (empty) {
     warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"
@@ -128,8 +138,8 @@ void GltfModel::addView(SceneDescription& scene) {
 }  // namespace
 
 std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
-                                MemoryBudget& budget, Warnings& warnings) {
-  return std::make_unique<GltfModel>(path, rules, budget, warnings);
+                                MemoryBudget& budget, Warnings& warnings, const Instant& instant) {
+  return std::make_unique<GltfModel>(path, rules, budget, warnings, instant);
 }
 
 }  // namespace whit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double kLargestHeight = 1e9;  // of what an orthographic camera shows
 constexpr char kLightsExtension[] = "KHR_lights_punctual";
 constexpr char kInstancesExtension[] = "EXT_mesh_gpu_instancing";
+constexpr std::size_t kNoParent = ~std::size_t{0};
 constexpr char kInstancesPath[] = "/extensions/EXT_mesh_gpu_instancing/attributes";
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
@@ -64,8 +66,8 @@ bool isUsable(const Affine& a) {
 
 class TreeReader {
  public:
-  explicit TreeReader(const GltfDocument& document)
-      : document_(document), model_(document.model()), seen_(model_.nodes.size()) {}
+  TreeReader(const GltfDocument& document, const std::vector<GltfPose>& poses)
+      : document_(document), model_(document.model()), poses_(poses), seen_(model_.nodes.size()) {}
 
   GltfStage read() {
     checkTree();
@@ -82,6 +84,7 @@ class TreeReader {
   // No node has two parents or is its own ancestor, which then is a root that is never reached.
   void checkTree() {
     std::vector<bool> hasParent(model_.nodes.size());
+    parents_.assign(model_.nodes.size(), kNoParent);
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       for (const int child : model_.nodes[i].children) {
         const auto c = static_cast<std::size_t>(child);
@@ -90,6 +93,7 @@ class TreeReader {
                         "expected a tree: node " + std::to_string(child) + " has two parents");
         }
         hasParent[c] = true;
+        parents_[c] = i;
       }
     }
     for (std::size_t i = 0; i < hasParent.size(); ++i) {
@@ -120,7 +124,6 @@ class TreeReader {
     const Affine map = toScene * mapOfNode(index);
     if (!isUsable(map)) return warn("node that flattens space left out", index);
     if (node.mesh >= 0) placeMesh(index, map);
-    if (node.mesh >= 0 && node.skin >= 0) warn("skinned mesh shown as it was modelled", index);
     if (node.camera >= 0) addCamera(index, map);
     if (const tinygltf::Value* light = findExtension(node.extensions, kLightsExtension)) {
       addLight(index, light->Get("light").GetNumberAsInt(), map);
@@ -132,16 +135,23 @@ class TreeReader {
   Affine mapOfNode(std::size_t index) {
     const tinygltf::Node& node = model_.nodes[index];
     const std::vector<double>& m = node.matrix;
-    if (!m.empty()) {
+    const GltfPose& pose = poses_[index];
+    const bool posed = !pose.translation.empty() || !pose.rotation.empty() || !pose.scale.empty();
+    if (!m.empty() && !posed) {
       if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
         warn("last row of a matrix, other than 0 0 0 1, left out", index);
       }
       return mapOf(m);
     }
+    const auto either = [](const std::vector<double>& moved,
+                           const std::vector<double>& own) -> const std::vector<double>& {
+      return moved.empty() ? own : moved;
+    };
+    const std::vector<double>& turn = either(pose.rotation, node.rotation);
     Quaternion rotation{0, 0, 0, 1};
-    std::copy(node.rotation.begin(), node.rotation.end(), rotation.begin());
-    return composed(tripleOr(node.translation, {}), rotation, tripleOr(node.scale, {1, 1, 1}),
-                    index);
+    std::copy(turn.begin(), turn.end(), rotation.begin());
+    return composed(tripleOr(either(pose.translation, node.translation), {}), rotation,
+                    tripleOr(either(pose.scale, node.scale), {1, 1, 1}), index);
   }
 
   Affine composed(const Vec3d& translation, const Quaternion& rotation, const Vec3d& scale,
@@ -153,16 +163,76 @@ class TreeReader {
   void placeMesh(std::size_t index, const Affine& map) {
     const tinygltf::Node& node = model_.nodes[index];
     const auto mesh = static_cast<std::size_t>(node.mesh);
+    const GltfDeformation deformation = deformationOf(index);
+    if (!deformation.joints.empty()) {
+      return stage_.meshes.push_back({mesh, Affine(), deformation});
+    }
     const tinygltf::Value* copies = findExtension(node.extensions, kInstancesExtension);
-    if (!copies) return stage_.meshes.push_back({mesh, map});
+    if (!copies) return stage_.meshes.push_back({mesh, map, deformation});
     for (const Affine& copy : readCopies(copies->Get("attributes"), index)) {
       const Affine toScene = map * copy;
       if (isUsable(toScene)) {
-        stage_.meshes.push_back({mesh, toScene});
+        stage_.meshes.push_back({mesh, toScene, deformation});
       } else {
         warn("copy of a mesh that is flattened left out", index);
       }
     }
+  }
+
+  GltfDeformation deformationOf(std::size_t index) {
+    const tinygltf::Node& node = model_.nodes[index];
+    GltfDeformation deformation;
+    deformation.weights = !poses_[index].weights.empty() ? poses_[index].weights
+                          : !node.weights.empty()
+                              ? node.weights
+                              : model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
+    if (node.skin < 0) return deformation;
+    const auto skin = static_cast<std::size_t>(node.skin);
+    const auto [known, isNew] = joints_.try_emplace(skin);
+    if (isNew) known->second = jointsOf(skin, index);
+    document_.budget().charge(known->second.size(), sizeof(Affine), document_.where("skins", skin));
+    deformation.joints = known->second;
+    return deformation;
+  }
+
+  // None where the skin cannot be read.
+  std::vector<Affine> jointsOf(std::size_t skin, std::size_t index) {
+    const LooseJson source = document_.skins().at(skin), joints = source["joints"];
+    const auto broken = [&] {
+      warn("skin that cannot be read: its mesh is shown as it was modelled", index);
+      return std::vector<Affine>();
+    };
+    std::vector<Affine> maps;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const auto node = joints.at(i).index(model_.nodes.size());
+      if (!node) return broken();
+      maps.push_back(globalOf(*node));
+    }
+    if (maps.empty()) return broken();
+    if (!source["inverseBindMatrices"].exists()) return maps;
+    const auto inverse = source["inverseBindMatrices"].index(model_.accessors.size());
+    if (!inverse || model_.accessors[*inverse].type != TINYGLTF_TYPE_MAT4) return broken();
+    const std::vector<float> numbers = readTuples(document_, *inverse, TINYGLTF_TYPE_MAT4);
+    if (numbers.size() < 16 * maps.size()) return broken();
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      maps[i] = maps[i] * mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
+                                 numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
+    }
+    return maps;
+  }
+
+  // Of a joint, which may come later in the tree than the mesh it holds.
+  Affine globalOf(std::size_t index) {
+    Affine map = mapOfNode(index);
+    int depth = 0;
+    for (std::size_t at = parents_[index]; at != kNoParent; at = parents_[at]) {
+      if (++depth > kGltfDepthLimit) {
+        throwBadScene(document_.where("nodes", index),
+                      "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+      }
+      map = mapOfNode(at) * map;
+    }
+    return map;
   }
 
   // EXT_mesh_gpu_instancing: where they stand within the node.
@@ -265,6 +335,9 @@ class TreeReader {
 
   const GltfDocument& document_;
   const tinygltf::Model& model_;
+  const std::vector<GltfPose>& poses_;
+  std::vector<std::size_t> parents_;                   // or kNoParent
+  std::map<std::size_t, std::vector<Affine>> joints_;  // of skins
   std::vector<bool> seen_;
   std::vector<std::size_t> topmost_;
   GltfStage stage_;
@@ -272,6 +345,8 @@ class TreeReader {
 
 }  // namespace
 
-GltfStage readGltfNodes(const GltfDocument& document) { return TreeReader(document).read(); }
+GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfPose>& poses) {
+  return TreeReader(document, poses).read();
+}
 
 }  // namespace whit

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/affine.h"
+#include "io/gltf_animation.h"
+#include "io/gltf_deformation.h"
 #include "io/gltf_document.h"
 #include "scene/camera.h"
 #include "scene/light.h"
@@ -21,7 +23,8 @@ inline constexpr double kLumensPerWatt = 683;
 
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
-  Affine toScene;
+  Affine toScene;  // of a skinned mesh the identity: its joints place it
+  GltfDeformation deformation;
 };
 
 struct GltfStage {
@@ -32,9 +35,10 @@ struct GltfStage {
 };
 
 // Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
-// what they hold; the ranges of lights are left out; rotations are normalized; skins are not
-// applied: each is counted in the document's warnings. Cameras have names of their own. Throws
-// badScene "file#/nodes/i" where the nodes are no tree or deeper than kGltfDepthLimit.
-GltfStage readGltfNodes(const GltfDocument& document);
+// what they hold; the ranges of lights are left out; rotations are normalized; skins that cannot
+// be read are not applied: each is counted in the document's warnings. Cameras have names of their
+// own. `poses`, one a node, go before what nodes say themselves. Throws badScene "file#/nodes/i"
+// where the nodes are no tree or deeper than kGltfDepthLimit.
+GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfPose>& poses);
 
 }  // namespace whit

@@ -1,4 +1,4 @@
-// Skins: not shown, but a file whose skins are wrong is wrong.
+// Skins: what of them the specification forbids.
 #include <set>
 #include <vector>
 

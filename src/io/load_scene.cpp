@@ -67,6 +67,29 @@ void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyS
   }
 }
 
+// The instant that was asked for is one of something that moves. A camera's path is looked along
+// from where it is then.
+void settleInstant(const Instant& instant, SceneDescription& scene) {
+  std::vector<std::string> names;
+  for (const Animation& animation : scene.animations) names.push_back(animation.name);
+  const bool known = std::find(names.begin(), names.end(), instant.animation) != names.end();
+  if (!instant.animation.empty() && !known) {
+    const std::string nearest = nearestName(instant.animation, names);
+    throwUsage(scene.name + " has no animation \"" + instant.animation + "\"" +
+               (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
+  }
+  if (!instant.seconds) return;
+  if (scene.cameraPath.empty() && names.empty()) {
+    throwUsage("--time: nothing moves in " + scene.name);
+  }
+  if (scene.cameraPath.empty()) return;
+  Camera camera = cameraAt(scene.cameraPath, *instant.seconds);
+  camera.name = "path";
+  const auto taken = [](const Camera& other) { return other.name == "path"; };
+  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken)) camera.name += " at --time";
+  scene.cameras.insert(scene.cameras.begin(), camera);
+}
+
 void replaceSpheres(int segments, SceneContext& context) {
   constexpr int kLeast = 4;
   if (segments == 0) return;
@@ -100,6 +123,7 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   ItemReader(context, materials).read(file);
   materials.checkUnused();
   file.finish();
+  settleInstant(options.instant, context.scene);
   finishTextures(context, fromSky);
   replaceSpheres(options.sphereSegments, context);
   return std::move(context.scene);
@@ -123,6 +147,18 @@ std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
   return fromSky;
 }
 
+// A model that moves, before it does: so light and view, where they are supplied, stand still.
+SceneDescription atRest(const fs::path& path, LoadOptions options) {
+  options.instant = {};
+  Warnings said;  // of the model itself as well
+  SceneContext context(path, options, said, nullptr);
+  JsonDocument nothing{path.string(), Json::object(), {}};
+  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(nothing)};
+  MaterialReader materials(noMaterials, context);
+  ItemReader(context, materials).readModelAlone(file, path);
+  return std::move(context.scene);
+}
+
 SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
@@ -139,7 +175,12 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   ItemReader(context, materials).readModelAlone(file, path);
-  supplyView(context);
+  settleInstant(options.instant, context.scene);
+  if (options.instant.seconds) {
+    supplyView(context, atRest(path, options));
+  } else {
+    supplyView(context, context.scene);
+  }
   const bool ownAmbient = std::any_of(others.begin(), others.end(), [](const SceneSetting& s) {
     return s.tokens.front() == "ambient";
   });

@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "scene/animation.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -22,6 +23,9 @@ struct LoadOptions {
   // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
   // image. Empty: the scene's own; of a model, which has none, the studio.
   std::string sky;
+  // When the scene is looked at. With seconds that nothing in the scene follows, or an animation
+  // that no model has: Error(usage).
+  Instant instant;
   // Segments of the triangles in place of each exact sphere, at least 4 (Error(usage) else); 0: the
   // spheres stay.
   int sphereSegments = 0;

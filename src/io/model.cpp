@@ -10,7 +10,7 @@ namespace whit {
 namespace {
 
 using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const PathRules&,
-                                          MemoryBudget&, Warnings&);
+                                          MemoryBudget&, Warnings&, const Instant&);
 
 const std::map<std::string, Opener>& openers() {
   static const std::map<std::string, Opener> all = {
@@ -36,8 +36,8 @@ std::string modelExtensions() {
 }
 
 std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
-                                 MemoryBudget& budget, Warnings& warnings) {
-  if (const Opener opener = openerOf(path)) return opener(path, rules, budget, warnings);
+                                 MemoryBudget& budget, Warnings& warnings, const Instant& instant) {
+  if (const Opener opener = openerOf(path)) return opener(path, rules, budget, warnings, instant);
   throwBadScene(path.string(), "expected a model (" + modelExtensions() + ")");
 }
 

@@ -14,6 +14,7 @@
 #include "io/paths.h"
 #include "io/scene_layout.h"
 #include "io/texture_loader.h"
+#include "scene/animation.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -46,22 +47,24 @@ class Model {
   virtual Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) = 0;
   // Adds the file's own cameras and lights. Asked of a model that is a scene by itself.
   virtual void addView(SceneDescription&) {}
+  // Those of the file, whatever the instant.
+  virtual std::vector<Animation> animations() const { return {}; }
 };
 
 // Whether openModel() reads such a file, by its extension (any case).
 bool isModelFile(const std::filesystem::path& path);
 std::string modelExtensions();  // ".gltf, .obj"
-// By the extension. `rules` and what else is given here outlive the model.
+// By the extension, at an instant. `rules` and what else is given here outlive the model.
 std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
-                                 MemoryBudget& budget, Warnings& warnings);
+                                 MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 
 // Those that it chooses from, each in the file of its format.
 std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
-                                MemoryBudget& budget, Warnings& warnings);
+                                MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings);
+                               MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 std::unique_ptr<Model> openPly(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings);
+                               MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 
 // Said once of a model that leaves the picture empty; `why` is a fixed phrase.
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings);

@@ -146,7 +146,7 @@ Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials
 }  // namespace
 
 std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings) {
+                               MemoryBudget& budget, Warnings& warnings, const Instant&) {
   return std::make_unique<ObjModel>(path, rules, budget, warnings);
 }
 

@@ -600,7 +600,7 @@ Body PlyModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials
 }  // namespace
 
 std::unique_ptr<Model> openPly(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings) {
+                               MemoryBudget& budget, Warnings& warnings, const Instant&) {
   return std::make_unique<PlyModel>(path, rules, budget, warnings);
 }
 

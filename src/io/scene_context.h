@@ -26,6 +26,7 @@ struct SceneContext {
         warnings(warnings_),
         progress(progress_),
         sky(options.sky),
+        instant(options.instant),
         textures(options.threads, budget, warnings, progress) {
     scene.name = file.stem().string();
   }
@@ -33,7 +34,9 @@ struct SceneContext {
   // The model at `path`, opened once.
   Model& model(const std::filesystem::path& path) {
     std::unique_ptr<Model>& entry = models[path.string()];
-    if (!entry) entry = openModel(path, rules, budget, warnings);
+    if (entry) return *entry;
+    entry = openModel(path, rules, budget, warnings, instant);
+    for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
     return *entry;
   }
 
@@ -43,7 +46,8 @@ struct SceneContext {
   Warnings& warnings;
   Progress* progress;
   SceneDescription scene;
-  std::string sky;  // as in LoadOptions
+  std::string sky;  // this and the next as in LoadOptions
+  Instant instant;
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene
 };

@@ -44,14 +44,14 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
 
 }  // namespace
 
-void supplyView(SceneContext& context) {
+void supplyView(SceneContext& context, const SceneDescription& model) {
   SceneDescription& scene = context.scene;
-  const ModelView view = viewOf(scene);
+  const ModelView view = viewOf(model);
   scene.isModel = true;
   if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
   if (scene.lights.empty()) {
     supplyLights(view, scene);
-  } else if (const double level = lightLevel(scene); level > 0) {
+  } else if (const double level = lightLevel(model); level > 0) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
   if (scene.cameras.empty() && view.radius > 0) scene.cameras.push_back(view.camera);

@@ -11,8 +11,9 @@ namespace whit {
 inline constexpr double kAmbientOfSky = 0.4;
 
 // Of a model whose own lights and cameras are there. The sky is the studio, unless none or another
-// was asked for, as bright as it goes with the lights.
-void supplyView(SceneContext& context);
+// was asked for, as bright as it goes with the lights. `model` is what light and view are made for:
+// the same scene, or where it moves the scene at rest.
+void supplyView(SceneContext& context, const SceneDescription& model);
 
 // If one was asked for (LoadOptions::sky).
 void replaceSky(SceneContext& context);

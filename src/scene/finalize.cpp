@@ -65,6 +65,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.height = d.height;
   scene.cameras = std::move(d.cameras);
   scene.cameraPath = std::move(d.cameraPath);
+  scene.animations = std::move(d.animations);
   scene.lights = std::move(d.lights);
   scene.sky = std::move(d.sky);
   scene.ambient = d.ambient;

@@ -12,6 +12,7 @@
 #include "core/huge_vector.h"
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/flush_triangles.h"
 #include "scene/light.h"
@@ -31,6 +32,7 @@ struct SceneDescription {
   int width = 480, height = 300;  // the scene's own image size
   std::vector<Camera> cameras;    // the first is the default
   std::vector<Keyframe> cameraPath;
+  std::vector<Animation> animations;  // of its models, in the order in which they are read
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;
@@ -116,6 +118,7 @@ class Scene {
   int width = 480, height = 300;
   std::vector<Camera> cameras;  // at least one
   std::vector<Keyframe> cameraPath;
+  std::vector<Animation> animations;
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;

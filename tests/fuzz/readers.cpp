@@ -113,6 +113,10 @@ void readScene(const fs::path& file) {
   options.maxMemoryBytes = kMemoryLimit;
   options.threads = 1;
   Warnings warnings;
+  const Scene scene = Scene::finalize(loadScene(file.string(), options, warnings), warnings);
+  checkScene(scene);
+  if (scene.animations.empty()) return;
+  options.instant.seconds = 0.5;
   checkScene(Scene::finalize(loadScene(file.string(), options, warnings), warnings));
 }
 

@@ -1,0 +1,259 @@
+// Animations, skins and morph targets of glTF files, against poses worked out by hand.
+#include <cmath>
+#include <limits>
+
+#include "gltf_files.h"
+
+namespace whit {
+namespace {
+
+// Positions and matrices are floats of about 1.
+constexpr double kPoseRounding = 1e-6;
+
+const float kHalfRoot = std::sqrt(0.5f);
+
+class GltfMotion : public GltfTest {
+ protected:
+  static std::string scalars(GltfBuilder& b, const std::vector<float>& x) {
+    std::ostringstream bounds;
+    bounds << ",\"min\":[" << x.front() << "],\"max\":[" << x.back() << "]";
+    return std::to_string(b.accessor(b.view(bytesOf(x)), 5126, "SCALAR", x.size(), bounds.str()));
+  }
+  static std::string fours(GltfBuilder& b, const std::vector<float>& x) {
+    return std::to_string(b.accessor(b.view(bytesOf(x)), 5126, "VEC4", x.size() / 4));
+  }
+  static std::string threes(GltfBuilder& b, const std::vector<float>& x) {
+    return std::to_string(b.positions(x));
+  }
+  static std::string animation(const std::string& input, const std::string& output, int node,
+                               const std::string& path, const std::string& rest = "") {
+    return "{\"samplers\":[{\"input\":" + input + ",\"output\":" + output + rest +
+           "}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":" + std::to_string(node) +
+           ",\"path\":\"" + path + "\"}}]}";
+  }
+  // A triangle whose node is moved.
+  static std::string moved(GltfBuilder& b, const std::string& animations) {
+    return b.json(oneMesh(triangle(b)) + ",\"animations\":[" + animations + "]");
+  }
+  SceneDescription at(double seconds, const std::string& text, const std::string& animation = "") {
+    options_.instant = {seconds, animation};
+    return loadText(text);
+  }
+};
+
+TEST_F(GltfMotion, NodesMove) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {1, 3}), to = threes(b, {0, 0, 0, 4, 2, 0});
+  const std::string text = moved(b, animation(times, to, 0, "translation"));
+  expectNear(cornerOf(loadText(text), 0, 0, 0), {0, 0, 0}, kPoseRounding);
+  expectNear(cornerOf(at(0, text), 0, 0, 0), {0, 0, 0}, kPoseRounding);
+  expectNear(cornerOf(at(2.5, text), 0, 0, 0), {3, 1.5, 0}, kPoseRounding);
+  expectNear(cornerOf(at(9, text), 0, 0, 1), {5, 2, 0}, kPoseRounding);
+  EXPECT_EQ(kinds(), "");
+}
+
+TEST_F(GltfMotion, NodesTurnAndGrow) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {0, 1});
+  const std::string turn = fours(b, {0, 0, 0, 1, 0, 0, kHalfRoot, kHalfRoot});
+  const SceneDescription turned = at(0.5, moved(b, animation(times, turn, 0, "rotation")));
+  expectNear(cornerOf(turned, 0, 0, 1), {std::sqrt(0.5), std::sqrt(0.5), 0}, kPoseRounding);
+  GltfBuilder c;
+  const std::string until = scalars(c, {0, 1}), size = threes(c, {1, 1, 1, 3, 1, 1});
+  const SceneDescription grown =
+      at(0.5, moved(c, animation(until, size, 0, "scale", ",\"interpolation\":\"STEP\"")));
+  expectNear(cornerOf(grown, 0, 0, 1), {1, 0, 0}, kPoseRounding);
+}
+
+TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {0, 2});
+  const std::string aside = threes(b, {0, 0, 0, 1, 0, 0}), up = threes(b, {0, 0, 0, 0, 1, 0});
+  std::string second = animation(times, up, 0, "translation");
+  second.insert(1, "\"name\":\"rise\",");
+  const std::string text = moved(b, animation(times, aside, 0, "translation") + "," + second);
+  expectNear(cornerOf(at(2, text), 0, 0, 0), {1, 0, 0}, kPoseRounding);
+  expectNear(cornerOf(at(2, text, "rise"), 0, 0, 0), {0, 1, 0}, kPoseRounding);
+  expectNear(cornerOf(at(2, text, "animation 0"), 0, 0, 0), {1, 0, 0}, kPoseRounding);
+  EXPECT_EQ(errorOf([&] { at(2, text, "rose"); }),
+            "2 m has no animation \"rose\"; did you mean \"rise\"?");
+  options_.instant = {};
+  const std::vector<Animation> all = loadText(text).animations;
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[1].name, "rise");
+  EXPECT_EQ(all[1].seconds, 2);
+  EXPECT_EQ(all[1].nodes, 1u);
+}
+
+TEST_F(GltfMotion, WhatDoesNotMoveHasNoTime) {
+  GltfBuilder b;
+  const std::string text = b.json(oneMesh(triangle(b)));
+  EXPECT_EQ(errorOf([&] { at(1, text); }), "2 --time: nothing moves in m");
+}
+
+TEST_F(GltfMotion, CamerasAndLightsMove) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {0, 1}), to = threes(b, {0, 0, 0, 0, 0, 8});
+  const std::string text = b.json(
+      "\"meshes\":[{\"primitives\":[" + triangle(b) +
+      "]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}],"
+      "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"}]}},\"nodes\":[{"
+      "\"mesh\":0},{\"children\":[2,3]},{\"camera\":0},{\"extensions\":{\"KHR_lights_punctual\":{"
+      "\"light\":0}}}],\"animations\":[" +
+      animation(times, to, 1, "translation") + "]");
+  const SceneDescription scene = at(0.5, text);
+  EXPECT_EQ(scene.cameras.at(0).eye, (Vec3f{0, 0, 4}));
+  EXPECT_EQ(scene.lights.at(0).position, (Vec3f{0, 0, 4}));
+}
+
+// A model that moves is looked at and lit as it is at rest, else a film of it would tremble.
+TEST_F(GltfMotion, WhatIsSuppliedStandsStill) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {0, 1}), to = threes(b, {0, 0, 0, 4, 2, 0});
+  const std::string text = moved(b, animation(times, to, 0, "translation"));
+  const SceneDescription rest = loadText(text), later = at(0.7, text);
+  EXPECT_TRUE(sameView(rest.cameras.at(0), later.cameras.at(0)));
+  EXPECT_EQ(rest.lights.at(0).position, later.lights.at(0).position);
+}
+
+TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const std::string place = "3 m.gltf#/animations/0/samplers/0/";
+  const auto errorAt = [&](const std::vector<float>& times, const std::vector<float>& to) {
+    GltfBuilder b;
+    const std::string in =
+        std::to_string(b.accessor(b.view(bytesOf(times)), 5126, "SCALAR", times.size()));
+    const std::string out =
+        std::to_string(b.accessor(b.view(bytesOf(to)), 5126, "VEC3", to.size() / 3));
+    const std::string text = moved(b, animation(in, out, 0, "translation"));
+    options_.instant = {};
+    loadText(text);  // nothing is played
+    return errorOf([&] { at(0, text); });
+  };
+  EXPECT_EQ(errorAt({0, 0}, {0, 0, 0, 1, 0, 0}),
+            place + "input: expected times that increase: number 1 does not");
+  EXPECT_EQ(errorAt({0, kNone}, {0, 0, 0, 1, 0, 0}),
+            place + "input: expected times that increase: number 1 does not");
+  EXPECT_EQ(errorAt({0, 1}, {0, 0, 0}), place + "output: expected 6 numbers for 2 times, found 3");
+  EXPECT_EQ(errorAt({0, 1}, {0, 0, 0, kNone, 0, 0}), place + "output: expected finite numbers");
+}
+
+TEST_F(GltfMotion, MorphTargetsAddUp) {
+  GltfBuilder b;
+  const std::string one = threes(b, {1, 0, 0, 0, 0, 0, 0, 0, 0});
+  const std::string two = threes(b, {0, 0, 2, 0, 0, 0, 0, 0, 0});
+  const std::string primitive =
+      triangle(b, ",\"targets\":[{\"POSITION\":" + one + "},{\"POSITION\":" + two + "}]");
+  const std::string members =
+      replaced(oneMesh(primitive), "]}],\"nodes\"", "],\"weights\":[0.5,0.25]}],\"nodes\"");
+  expectNear(cornerOf(loadText(b.json(members)), 0, 0, 0), {0.5, 0, 0.5}, kPoseRounding);
+  const std::string own = replaced(members, "{\"mesh\":0}", "{\"mesh\":0,\"weights\":[0,1]}");
+  expectNear(cornerOf(loadText(b.json(own)), 0, 0, 0), {0, 0, 2}, kPoseRounding);
+  const std::string times = scalars(b, {0, 1}), weights = scalars(b, {0, 0, 1, 1});
+  const std::string text =
+      b.json(own + ",\"animations\":[" + animation(times, weights, 0, "weights") + "]");
+  expectNear(cornerOf(at(0.5, text), 0, 0, 0), {0.5, 0, 1}, kPoseRounding);
+  expectNear(cornerOf(at(0.5, text), 0, 0, 1), {1, 0, 0}, kPoseRounding);
+  EXPECT_EQ(warned("morph targets left out"), 0u);
+}
+
+// Two joints one above the other, at heights 0 and 1; the upper one turned by a right angle about
+// z. Corners of the triangle at heights 0, 1 and 2.
+class GltfSkin : public GltfMotion {
+ protected:
+  std::vector<float> xyz = {0, 0, 0, 1, 1, 0, 0, 2, 0};
+  std::vector<std::uint16_t> joints = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+  std::vector<float> weights = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0};
+  std::string attributes;  // further ones
+
+  std::string text(const std::string& turn = "0,0,0.70710678,0.70710678") const {
+    GltfBuilder b;
+    const std::vector<float> inverse = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+    b.positions(xyz);
+    b.accessor(b.view(bytesOf(joints), 8), 5123, "VEC4", 3);
+    b.accessor(b.view(bytesOf(weights), 16), 5126, "VEC4", 3);
+    b.accessor(b.view(bytesOf(inverse)), 5126, "MAT4", 2);
+    b.positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
+    return b.json(
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":"
+        "2" +
+        attributes +
+        "}}]}],\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":3}],\"nodes\":[{\"mesh\":0,"
+        "\"skin\":0,\"translation\":[50,0,0]},{\"children\":[2]},{\"translation\":[0,1,0],"
+        "\"rotation\":[" +
+        turn + "]}]");
+  }
+};
+
+// Where the mesh's own node stands does not count.
+TEST_F(GltfSkin, VerticesFollowTheirJoints) {
+  const SceneDescription scene = loadText(text());
+  expectNear(cornerOf(scene, 0, 0, 0), {0, 0, 0}, kPoseRounding);
+  expectNear(cornerOf(scene, 0, 0, 1), {0.5, 1.5, 0},
+             kPoseRounding);  // half of (1, 1), half of (0, 2)
+  expectNear(cornerOf(scene, 0, 0, 2), {-1, 1, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, AtRestItIsAsItWasModelled) {
+  const SceneDescription scene = loadText(text("0,0,0,1"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    expectNear(cornerOf(scene, 0, 0, i), {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]},
+               kPoseRounding);
+  }
+}
+
+TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
+  attributes = ",\"NORMAL\":4";
+  const std::vector<Vec3f> normals = loadText(text()).objects.at(0).meshes.at(0).normals;
+  ASSERT_EQ(normals.size(), 3u);
+  expectNear(Vec3d(normals[0]), {0, 0, 1}, kPoseRounding);
+  expectNear(Vec3d(normals[1]), {std::sqrt(0.5), std::sqrt(0.5), 0}, kPoseRounding);
+  expectNear(Vec3d(normals[2]), {-1, 0, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, FurtherSetsOfJointsCount) {
+  attributes = ",\"JOINTS_1\":1,\"WEIGHTS_1\":2";  // the same once more
+  expectNear(cornerOf(loadText(text()), 0, 0, 1), {0.5, 1.5, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, WeightsAreScaledToOne) {
+  weights[4] = weights[5] = 2;
+  expectNear(cornerOf(loadText(text()), 0, 0, 1), {0.5, 1.5, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, JointsThatAreMissingAreLeftOut) {
+  joints[4] = 9;
+  expectNear(cornerOf(loadText(text()), 0, 0, 1), {0, 2, 0}, kPoseRounding);
+  EXPECT_EQ(warned("joint that the skin does not have left out"), 1u);
+  weights[5] = 0;
+  expectNear(cornerOf(loadText(text()), 0, 0, 1), {1, 1, 0}, kPoseRounding);
+  EXPECT_EQ(warned("vertex that no joint holds left where it was modelled"), 1u);
+}
+
+TEST_F(GltfSkin, MirroredSkinsKeepTheirFronts) {
+  const std::string mirrored = replaced(
+      replaced(text("0,0,0,1"), "{\"children\":[2]}", "{\"children\":[2],\"scale\":[-1,1,1]}"),
+      "\"translation\":[50,0,0]", "\"translation\":[0,0,0]");
+  const SceneDescription scene = loadText(mirrored);
+  expectNear(cornerOf(scene, 0, 0, 2), {-1, 1, 0}, kPoseRounding);
+  expectNear(cornerOf(scene, 0, 0, 1), {0, 2, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, SkinsThatCannotBeReadAreNotApplied) {
+  const std::string what = "skin that cannot be read: its mesh is shown as it was modelled";
+  const std::string whole = text();
+  std::uint64_t count = 0;
+  for (const auto& [found, by] :
+       {std::pair{"\"joints\":[1,2]", "\"joints\":[1,7]"},
+        std::pair{"\"joints\":[1,2]", "\"joints\":[]"},
+        std::pair{"\"joints\":[1,2]", "\"joints\":5"},
+        std::pair{"\"inverseBindMatrices\":3", "\"inverseBindMatrices\":0"},
+        std::pair{"\"joints\":[1,2]", "\"joints\":[1,2,1]"}}) {
+    expectNear(cornerOf(loadText(replaced(whole, found, by)), 0, 0, 0), {50, 0, 0}, kPoseRounding);
+    EXPECT_EQ(warned(what), ++count) << by;
+  }
+}
+
+}  // namespace
+}  // namespace whit

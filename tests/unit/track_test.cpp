@@ -1,0 +1,100 @@
+// Values between keys against closed forms. glTF 2.0 specification, appendix C.
+#include "scene/track.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pi.h"
+
+namespace whit {
+namespace {
+
+// Doubles, some ten roundings of numbers of about 1.
+constexpr double kTrackRounding = 1e-14;
+
+Track trackOf(Track::Interpolation interpolation, std::vector<double> times,
+              std::vector<double> values, std::size_t components = 1) {
+  return {interpolation, false, components, std::move(times), std::move(values)};
+}
+
+std::vector<double> turn(double degrees, double side = 1) {  // about z
+  const double half = degrees * kPi / 360;
+  return {0, 0, side * std::sin(half), side * std::cos(half)};
+}
+
+Track turning(const std::vector<double>& from, const std::vector<double>& to) {
+  Track track = trackOf(Track::Interpolation::linear, {0, 1}, from, 4);
+  track.values.insert(track.values.end(), to.begin(), to.end());
+  track.rotation = true;
+  return track;
+}
+
+void expectValues(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kTrackRounding) << i;
+}
+
+TEST(Tracks, StandStillBeforeAndBehindTheirKeys) {
+  for (const auto how : {Track::Interpolation::step, Track::Interpolation::linear}) {
+    const Track track = trackOf(how, {1, 2}, {3, 4, 5, 6}, 2);
+    EXPECT_EQ(valueAt(track, -1), (std::vector<double>{3, 4}));
+    EXPECT_EQ(valueAt(track, 1), (std::vector<double>{3, 4}));
+    EXPECT_EQ(valueAt(track, 2), (std::vector<double>{5, 6}));
+    EXPECT_EQ(valueAt(track, 9), (std::vector<double>{5, 6}));
+  }
+  EXPECT_EQ(valueAt(trackOf(Track::Interpolation::linear, {7}, {1}), 3), std::vector<double>{1});
+}
+
+TEST(Tracks, StepKeepsAValueUntilTheNextKey) {
+  const Track track = trackOf(Track::Interpolation::step, {0, 1, 2}, {3, 5, 7});
+  EXPECT_EQ(valueAt(track, 0.999), std::vector<double>{3});
+  EXPECT_EQ(valueAt(track, 1), std::vector<double>{5});
+  EXPECT_EQ(valueAt(track, 1.999), std::vector<double>{5});
+}
+
+TEST(Tracks, LinearIsAStraightLineBetweenUnevenKeys) {
+  const Track track = trackOf(Track::Interpolation::linear, {0, 1, 5}, {0, 2, 10});
+  for (const double t : {0.0, 0.3, 1.0, 1.7, 4.9, 5.0}) expectValues(valueAt(track, t), {2 * t});
+}
+
+// Hermite splines reproduce polynomials of degree three.
+TEST(Tracks, CubicSplinesFollowACubic) {
+  const auto x = [](double t) { return 2 * t * t * t - 5 * t * t + t - 3; };
+  const auto slope = [](double t) { return 6 * t * t - 10 * t + 1; };
+  Track track = trackOf(Track::Interpolation::cubic, {0, 0.5, 2}, {});
+  for (const double t : track.times) {
+    for (const double value : {slope(t), x(t), slope(t)}) track.values.push_back(value);
+  }
+  for (double t = 0; t <= 2; t += 0.0625) expectValues(valueAt(track, t), {x(t)});
+  EXPECT_EQ(valueAt(track, 3), std::vector<double>{x(2)});
+}
+
+TEST(Tracks, TheTangentBehindAKeyMayDifferFromThatBefore) {
+  const Track track = trackOf(Track::Interpolation::cubic, {0, 1}, {100, 0, 1, 1, 1, 100});
+  for (double t = 0; t <= 1; t += 0.125) expectValues(valueAt(track, t), {t});
+}
+
+TEST(Tracks, RotationsTurnEvenly) {
+  for (const double t : {0.0, 0.25, 0.5, 0.9, 1.0}) {
+    expectValues(valueAt(turning(turn(10), turn(130)), t), turn(10 + 120 * t));
+  }
+}
+
+// q and -q are the same rotation: the way from 0 to 90 degrees is never that of 270.
+TEST(Tracks, RotationsTakeTheShorterWay) {
+  expectValues(valueAt(turning(turn(0), turn(90, -1)), 0.5), turn(45));
+}
+
+TEST(Tracks, RotationsThatAreAllButTheSame) {
+  expectValues(valueAt(turning(turn(20), turn(20)), 0.3), turn(20));
+  expectValues(valueAt(turning(turn(20), turn(20 + 1e-7)), 0.5), turn(20 + 0.5e-7));
+}
+
+TEST(Tracks, RotationsAreNormalized) {
+  expectValues(valueAt(turning({0, 0, 0, 2}, {0, 0, 0, 2}), 0), {0, 0, 0, 1});
+  expectValues(valueAt(turning({0, 0, 0, 0}, {0, 0, 0, 0}), 0), {0, 0, 0, 1});
+}
+
+}  // namespace
+}  // namespace whit
