@@ -4,23 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "stages/caster_rounding.h"
+
 namespace whit {
-
-namespace {
-
-// Half a unit in the last place of a float, and how many of them each kind of sum may be off. No
-// more than eight roundings follow one another from a vertex to a sum: its difference from the
-// origin and from another vertex, the product and difference of a cross product, the product and
-// two sums of a dot product, and the length to the light; 12 leaves room.
-constexpr double kHalfUlp = 0x1p-24;
-constexpr double kRoundings = 12;
-// Products below the range of a float are flushed to zero: six of a cross product, each times a
-// length, and three of a dot product, by less than 2^-126 each.
-constexpr double kFlushed = 0x1p-122;
-// Embree takes edge functions for zero that are so small a part of their sum.
-constexpr double kEdgeTolerance = 0x1p-21;
-
-}  // namespace
 
 LightPoint LightPoint::of(const Light& light) {
   if (light.kind == Light::Kind::directional) {

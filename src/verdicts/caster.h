@@ -34,6 +34,7 @@ enum class Meeting {
   unsure
 };
 
+// The scalar twin of simd/meet_casters.cpp, which asks about many triangles.
 class Caster {
  public:
   Caster(const TriangleRecord& record, const LightPoint& light);

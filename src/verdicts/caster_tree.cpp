@@ -148,9 +148,9 @@ CasterTree::CasterTree(const Scene& scene, const CasterList& list, const LightPo
   }
   while (!boxes.empty()) {
     std::vector<Box> above((boxes.size() + kChildren - 1) / kChildren);
-    HugeVector<BoxBlock>& blocks = levels_.emplace_back(above.size());
+    HugeVector<simd::BoxBlock>& blocks = levels_.emplace_back(above.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      blocks[i / kChildren].set(i % kChildren, boxes[i]);
+      setBox(blocks[i / kChildren], i % kChildren, boxes[i]);
       above[i / kChildren].add(boxes[i].lower);
       above[i / kChildren].add(boxes[i].upper);
     }
@@ -159,7 +159,7 @@ CasterTree::CasterTree(const Scene& scene, const CasterList& list, const LightPo
   }
 }
 
-void CasterTree::gather(const Scene& scene, const Shaft& shaft,
+void CasterTree::gather(const simd::CasterKernels& kernels, const simd::RoundedShaft& shaft,
                         std::vector<Candidate>& found) const {
   if (levels_.empty()) return;
   struct Node {
@@ -171,18 +171,14 @@ void CasterTree::gather(const Scene& scene, const Shaft& shaft,
   while (depth > 0) {
     const auto [level, block] = stack[--depth];
     const std::size_t count = level == 0 ? list_.casters.size() : levels_[level - 1].size();
-    for (unsigned met = shaft.meets(levels_[level][block]); met != 0; met &= met - 1) {
+    for (unsigned met = kernels.meetBoxes(shaft, levels_[level][block]); met != 0; met &= met - 1) {
       const std::size_t i = block * kChildren + static_cast<std::size_t>(std::countr_zero(met));
       if (i >= count) break;
       if (level > 0) {
         stack[depth++] = {level - 1, i};
         continue;
       }
-      const CasterRef& caster = list_.casters[i];
-      if (!caster.isBox() && shaft.misses(scene.triangles[caster.number], double{growth_[i]})) {
-        continue;
-      }
-      found.push_back({caster, growth_[i]});
+      found.push_back({list_.casters[i], growth_[i]});
     }
   }
 }
@@ -190,7 +186,7 @@ void CasterTree::gather(const Scene& scene, const Shaft& shaft,
 std::uint64_t CasterTree::bytes() const {
   std::uint64_t blocks = 0;
   for (const auto& level : levels_) blocks += level.size();
-  return blocks * sizeof(BoxBlock) + growth_.size() * sizeof(float);
+  return blocks * sizeof(simd::BoxBlock) + growth_.size() * sizeof(float);
 }
 
 }  // namespace whit

@@ -42,21 +42,22 @@ class CasterTree {
  public:
   CasterTree(const Scene& scene, const CasterList& list, const LightPoint& light);
 
-  // Those that the shaft does not surely miss.
-  void gather(const Scene& scene, const Shaft& shaft, std::vector<Candidate>& found) const;
+  // Those whose boxes the shaft does not surely miss.
+  void gather(const simd::CasterKernels& kernels, const simd::RoundedShaft& shaft,
+              std::vector<Candidate>& found) const;
   std::uint64_t bytes() const;
   static std::uint64_t bytesFor(std::size_t casters) {
-    return casters * (sizeof(float) + sizeof(BoxBlock) / (kChildren - 1));
+    return casters * (sizeof(float) + sizeof(simd::BoxBlock) / (kChildren - 1));
   }
 
  private:
-  static constexpr std::size_t kChildren = BoxBlock::kBoxes;
+  static constexpr std::size_t kChildren = simd::BoxBlock::kBoxes;
 
   const CasterList& list_;
   std::vector<float> growth_;  // of each caster
   // Boxes of the casters, of blocks of kChildren of them that follow one another, of such blocks
   // and so on.
-  std::vector<HugeVector<BoxBlock>> levels_;
+  std::vector<HugeVector<simd::BoxBlock>> levels_;
 };
 
 }  // namespace whit

@@ -16,18 +16,32 @@ struct PartVerdict {
   bool known() const { return divided || whole != Verdict::unknown; }
 };
 
+// Triangles in blocks, as kernels take them.
+struct CasterBlocks {
+  std::vector<simd::CasterBlock> blocks;
+  std::vector<std::uint32_t> numbers;  // kCasters a block
+  std::vector<simd::CasterBits> opaque;
+  std::size_t count = 0;  // of casters
+
+  void clear() { count = 0; }
+  // One more, from place `i` of a block.
+  void add(const CasterRef& caster, const simd::CasterBlock& from, std::size_t i);
+  std::size_t blockCount() const {
+    return (count + simd::CasterBlock::kCasters - 1) / simd::CasterBlock::kCasters;
+  }
+};
+
 // A worker's own memory.
 struct PartScratch {
   std::vector<Candidate> gathered;
-  // Of them those that may meet the part.
-  std::vector<Candidate> candidates;
-  std::vector<Caster> casters;
-  std::vector<std::uint32_t> remaining;  // places among these, one depth after the other
+  // Of them those that may meet the part, and boxes among them.
+  CasterBlocks casters;
+  std::vector<std::uint32_t> boxes;     // one depth after the other
+  std::vector<simd::CasterBits> asked;  // of the blocks, likewise
   // What has hidden other parts of late: likely to hide the next one.
-  static constexpr std::size_t kRemembered = 4;
-  std::array<std::uint32_t, kRemembered> hiders{kNone, kNone, kNone, kNone};
-  std::size_t nextHider = 0;
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  simd::CasterBlock hiders{};
+  std::array<std::uint32_t, simd::CasterBlock::kCasters> hiderNumbers{};
+  std::size_t hidden = 0;  // that added one to them
 };
 
 // What stands in the way of a light's rays.
@@ -36,6 +50,7 @@ struct ShadowWorld {
   const CasterList& list;
   const CasterTree& tree;
   const LightPoint& light;
+  const simd::CasterKernels& kernels;
   double finest;  // cells with edges of no more are not divided
 };
 

@@ -46,6 +46,8 @@ ReceivingTriangle::ReceivingTriangle(const TriangleRecord& record, int parts) : 
   for (std::size_t i = 0; i < 3; ++i) {
     const float* p = record.position + 3 * i;
     corner_[i] = Vec3d(Vec3f{p[0], p[1], p[2]});
+    const Vec3d extent = abs(corner_[i]);
+    size_[i] = extent.x + extent.y + extent.z;
   }
   const Vec3d e1 = corner_[1] - corner_[0], e2 = corner_[2] - corner_[0];
   longest_ = std::max({length(e1), length(e2), length(e2 - e1)});
@@ -55,26 +57,31 @@ ReceivingTriangle::ReceivingTriangle(const TriangleRecord& record, int parts) : 
 Receiver ReceivingTriangle::piece(const WeightSquare& square) const {
   const double u1 = square.u + square.side, v1 = square.v + square.side;
   Polygon polygon{{{{square.u, square.v}, {u1, square.v}, {u1, v1}, {square.u, v1}}}, 4};
-  polygon = cut(polygon, [this](const Weights2& w) { return w.u - rim_; });
-  polygon = cut(polygon, [this](const Weights2& w) { return w.v - rim_; });
-  polygon = cut(polygon, [this](const Weights2& w) { return 1 - w.u - w.v - rim_; });
+  if (1 - square.u - square.v - rim_ < 0) return {};
+  if (square.u < rim_) polygon = cut(polygon, [this](const Weights2& w) { return w.u - rim_; });
+  if (square.v < rim_) polygon = cut(polygon, [this](const Weights2& w) { return w.v - rim_; });
+  if (1 - u1 - v1 - rim_ < 0) {
+    polygon = cut(polygon, [this](const Weights2& w) { return 1 - w.u - w.v - rim_; });
+  }
   Receiver receiver;
   double size = 0;
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const auto [u, v] = polygon.corners[i];
     const double w = 1 - u - v;
     const Vec3d p = corner_[0] * w + corner_[1] * u + corner_[2] * v;
-    const Vec3d a = abs(corner_[0]) * w + abs(corner_[1]) * u + abs(corner_[2]) * v;
     receiver.add(p);
     receiver.center += p;
-    size = std::max(size, a.x + a.y + a.z);
+    size = std::max(size, size_[0] * w + size_[1] * u + size_[2] * v);
   }
   if (receiver.count == 0) return receiver;
   receiver.reach = kReach * size;
   receiver.center = receiver.center / static_cast<double>(receiver.count);
+  double farthest2 = 0;
   for (std::size_t i = 0; i < receiver.count; ++i) {
-    receiver.radius = std::max(receiver.radius, length(receiver.corners[i] - receiver.center));
+    const Vec3d away = receiver.corners[i] - receiver.center;
+    farthest2 = std::max(farthest2, dot(away, away));
   }
+  receiver.radius = std::sqrt(farthest2);
   return receiver;
 }
 

@@ -41,6 +41,7 @@ class ReceivingTriangle {
 
  private:
   std::array<Vec3d, 3> corner_;
+  std::array<double, 3> size_{};  // of their coordinates, without signs: the sum
   double rim_, longest_;
   bool sliver_;
 };

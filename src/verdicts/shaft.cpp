@@ -6,29 +6,31 @@
 
 namespace whit {
 
-void BoxBlock::set(std::size_t i, const Box& box) {
+void setBox(simd::BoxBlock& block, std::size_t i, const Box& box) {
   constexpr float kOutwards = 1 + 0x1p-22f;
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = box.lower[axis], upper = box.upper[axis];
     const auto middle = static_cast<float>((lower + upper) / 2);
-    center[axis][i] = middle;
-    half[axis][i] = static_cast<float>(std::max(upper - middle, middle - lower)) * kOutwards;
+    block.center[axis][i] = middle;
+    block.half[axis][i] = static_cast<float>(std::max(upper - middle, middle - lower)) * kOutwards;
   }
 }
 
 Shaft::Shaft(const Receiver& receiver, const LightPoint& light, double length)
-    : lower_(receiver.corners[0]), upper_(receiver.corners[0]), reach_(receiver.reach) {
-  const auto include = [this](const Vec3d& p) {
-    lower_ = min(lower_, p);
-    upper_ = max(upper_, p);
+    : reach_(receiver.reach) {
+  Vec3d &lower = sides_.lower, &upper = sides_.upper;
+  lower = upper = receiver.corners[0];
+  const auto include = [&](const Vec3d& p) {
+    lower = min(lower, p);
+    upper = max(upper, p);
   };
   for (std::size_t i = 0; i < receiver.count; ++i) {
     include(receiver.corners[i]);
     if (light.directional) include(receiver.corners[i] + light.position * length);
   }
   if (!light.directional) include(light.position);
-  lower_ = lower_ - Vec3d(reach_);
-  upper_ = upper_ + Vec3d(reach_);
+  lower = lower - Vec3d(reach_);
+  upper = upper + Vec3d(reach_);
   for (std::size_t i = 0; i < receiver.count; ++i) {
     const Vec3d &p = receiver.corners[i], &q = receiver.corners[(i + 1) % receiver.count];
     addPlane(cross(q - p, light.towards(p)), p, receiver.center);
@@ -36,55 +38,31 @@ Shaft::Shaft(const Receiver& receiver, const LightPoint& light, double length)
   const Vec3d& p = receiver.corners[0];
   const Vec3d up = cross(receiver.corners[1] - p, receiver.corners[2] - p);
   addPlane(up, p, p + light.towards(p));
-  roundPlanes();
 }
 
-void Shaft::roundPlanes() {
-  const auto rounded = [](double x) { return static_cast<float>(x); };
-  // The sums below are off by no more than this part of the largest number in them, which is no
+simd::RoundedShaft Shaft::rounded() const {
+  const auto near = [](double x) { return static_cast<float>(x); };
+  // The kernel's sums are off by no more than this part of the largest number in them, which is no
   // larger than where a box must lie to be passed by.
   constexpr double kRounding = 0x1p-20;
-  for (int axis = 0; axis < 3; ++axis) {
-    middle_[static_cast<std::size_t>(axis)] = rounded((lower_[axis] + upper_[axis]) / 2);
-    width_[static_cast<std::size_t>(axis)] = rounded((upper_[axis] - lower_[axis]) / 2);
-  }
-  const Vec3d largest = max(abs(lower_), abs(upper_));
+  simd::RoundedShaft shaft;
+  const Vec3d largest = max(abs(sides_.lower), abs(sides_.upper));
   const double margin = kRounding * (largest.x + largest.y + largest.z);
-  for (float& width : width_) width += rounded(margin);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const auto& [outward, size, offset] = planes_[i];
-    rounded_[i] = {{rounded(outward.x), rounded(outward.y), rounded(outward.z)},
-                   {rounded(size.x), rounded(size.y), rounded(size.z)},
-                   rounded(offset + margin)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = sides_.lower[axis], upper = sides_.upper[axis];
+    shaft.middle[axis] = near((lower + upper) / 2);
+    shaft.width[axis] = near((upper - lower) / 2) + near(margin);
   }
-}
-
-// A sum's rounding grows with the boxes' own distance from the origin.
-unsigned Shaft::meets(const BoxBlock& boxes) const {
-  constexpr float kRounding = 0x1p-20f;
-  constexpr std::size_t n = BoxBlock::kBoxes;
-  const auto& [x, y, z] = boxes.center;
-  const auto& [hx, hy, hz] = boxes.half;
-  float far[n], size[n];
-  for (std::size_t k = 0; k < n; ++k) {
-    size[k] =
-        kRounding * (std::fabs(x[k]) + std::fabs(y[k]) + std::fabs(z[k]) + hx[k] + hy[k] + hz[k]);
-    const float a = std::fabs(x[k] - middle_[0]) - hx[k] - width_[0];
-    const float b = std::fabs(y[k] - middle_[1]) - hy[k] - width_[1];
-    const float c = std::fabs(z[k] - middle_[2]) - hz[k] - width_[2];
-    far[k] = std::max(a, std::max(b, c));
-  }
-  for (std::size_t i = 0; i < count_; ++i) {
-    const auto& [outward, extent, offset] = rounded_[i];
-    for (std::size_t k = 0; k < n; ++k) {
-      const float away = outward[0] * x[k] + outward[1] * y[k] + outward[2] * z[k] -
-                         (extent[0] * hx[k] + extent[1] * hy[k] + extent[2] * hz[k]) - offset;
-      far[k] = std::max(far[k], away);
+  shaft.count = sides_.count;
+  for (std::size_t i = 0; i < sides_.count; ++i) {
+    const auto& [outward, offset] = sides_.planes[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      shaft.outward[i][axis] = near(outward[axis]);
+      shaft.size[i][axis] = near(std::fabs(outward[axis]));
     }
+    shaft.offset[i] = near(offset + margin);
   }
-  unsigned met = 0;
-  for (std::size_t k = 0; k < n; ++k) met |= (far[k] > size[k] ? 0u : 1u) << k;
-  return met;
+  return shaft;
 }
 
 void Shaft::addPlane(const Vec3d& normal, const Vec3d& through, const Vec3d& inside) {
@@ -95,19 +73,19 @@ void Shaft::addPlane(const Vec3d& normal, const Vec3d& through, const Vec3d& ins
   // A plane that all of the shaft lies in bounds it on neither side.
   if (!(std::fabs(side) > 4 * reach_)) return;
   const Vec3d outward = side > 0 ? -unit : unit;
-  planes_[count_++] = {outward, abs(outward), dot(outward, through) + reach_};
+  sides_.planes[sides_.count++] = {outward, dot(outward, through) + reach_};
 }
 
 bool Shaft::misses(const Box& box) const {
   const Vec3d lower(box.lower), upper(box.upper);
-  if (lower.x > upper_.x || lower.y > upper_.y || lower.z > upper_.z || upper.x < lower_.x ||
-      upper.y < lower_.y || upper.z < lower_.z) {
+  if (lower.x > sides_.upper.x || lower.y > sides_.upper.y || lower.z > sides_.upper.z ||
+      upper.x < sides_.lower.x || upper.y < sides_.lower.y || upper.z < sides_.lower.z) {
     return true;
   }
   const Vec3d center = (lower + upper) * 0.5, half = (upper - lower) * 0.5;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Plane& plane = planes_[i];
-    if (dot(plane.outward, center) - dot(plane.size, half) > plane.offset) return true;
+  for (std::size_t i = 0; i < sides_.count; ++i) {
+    const auto& plane = sides_.planes[i];
+    if (dot(plane.outward, center) - dot(abs(plane.outward), half) > plane.offset) return true;
   }
   return false;
 }
@@ -116,13 +94,13 @@ bool Shaft::misses(const TriangleRecord& triangle, double distance) const {
   const float* p = triangle.position;
   const Vec3d a{p[0], p[1], p[2]}, b{p[3], p[4], p[5]}, c{p[6], p[7], p[8]};
   const Vec3d lower = min(a, min(b, c)), upper = max(a, max(b, c));
-  if (lower.x - distance > upper_.x || lower.y - distance > upper_.y ||
-      lower.z - distance > upper_.z || upper.x + distance < lower_.x ||
-      upper.y + distance < lower_.y || upper.z + distance < lower_.z) {
+  if (lower.x - distance > sides_.upper.x || lower.y - distance > sides_.upper.y ||
+      lower.z - distance > sides_.upper.z || upper.x + distance < sides_.lower.x ||
+      upper.y + distance < sides_.lower.y || upper.z + distance < sides_.lower.z) {
     return true;
   }
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Plane& plane = planes_[i];
+  for (std::size_t i = 0; i < sides_.count; ++i) {
+    const auto& plane = sides_.planes[i];
     const double bound = plane.offset + distance;
     if (dot(plane.outward, a) > bound && dot(plane.outward, b) > bound &&
         dot(plane.outward, c) > bound) {

@@ -208,11 +208,12 @@ std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool) const {
   if (asked.empty()) return 0;
   if (!light.tree) light.tree = std::make_unique<CasterTree>(scene_, *casters_, light.point);
   std::vector<PartVerdict> verdicts(asked.size());
+  const simd::CasterKernels kernels = simd::findCasterKernels();
   std::atomic<std::size_t> next{0};
   pool.run([&](int) {
     PartScratch scratch;
     for (std::size_t i = next++; i < asked.size(); i = next++) {
-      verdicts[i] = decide(light, asked[i], scratch);
+      verdicts[i] = decide(light, asked[i], kernels, scratch);
     }
   });
   for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], verdicts[i]);
@@ -220,15 +221,15 @@ std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool) const {
 }
 
 PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,
-                                  PartScratch& scratch) const {
+                                  const simd::CasterKernels& kernels, PartScratch& scratch) const {
   const std::uint32_t triangle = parts_.owner[part], word = parts_.first[triangle];
   const std::uint32_t side = 1u << (word & ((1u << kPartBits) - 1));
   const std::uint32_t at = part - (word >> kPartBits);
   const double width = 1.0 / side;
   const std::uint32_t column = at % side, row = at / side;
   const WeightSquare square{width * column, width * row, width};
-  return decidePart({scene_, *casters_, *light.tree, light.point, parts_.cell}, triangle, square,
-                    scratch);
+  return decidePart({scene_, *casters_, *light.tree, light.point, kernels, parts_.cell}, triangle,
+                    square, scratch);
 }
 
 std::uint64_t VerdictTables::bytes() const {

@@ -66,7 +66,8 @@ class VerdictTables {
 
   std::uint64_t fillLight(OfLight& light, WorkerPool& pool) const;
   void serve(OfLight& light);
-  PartVerdict decide(const OfLight& light, std::uint32_t part, PartScratch& scratch) const;
+  PartVerdict decide(const OfLight& light, std::uint32_t part, const simd::CasterKernels& kernels,
+                     PartScratch& scratch) const;
 
   const Scene& scene_;
   std::vector<std::size_t> numbers_;

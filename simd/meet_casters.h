@@ -1,0 +1,93 @@
+// What triangles do to the shadow rays of a convex receiver, several at a time: the proofs of
+// verdicts/caster.h and the shafts of verdicts/shaft.h, in double and operation for operation as
+// their scalar twins there compute them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/vec3.h"
+
+namespace whit::simd {
+
+// Eight boxes, tested together in single precision: centers and half widths.
+struct alignas(64) BoxBlock {
+  static constexpr std::size_t kBoxes = 8;
+  float center[3][kBoxes] = {}, half[3][kBoxes] = {};
+};
+
+// The sides of a shaft, in single precision, further out by what rounding may add.
+struct RoundedShaft {
+  static constexpr std::size_t kMostPlanes = 8;
+  float middle[3], width[3];  // of its box
+  float outward[kMostPlanes][3], size[kMostPlanes][3], offset[kMostPlanes];
+  std::size_t count = 0;
+};
+
+// Planes, with their unit normals away from the shaft, and its box.
+struct ShaftSides {
+  struct Plane {
+    Vec3d outward;
+    double offset = 0;
+  };
+  std::array<Plane, RoundedShaft::kMostPlanes> planes;
+  std::size_t count = 0;
+  Vec3d lower, upper;
+};
+
+// The light as a point, or the unit vector towards it.
+struct CasterLight {
+  Vec3d position;
+  bool directional = false;
+};
+
+// Where rays start, and the bounds that proofs need of it.
+struct CasterReceiver {
+  const Vec3d* corners = nullptr;
+  std::size_t count = 0;
+  Vec3d center;
+  double radius = 0, reach = 0;
+};
+
+// Eight triangles. All but the corners and the growth are of one light, the bounds of a receiver:
+// they hold for its pieces as well.
+struct alignas(64) CasterBlock {
+  static constexpr std::size_t kCasters = 8;
+  using Row = double[kCasters];
+  Row corner[3][3], normal[3], gradient[3][3], lightHeight;
+  Row edgeBound[3], slopeBound, heightBound;
+  Row growth;
+};
+
+// A bit a triangle of the block.
+using CasterBits = std::uint8_t;
+
+// What is asked about `blocks` blocks of casters: of those in `asked`, `met` becomes those that
+// rays of the receiver may meet. `opaque` may hide it.
+struct CasterQuestion {
+  const CasterBlock* blocks = nullptr;
+  std::size_t count = 0;
+  const CasterBits *asked = nullptr, *opaque = nullptr;
+  CasterBits* met = nullptr;
+};
+
+inline constexpr std::size_t kNoCaster = ~std::size_t{0};
+
+struct CasterKernels {
+  // Which of the boxes the shaft does not surely pass by, a bit each.
+  unsigned (*meetBoxes)(const RoundedShaft& shaft, const BoxBlock& boxes);
+  // From the corners, all else but the growth.
+  void (*setCasters)(CasterBlock& block, const CasterLight& light, const CasterReceiver& receiver);
+  // Returns the place of a caster that hides the receiver, if one is found to: `met` is unfinished
+  // then.
+  std::size_t (*meetCasters)(const CasterQuestion& question, const CasterLight& light,
+                             const Vec3d* corners, std::size_t count);
+  // Takes those out of `met` that the shaft passes by by more than their growth. Whether any are
+  // left.
+  bool (*passCasters)(const CasterQuestion& question, const ShaftSides& shaft);
+};
+// Of the chosen target.
+CasterKernels findCasterKernels();
+
+}  // namespace whit::simd
