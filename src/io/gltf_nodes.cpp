@@ -18,7 +18,7 @@ namespace {
 constexpr double kLargestHeight = 1e9;  // of what an orthographic camera shows
 constexpr char kLightsExtension[] = "KHR_lights_punctual";
 constexpr char kInstancesExtension[] = "EXT_mesh_gpu_instancing";
-constexpr std::size_t kNoParent = ~std::size_t{0};
+constexpr std::size_t kTopmost = ~std::size_t{0};
 constexpr char kInstancesPath[] = "/extensions/EXT_mesh_gpu_instancing/attributes";
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
@@ -84,7 +84,7 @@ class TreeReader {
   // No node has two parents or is its own ancestor, which then is a root that is never reached.
   void checkTree() {
     std::vector<bool> hasParent(model_.nodes.size());
-    parents_.assign(model_.nodes.size(), kNoParent);
+    parents_.assign(model_.nodes.size(), kTopmost);
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       for (const int child : model_.nodes[i].children) {
         const auto c = static_cast<std::size_t>(child);
@@ -225,7 +225,7 @@ class TreeReader {
   Affine globalOf(std::size_t index) {
     Affine map = mapOfNode(index);
     int depth = 0;
-    for (std::size_t at = parents_[index]; at != kNoParent; at = parents_[at]) {
+    for (std::size_t at = parents_[index]; at != kTopmost; at = parents_[at]) {
       if (++depth > kGltfDepthLimit) {
         throwBadScene(document_.where("nodes", index),
                       "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
@@ -336,7 +336,7 @@ class TreeReader {
   const GltfDocument& document_;
   const tinygltf::Model& model_;
   const std::vector<GltfPose>& poses_;
-  std::vector<std::size_t> parents_;                   // or kNoParent
+  std::vector<std::size_t> parents_;                   // or kTopmost
   std::map<std::size_t, std::vector<Affine>> joints_;  // of skins
   std::vector<bool> seen_;
   std::vector<std::size_t> topmost_;

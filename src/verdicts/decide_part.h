@@ -33,15 +33,15 @@ struct CasterBlocks {
 
 // A worker's own memory.
 struct PartScratch {
+  // What has hidden other parts of late: likely to hide the next one.
+  simd::CasterBlock hiders{};
+  std::array<std::uint32_t, simd::CasterBlock::kCasters> hiderNumbers{};
+  std::size_t hidden = 0;  // that added one to them
   std::vector<Candidate> gathered;
   // Of them those that may meet the part, and boxes among them.
   CasterBlocks casters;
   std::vector<std::uint32_t> boxes;     // one depth after the other
   std::vector<simd::CasterBits> asked;  // of the blocks, likewise
-  // What has hidden other parts of late: likely to hide the next one.
-  simd::CasterBlock hiders{};
-  std::array<std::uint32_t, simd::CasterBlock::kCasters> hiderNumbers{};
-  std::size_t hidden = 0;  // that added one to them
 };
 
 // What stands in the way of a light's rays.
