@@ -107,8 +107,8 @@ void check(const Json& root, const std::string& file) {
   }
   JsonObject object{JsonValue(document)};
   SceneDescription nothing;
-  readCameras(object, nothing);
-  readLights(object, nothing);
+  readCameras(object, {}, nothing);
+  readLights(object, {}, nothing);
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ Accel::Accel(const Scene& scene, const AccelOptions& options, Progress* progress
 
 Accel::~Accel() = default;
 
+void Accel::sceneMoved() { parts_->embree.update(scene_); }
+
 int Accel::packet() const { return parts_->packet; }
 std::string Accel::description() const { return parts_->description; }
 std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }

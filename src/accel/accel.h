@@ -65,6 +65,10 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
+  // After moveScene(), of the scene that this was built from. What stands still keeps its BVH.
+  // Throws as the constructor. Not while tracing.
+  void sceneMoved();
+
   // The nearest hits of the chunk's rays, segment by segment; those behind the last are misses, up
   // to a whole block. A ray's hit does not depend on the rays beside it, but where two surfaces lie
   // in each other's place (settled afterwards: render/settle_flush.h) or cross at its very distance

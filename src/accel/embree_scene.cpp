@@ -92,32 +92,53 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   };
   const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
   if (kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) streamWidth_ = 8;
-  mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && !scene.instances.empty();
+  const bool moves = !scene.motion.instances.empty();
+  mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && (moves || !scene.instances.empty());
   rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
-  triangleBase_.resize((1 + scene.instances.size()) * kTriangleClasses);
+  instances_ = options.instances;
+  const auto newScene = [&] {
+    SceneHandle made(rtcNewScene(device()));
+    rtcSetSceneFlags(made.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneBuildQuality(made.get(), buildQuality(options.quality));
+    return made;
+  };
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
-    scenes_.emplace_back(rtcNewScene(device()));
-    RTCScene made = scenes_[i].get();
-    rtcSetSceneFlags(made, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(made, buildQuality(options.quality));
+    scenes_.push_back(newScene());
     addGeometry(i, scene);
     if (options.spheres) addSpheres(i, scene);
-    if (i != 0) commit(made, progress);
+    if (i != 0 || moves) commit(scenes_[i].get(), progress);
   }
-  if (options.instances) addInstances(scene);
+  if (moves) {
+    top_ = newScene();
+    addWorld();
+  }
+  addInstances(scene);
   commit(top(), progress);
+}
+
+void EmbreeScene::addWorld() {
+  const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(held.get(), scenes_[0].get());
+  placeInstance(held.get(), Affine());
+  rtcAttachGeometryByID(top(), held.get(), kWorldId);
+}
+
+void EmbreeScene::numberTriangles(const Scene& scene) {
+  triangleBase_.clear();
+  const auto add = [&](const Geometry& source) {
+    for (unsigned c = 0; c < kTriangleClasses; ++c) {
+      triangleBase_.push_back(source.firstTriangle + source.classBegin[c]);
+    }
+  };
+  add(scene.geometries[0]);
+  for (const InstanceRecord& instance : scene.instances) add(scene.geometries[instance.geometry]);
 }
 
 void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
   const Geometry& source = scene.geometries[index];
   for (unsigned c = 0; c < kTriangleClasses; ++c) {
     const std::uint32_t first = source.classBegin[c], end = source.classBegin[c + 1];
-    if (index == 0) triangleBase_[c] = source.firstTriangle + first;
-    for (std::size_t k = 0; k < scene.instances.size(); ++k) {
-      if (scene.instances[k].geometry != index) continue;
-      triangleBase_[(1 + k) * kTriangleClasses + c] = source.firstTriangle + first;
-    }
     if (first == end) continue;
     const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
     RTCGeometry geometry = held.get();
@@ -161,19 +182,66 @@ void EmbreeScene::setFilters(MaskedGeometry& filtered, RTCGeometry geometry) {
   }
 }
 
+void EmbreeScene::placeInstance(RTCGeometry geometry, const Affine& m) const {
+  const Vec3f columns[4] = {Vec3f(m.x), Vec3f(m.y), Vec3f(m.z), Vec3f(m.p)};
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
+  rtcCommitGeometry(geometry);
+}
+
 void EmbreeScene::addInstances(const Scene& scene) {
-  for (std::size_t k = 0; k < scene.instances.size(); ++k) {
-    const InstanceRecord& instance = scene.instances[k];
-    const Affine& m = instance.toWorld;
-    reach_ = std::min(reach_, instanceReach(m));
-    const Vec3f columns[4] = {Vec3f(m.x), Vec3f(m.y), Vec3f(m.z), Vec3f(m.p)};
+  numberTriangles(scene);
+  reach_ = kLargestCoordinate;
+  instanced_.clear();
+  if (!instances_) return;
+  for (const InstanceRecord& instance : scene.instances) {
+    reach_ = std::min(reach_, instanceReach(instance.toWorld));
     const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
-    RTCGeometry geometry = held.get();
-    rtcSetGeometryInstancedScene(geometry, scenes_[instance.geometry].get());
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(top(), geometry, kFirstInstanceId + static_cast<unsigned>(k));
+    rtcSetGeometryInstancedScene(held.get(), scenes_[instance.geometry].get());
+    placeInstance(held.get(), instance.toWorld);
+    rtcAttachGeometryByID(top(), held.get(),
+                          kFirstInstanceId + static_cast<unsigned>(instanced_.size()));
+    instanced_.push_back(instance.geometry);
+  }
+}
+
+void EmbreeScene::update(const Scene& scene) {
+  bendMeshes(scene);
+  moveInstances(scene);
+  commit(top(), nullptr);
+}
+
+// Built anew rather than refitted: the picture then cannot depend on where they were before.
+void EmbreeScene::bendMeshes(const Scene& scene) {
+  std::uint32_t built = 0;
+  for (const BentVertices& bent : scene.motion.bent) {
+    if (bent.geometry == built) continue;  // with the mesh before
+    built = bent.geometry;
+    RTCScene own = scenes_[built].get();
+    const Geometry& source = scene.geometries[built];
+    for (unsigned c = 0; c < kTriangleClasses; ++c) {
+      if (source.classBegin[c] == source.classBegin[c + 1]) continue;
+      RTCGeometry geometry = rtcGetGeometry(own, c);
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+      rtcCommitGeometry(geometry);
+    }
+    commit(own, nullptr);
+  }
+}
+
+// New ones only where others are there than before.
+void EmbreeScene::moveInstances(const Scene& scene) {
+  const bool same = std::equal(
+      scene.instances.begin(), scene.instances.end(), instanced_.begin(), instanced_.end(),
+      [](const InstanceRecord& i, std::uint32_t g) { return i.geometry == g; });
+  if (!same || !instances_) {
+    for (unsigned k = 0; k < instanced_.size(); ++k) rtcDetachGeometry(top(), kFirstInstanceId + k);
+    return addInstances(scene);
+  }
+  reach_ = kLargestCoordinate;
+  for (unsigned k = 0; k < instanced_.size(); ++k) {
+    reach_ = std::min(reach_, instanceReach(scene.instances[k].toWorld));
+    placeInstance(rtcGetGeometry(top(), kFirstInstanceId + k), scene.instances[k].toWorld);
   }
 }
 

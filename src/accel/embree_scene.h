@@ -36,7 +36,10 @@ class EmbreeScene {
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  RTCScene top() const { return scenes_[0].get(); }
+  // After moveScene(), of the scene that this was built from.
+  void update(const Scene& scene);
+
+  RTCScene top() const { return (top_ ? top_ : scenes_[0]).get(); }
   RTCDevice device() const { return device_.get(); }
   std::uint64_t memoryBytes() const { return bytes_ + sphereBytes(); }
   std::uint64_t sphereBytes() const {
@@ -52,10 +55,10 @@ class EmbreeScene {
   }
   // Of a hit, as Embree tells it: the instance's id, which is RTC_INVALID_GEOMETRY_ID in the world.
   std::uint32_t instanceOf(unsigned id) const {
-    return id == RTC_INVALID_GEOMETRY_ID ? kMiss : id - kFirstInstanceId;
+    return isInWorld(id) ? kMiss : id - kFirstInstanceId;
   }
   std::uint32_t triangleOf(unsigned id, unsigned geometry, unsigned primitive) const {
-    const std::size_t placed = id == RTC_INVALID_GEOMETRY_ID ? 0 : 1 + (id - kFirstInstanceId);
+    const std::size_t placed = isInWorld(id) ? 0 : 1 + (id - kFirstInstanceId);
     return triangleBase(placed)[geometry] + primitive;
   }
   // Rays with an origin or a direction beyond this are left out (see instanceReach).
@@ -75,7 +78,12 @@ class EmbreeScene {
   void addGeometry(std::size_t index, const Scene& scene);
   void addSpheres(std::size_t index, const Scene& scene);
   static void setFilters(MaskedGeometry& filtered, RTCGeometry geometry);
+  void addWorld();
+  void numberTriangles(const Scene& scene);
   void addInstances(const Scene& scene);
+  void placeInstance(RTCGeometry geometry, const Affine& toWorld) const;
+  void moveInstances(const Scene& scene);
+  void bendMeshes(const Scene& scene);
   void commit(RTCScene scene, Progress* progress);
   void requireNoError(const char* doing) const;
 
@@ -86,6 +94,11 @@ class EmbreeScene {
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries
+  // Of a scene that moves, whose world is an instance: so that it is not built anew with the
+  // others.
+  SceneHandle top_;
+  std::vector<std::uint32_t> instanced_;  // the geometries of the instances that are there
+  bool instances_ = true;
   float reach_ = kLargestCoordinate;
   int streamWidth_ = 0;
   bool mayHang_ = false;

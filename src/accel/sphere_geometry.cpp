@@ -79,11 +79,15 @@ void SphereGeometry::bound(const RTCBoundsFunctionArguments* args) {
   to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
 }
 
+// One number for the world, behind all instances.
+unsigned SphereGeometry::placeOf(unsigned instance) {
+  return isInWorld(instance) ? RTC_INVALID_GEOMETRY_ID : instance;
+}
+
 // In Scene::triangles.
 std::uint32_t SphereGeometry::numberOf(const Met& met) const {
-  const bool inWorld = met.instance == RTC_INVALID_GEOMETRY_ID;
   const std::uint32_t geometry =
-      inWorld ? 0 : scene_.instances[met.instance - kFirstInstanceId].geometry;
+      isInWorld(met.instance) ? 0 : scene_.instances[met.instance - kFirstInstanceId].geometry;
   return scene_.geometries[geometry].firstTriangle + met.primitive;
 }
 
@@ -142,8 +146,8 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
       return numbers[column * width + i];
     };
     float& tFar = words[packet_column::tFar * width + i];
-    const Met here{args->context->instID[0], 0, own.firstPrimitive_ + args->primID};
-    const Met before{number(kInstanceColumn), number(packet_column::geometry),
+    const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
+    const Met before{placeOf(number(kInstanceColumn)), number(packet_column::geometry),
                      number(packet_column::primitive)};
     if (t == tFar && !own.comesBefore(here, before)) return;
     tFar = t;

@@ -12,8 +12,13 @@
 namespace whit {
 
 // Spheres follow the four classes of world triangles in a scene, instances follow those in the
-// top-level one.
+// top-level one. Where a scene moves the top-level one holds instances alone, and the first is the
+// world.
 inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
+inline constexpr unsigned kWorldId = 0;
+inline bool isInWorld(unsigned instance) {
+  return instance == RTC_INVALID_GEOMETRY_ID || instance == kWorldId;
+}
 
 // The spheres of one of the scene's geometries, in their order. A hit looks as if it were on the
 // first triangle class of that geometry: the primitive's number is counted from there.
@@ -45,6 +50,7 @@ class SphereGeometry {
   template <float Mask::*kCutoff, typename Accept>
   void meet(unsigned primitive, float* words, unsigned width, const int* valid,
             const Accept& accept) const;
+  static unsigned placeOf(unsigned instance);
   std::uint32_t numberOf(const Met& met) const;
   bool comesBefore(const Met& sphere, const Met& other) const;
 

@@ -98,7 +98,7 @@ void add(Digester& d, const Medium& medium) {
   add(d, ior), add(d, absorption), add(d, priority);
 }
 void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, written, toWorld] = instance;
+  const auto& [geometry, written, toWorld, mover, toMover] = instance;
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
@@ -155,7 +155,7 @@ std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
                materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
-               instancedSpheres, flush, effects, reasons] = scene;
+               instancedSpheres, flush, motion, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

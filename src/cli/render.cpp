@@ -26,6 +26,7 @@
 #include "io/paths.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
+#include "scene/move_scene.h"
 
 namespace whit::cli {
 
@@ -140,7 +141,7 @@ std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
 // Traces frames and writes them, each beside the tracing of the next.
 class ImageWriter {
  public:
-  ImageWriter(const RenderJob& job, const OpenScene& open, Farm& farm, Progress* progress)
+  ImageWriter(const RenderJob& job, OpenScene& open, Farm& farm, Progress* progress)
       : job_(job),
         farm_(farm),
         open_(&open),
@@ -153,20 +154,14 @@ class ImageWriter {
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
   }
 
-  // Of a scene that moves: frames to come are those of another instant. All of it is read and built
-  // anew, so that a frame's bits are the same in a film and alone.
+  // Of a scene that moves: frames to come are those of another instant.
   void updateScene(double seconds) {
     const Stopwatch stopwatch;
-    CommonOptions common = job_.common;
-    common.load.instant.seconds = seconds;
-    common.quiet = true;  // what was repaired has been said
-    auto moved = openScene(job_.scenes[0], common, nullptr);
-    renderer_.emplace(moved->scene, options_);
-    moved_ = std::move(moved);
-    open_ = moved_.get();
-    if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
+    moveScene(open_->scene, seconds);
+    renderer_->sceneMoved();
     run_.updateMs.push_back(stopwatch.ms());
-    run_.tracedAndWrittenMs += run_.updateMs.back();
+    if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
+    run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
   // With --resume, nothing is traced when all files are there. The files are there after finish().
@@ -262,9 +257,8 @@ class ImageWriter {
 
   const RenderJob& job_;
   Farm& farm_;
-  const OpenScene* open_;
-  std::unique_ptr<OpenScene> moved_;  // of the last updateScene()
-  RenderOptions options_;             // with an automatic exposure settled
+  OpenScene* open_;
+  RenderOptions options_;  // with an automatic exposure settled
   std::optional<Renderer> renderer_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
@@ -299,7 +293,7 @@ class PathProgress : public Progress {
 };
 
 void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
-  const bool moves = !writer.scene().animations.empty();
+  const bool moves = !writer.scene().motion.empty();
   const FrameRange range = parseFrameRange(job.frames);
   std::optional<PathProgress> path;
   if (progress) path.emplace(*progress, range);
@@ -333,6 +327,7 @@ int render(const Words& words, Farm& farm) {
   checkJob(job, farm);
 
   auto progress = makeProgressBar(job.common);
+  job.common.load.instant.plays = !job.frames.empty();
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   checkFilmed(job, open->scene);
   ImageWriter writer(job, *open, farm, progress.get());

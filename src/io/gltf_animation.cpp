@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "io/distinct_names.h"
@@ -19,13 +20,13 @@ struct Target {
   std::string_view path;
   int type;
   std::size_t components;  // of a key; 0: as many as there are morph targets
-  std::vector<double> GltfPose::*value;
+  std::optional<Track> GltfTracks::*track;
 };
 constexpr Target kTargets[] = {
-    {"translation", TINYGLTF_TYPE_VEC3, 3, &GltfPose::translation},
-    {"rotation", TINYGLTF_TYPE_VEC4, 4, &GltfPose::rotation},
-    {"scale", TINYGLTF_TYPE_VEC3, 3, &GltfPose::scale},
-    {"weights", TINYGLTF_TYPE_SCALAR, 0, &GltfPose::weights},
+    {"translation", TINYGLTF_TYPE_VEC3, 3, &GltfTracks::translation},
+    {"rotation", TINYGLTF_TYPE_VEC4, 4, &GltfTracks::rotation},
+    {"scale", TINYGLTF_TYPE_VEC3, 3, &GltfTracks::scale},
+    {"weights", TINYGLTF_TYPE_SCALAR, 0, &GltfTracks::weights},
 };
 
 const Target* targetOf(std::string_view path) {
@@ -69,11 +70,11 @@ class AnimationReader {
     return moved.size();
   }
 
-  void pose(double time, std::vector<GltfPose>& poses) const {
+  void read(std::vector<GltfTracks>& tracks) const {
     forEachChannel(
         [&](std::size_t node, const Target& target, const LooseJson& sampler, std::size_t number) {
-          const Track track = readTrack(target, node, sampler, number);
-          if (track.components > 0) poses[node].*target.value = valueAt(track, time);
+          Track track = readTrack(target, node, sampler, number);
+          if (track.components > 0) tracks[node].*target.track = std::move(track);
         });
   }
 
@@ -166,16 +167,16 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   return all;
 }
 
-std::vector<GltfPose> poseGltf(const GltfDocument& document, const Instant& instant) {
-  std::vector<GltfPose> poses(document.model().nodes.size());
-  if (!instant.seconds) return poses;
+std::vector<GltfTracks> readGltfTracks(const GltfDocument& document, const Instant& instant) {
+  std::vector<GltfTracks> tracks(document.model().nodes.size());
+  if (!instant.moves()) return tracks;
   const std::vector<Animation> all = listGltfAnimations(document);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!instant.animation.empty() && all[i].name != instant.animation) continue;
-    AnimationReader(document, i).pose(*instant.seconds, poses);
+    AnimationReader(document, i).read(tracks);
     break;
   }
-  return poses;
+  return tracks;
 }
 
 }  // namespace whit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "io/gltf_accessor.h"
@@ -13,60 +14,23 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-class Deformer {
+class DeformationReader {
  public:
-  Deformer(const GltfDocument& document, const tinygltf::Primitive& primitive,
-           const std::string& where, Mesh& mesh)
-      : document_(document), primitive_(primitive), where_(where), mesh_(mesh) {
-    document_.budget().charge(mesh.positions.size() + mesh.normals.size(), sizeof(Vec3d), where_);
-    for (const Vec3f& position : mesh.positions) positions_.emplace_back(position);
-    for (const Vec3f& normal : mesh.normals) normals_.emplace_back(normal);
+  DeformationReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                    const GltfDeformation& given, const std::string& where, const Mesh& mesh)
+      : document_(document), primitive_(primitive), given_(given), where_(where) {
+    document_.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
+                              where_);
+    result_.positions = mesh.positions;
+    result_.normals = mesh.normals;
+    result_.weights = given.weights;
+    result_.movingWeights = given.movingWeights;
   }
 
-  void morph(const std::vector<double>& weights) {
-    for (std::size_t i = 0; i < std::min(weights.size(), primitive_.targets.size()); ++i) {
-      if (weights[i] == 0) continue;
-      const Attributes& target = primitive_.targets[i];
-      add(target, "POSITION", weights[i], positions_);
-      add(target, "NORMAL", weights[i], normals_);
-    }
-  }
-
-  void bend(const std::vector<Affine>& joints) {
-    const std::size_t count = positions_.size();
-    std::vector<Affine> maps(count, Affine{{}, {}, {}, {}});
-    std::vector<double> sums(count, 0.0);
-    document_.budget().charge(count, sizeof(Affine) + sizeof(double), where_);
-    bool held = false;
-    for (int set = 0;; ++set) {
-      const int indices = accessorOf(primitive_.attributes, "JOINTS_" + std::to_string(set));
-      const int weights = accessorOf(primitive_.attributes, "WEIGHTS_" + std::to_string(set));
-      if (indices < 0 || weights < 0) break;
-      addSet(joints, indices, weights, maps, sums);
-      held = true;
-    }
-    if (!held) return warn("skinned mesh without joints and weights shown as it was modelled");
-    std::size_t mirrored = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!(sums[i] > 0) || !std::isfinite(sums[i])) {
-        warn("vertex that no joint holds left where it was modelled");
-        continue;
-      }
-      const Affine map = scaled(maps[i], 1 / sums[i]);
-      positions_[i] = map.point(positions_[i]);
-      if (i < normals_.size()) normals_[i] = map.normal(normals_[i]);
-      if (map.determinant() < 0) ++mirrored;
-    }
-    if (2 * mirrored > count) {
-      for (auto& triangle : mesh_.triangles) std::swap(triangle[1], triangle[2]);
-    }
-  }
-
-  void finish() {
-    for (std::size_t i = 0; i < positions_.size(); ++i) mesh_.positions[i] = Vec3f(positions_[i]);
-    for (std::size_t i = 0; i < normals_.size(); ++i) {
-      mesh_.normals[i] = Vec3f(normalized(normals_[i], Vec3d()));
-    }
+  Deformation read() {
+    readTargets();
+    if (given_.skeleton) readSkin();
+    return std::move(result_);
   }
 
  private:
@@ -77,72 +41,112 @@ class Deformer {
     return found == attributes.end() ? -1 : found->second;
   }
 
-  static Affine scaled(const Affine& map, double by) {
-    return {map.x * by, map.y * by, map.z * by, map.p * by};
-  }
-
   void checkLength(std::size_t found, std::size_t expected, const std::string& name) const {
     if (found == expected) return;
     throwBadScene(where_ + name, "expected as many as positions, " + std::to_string(expected) +
                                      ", found " + std::to_string(found));
   }
 
-  void add(const Attributes& target, const std::string& name, double weight,
-           std::vector<Vec3d>& to) const {
-    const int accessor = accessorOf(target, name);
-    if (accessor < 0 || to.empty()) return;
-    if (static_cast<std::size_t>(accessor) >= document_.model().accessors.size()) {
-      return warn("morph target that cannot be read left out");
+  // Those that have a weight at some time.
+  void readTargets() {
+    result_.targets.resize(primitive_.targets.size());
+    for (std::size_t i = 0; i < primitive_.targets.size(); ++i) {
+      const bool weighs = i < given_.weights.size() && given_.weights[i] != 0;
+      if (!weighs && !given_.movingWeights) continue;
+      const Attributes& target = primitive_.targets[i];
+      result_.targets[i] = {vectors(target, "POSITION", result_.positions.size()),
+                            vectors(target, "NORMAL", result_.normals.size())};
     }
-    const std::vector<Vec3f> moved = readVectors(document_, static_cast<std::size_t>(accessor));
-    checkLength(moved.size(), to.size(), "/targets");
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = to[i] + Vec3d(moved[i]) * weight;
   }
 
-  // Four more joints of each vertex.
-  void addSet(const std::vector<Affine>& joints, int indices, int weights,
-              std::vector<Affine>& maps, std::vector<double>& sums) const {
-    const std::vector<float> j =
-        readTuples(document_, static_cast<std::size_t>(indices), TINYGLTF_TYPE_VEC4);
-    const std::vector<float> w =
-        readTuples(document_, static_cast<std::size_t>(weights), TINYGLTF_TYPE_VEC4);
-    checkLength(j.size() / 4, maps.size(), "/attributes/JOINTS");
-    checkLength(w.size() / 4, maps.size(), "/attributes/WEIGHTS");
-    for (std::size_t i = 0; i < j.size(); ++i) {
-      const double weight = w[i];
-      if (!(weight > 0)) continue;
-      if (!(j[i] >= 0 && j[i] < static_cast<float>(joints.size()))) {
-        warn("joint that the skin does not have left out");
-        continue;
-      }
-      const Affine& joint = joints[static_cast<std::size_t>(j[i])];
-      Affine& map = maps[i / 4];
-      map = {map.x + joint.x * weight, map.y + joint.y * weight, map.z + joint.z * weight,
-             map.p + joint.p * weight};
-      sums[i / 4] += weight;
+  std::vector<Vec3f> vectors(const Attributes& target, const std::string& name,
+                             std::size_t expected) const {
+    const int accessor = accessorOf(target, name);
+    if (accessor < 0 || expected == 0) return {};
+    if (static_cast<std::size_t>(accessor) >= document_.model().accessors.size()) {
+      warn("morph target that cannot be read left out");
+      return {};
     }
+    std::vector<Vec3f> moved = readVectors(document_, static_cast<std::size_t>(accessor));
+    checkLength(moved.size(), expected, "/targets");
+    return moved;
+  }
+
+  void readSkin() {
+    const std::size_t count = result_.positions.size();
+    std::vector<std::vector<float>> joints, weights;
+    for (int set = 0;; ++set) {
+      const int j = accessorOf(primitive_.attributes, "JOINTS_" + std::to_string(set));
+      const int w = accessorOf(primitive_.attributes, "WEIGHTS_" + std::to_string(set));
+      if (j < 0 || w < 0) break;
+      joints.push_back(fours(j));
+      weights.push_back(fours(w));
+      checkLength(joints.back().size() / 4, count, "/attributes/JOINTS");
+      checkLength(weights.back().size() / 4, count, "/attributes/WEIGHTS");
+    }
+    if (joints.empty())
+      return warn("skinned mesh without joints and weights shown as it was modelled");
+    result_.skeleton = given_.skeleton;
+    result_.joints = given_.joints;
+    document_.budget().charge(count, sizeof(std::uint32_t) + 4 * joints.size() * sizeof(Influence),
+                              where_);
+    result_.firstInfluence.push_back(0);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t set = 0; set < joints.size(); ++set) {
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) hold(joints[set][k], weights[set][k]);
+      }
+      closeVertex();
+    }
+  }
+
+  std::vector<float> fours(int accessor) const {
+    return readTuples(document_, static_cast<std::size_t>(accessor), TINYGLTF_TYPE_VEC4);
+  }
+
+  void hold(float joint, double weight) {
+    if (!(weight > 0)) return;
+    if (joint >= 0 && joint < static_cast<float>(result_.joints.size())) {
+      result_.influences.push_back({static_cast<std::uint32_t>(joint), weight});
+    } else {
+      warn("joint that the skin does not have left out");
+    }
+  }
+
+  void closeVertex() {
+    std::vector<Influence>& all = result_.influences;
+    double sum = 0;
+    for (std::size_t i = result_.firstInfluence.back(); i < all.size(); ++i) sum += all[i].weight;
+    if (!(sum > 0) || !std::isfinite(sum)) {
+      warn("vertex that no joint holds left where it was modelled");
+      all.resize(result_.firstInfluence.back());
+    }
+    result_.firstInfluence.push_back(static_cast<std::uint32_t>(all.size()));
   }
 
   const GltfDocument& document_;
   const tinygltf::Primitive& primitive_;
+  const GltfDeformation& given_;
   const std::string& where_;
-  Mesh& mesh_;
-  std::vector<Vec3d> positions_, normals_;
+  Deformation result_;
 };
 
 }  // namespace
 
 bool GltfDeformation::none() const {
-  return joints.empty() &&
+  return !skeleton && !movingWeights &&
          std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; });
 }
 
 void deform(const GltfDocument& document, const tinygltf::Primitive& primitive,
             const GltfDeformation& deformation, const std::string& where, Mesh& mesh) {
-  Deformer deformer(document, primitive, where, mesh);
-  deformer.morph(deformation.weights);
-  if (!deformation.joints.empty()) deformer.bend(deformation.joints);
-  deformer.finish();
+  Deformation own = DeformationReader(document, primitive, deformation, where, mesh).read();
+  DeformedVertices start = deform(own, 0);
+  mesh.positions = std::move(start.positions);
+  mesh.normals = std::move(start.normals);
+  if (start.mirrored) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
 }
 
 }  // namespace whit

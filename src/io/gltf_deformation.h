@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/affine.h"
 #include "io/gltf_document.h"
+#include "scene/deformation.h"
 #include "scene/mesh.h"
 
 namespace whit {
@@ -15,18 +17,19 @@ namespace whit {
 // How a node bends its mesh.
 struct GltfDeformation {
   std::vector<double> weights;  // of morph targets; those that are missing are zero
-  std::vector<Affine> joints;   // from the mesh as it was modelled to the scene; none: no skin
+  std::optional<Track> movingWeights;
+  std::shared_ptr<const Rig> skeleton;  // in the space of the document; none: no skin
+  std::vector<Deformation::Joint> joints;
 
   // Whether the mesh stays as it was modelled.
   bool none() const;
 };
 
-// Moves positions and normals of the primitive's mesh: by its morph targets, then by its joints,
-// rounded once at the end. Normals come out as unit vectors. Tangents are left out: the directions
-// of normal maps follow from texture coordinates. Counted in the document's warnings: targets that
-// cannot be read, which are left out; vertices that no joint holds, which stay where they were
-// modelled. Weights of joints are scaled to the sum 1. Throws as the accessors do, and badScene
-// where attributes differ in length.
+// Bends the primitive's mesh as it is at the start, and gives it the deformation where that depends
+// on time. Tangents are left out: the directions of normal maps follow from texture coordinates.
+// Counted in the document's warnings: targets that cannot be read, which are left out; vertices
+// that no joint holds, which stay where they were modelled. Throws as the accessors do, and
+// badScene where attributes differ in length.
 void deform(const GltfDocument& document, const tinygltf::Primitive& primitive,
             const GltfDeformation& deformation, const std::string& where, Mesh& mesh);
 

@@ -66,12 +66,36 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   if (!given.contains("alphaMap")) member("alphaCutoff", &Material::alphaCutoff);
 }
 
+// Bodies of nodes that move, each in that of its parent, where the first of what it holds comes.
+class MoverBodies {
+ public:
+  MoverBodies(const Rig& movers, SceneLayout& layout, Body& scene)
+      : movers_(movers), layout_(layout), scene_(scene), bodies_(movers.size(), 0) {}
+
+  Body& of(std::uint32_t mover) {
+    if (mover == kNoNode) return scene_;
+    if (bodies_[mover] == 0) {
+      const RigNode& node = movers_[mover];
+      Body& parent = of(node.parent);
+      bodies_[mover] = layout_.add("");
+      parent.children.push_back({bodies_[mover], node.toParent, 0, node.motion});
+    }
+    return layout_.body(bodies_[mover]);
+  }
+
+ private:
+  const Rig& movers_;
+  SceneLayout& layout_;
+  Body& scene_;
+  std::vector<std::uint32_t> bodies_;  // 0, the layout's scene: none yet
+};
+
 GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
                      MemoryBudget& budget, Warnings& warnings, const Instant& instant)
     : document_(path, rules, budget, warnings),
       sources_(readGltfMaterials(document_)),
       maps_(document_),
-      stage_(readGltfNodes(document_, poseGltf(document_, instant))) {
+      stage_(readGltfNodes(document_, readGltfTracks(document_, instant))) {
   for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
 }
 
@@ -108,13 +132,14 @@ Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& m
   std::map<std::size_t, std::uint32_t> bodies;
   bool empty = true;
   Body all;
+  MoverBodies movers(stage_.movers, layout, all);
   for (const GltfPlacedMesh& placed : stage_.meshes) {
     const auto known = bodies.find(placed.mesh);
     const bool shared = placed.deformation.none() && known != bodies.end();
     const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
     if (placed.deformation.none()) bodies.emplace(placed.mesh, body);
     empty = empty && layout.body(body).parts.empty();
-    all.children.push_back({body, placed.toScene, 0});
+    movers.of(placed.mover).children.push_back({body, placed.toMover, 0, nullptr});
   }
   if (empty) {
     warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"
@@ -133,6 +158,21 @@ void GltfModel::addView(SceneDescription& scene) {
   }
   scene.cameras = stage_.cameras;
   scene.lights = stage_.lights;
+  const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
+  for (RigNode node : stage_.movers) {
+    if (node.parent != kNoNode) node.parent += first;
+    scene.motion.rig.push_back(std::move(node));
+  }
+  for (std::uint32_t i = 0; i < stage_.cameras.size(); ++i) {
+    const std::uint32_t mover = stage_.cameraMovers[i];
+    if (mover != kNoNode) scene.motion.cameras.push_back({i, first + mover, stage_.cameras[i]});
+  }
+  for (std::uint32_t i = 0; i < stage_.lights.size(); ++i) {
+    const Light& light = stage_.lights[i];
+    const std::uint32_t mover = stage_.lightMovers[i];
+    if (mover == kNoNode) continue;
+    scene.motion.lights.push_back({i, first + mover, light.position, light.direction});
+  }
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "io/distinct_names.h"
@@ -64,14 +68,123 @@ bool isUsable(const Affine& a) {
   return std::abs(a.determinant()) > kSmallestSine * length(a.x) * length(a.y) * length(a.z);
 }
 
+// What a node has where its tracks do not say.
+struct NodePlace {
+  Vec3d translation;
+  Quaternion rotation{0, 0, 0, 1};
+  Vec3d scale{1, 1, 1};
+
+  Affine map() const {
+    return Affine::translation(translation) * rotationOf(rotation) * Affine::scaling(scale);
+  }
+};
+
+Vec3d tripleAt(const std::optional<Track>& track, double seconds, const Vec3d& fallback) {
+  return track ? tripleOr(valueAt(*track, seconds), fallback) : fallback;
+}
+
+Motion motionOf(const NodePlace& own, const GltfTracks& tracks) {
+  return [own, tracks = std::make_shared<const GltfTracks>(tracks)](double seconds) {
+    NodePlace place = own;
+    place.translation = tripleAt(tracks->translation, seconds, own.translation);
+    place.scale = tripleAt(tracks->scale, seconds, own.scale);
+    if (tracks->rotation) {
+      const std::vector<double> turn = valueAt(*tracks->rotation, seconds);
+      std::copy(turn.begin(), turn.end(), place.rotation.begin());
+    }
+    return place.map();
+  };
+}
+
+// A document's skins, whose joints may come later in the tree than the meshes they hold.
+class SkinReader {
+ public:
+  // `nodeAt(index)` is a node of the document within its parent.
+  using NodeAt = std::function<RigNode(std::size_t index)>;
+  SkinReader(const GltfDocument& document, const std::vector<std::size_t>& parents, NodeAt nodeAt)
+      : document_(document),
+        model_(document.model()),
+        parents_(parents),
+        nodeAt_(std::move(nodeAt)) {}
+
+  // Of the skin with that number; no skeleton where it cannot be read.
+  const GltfDeformation& read(std::size_t skin) {
+    const auto [known, isNew] = skins_.try_emplace(skin);
+    if (isNew) {
+      places_.clear();
+      rig_.clear();
+      std::vector<Deformation::Joint> joints = jointsOf(skin);
+      if (!joints.empty()) {
+        known->second.joints = std::move(joints);
+        known->second.skeleton = std::make_shared<const Rig>(std::move(rig_));
+      }
+    }
+    return known->second;
+  }
+
+ private:
+  // None where they cannot be read.
+  std::vector<Deformation::Joint> jointsOf(std::size_t skin) {
+    const LooseJson source = document_.skins().at(skin), joints = source["joints"];
+    std::vector<Deformation::Joint> all;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const auto node = joints.at(i).index(model_.nodes.size());
+      if (!node) return {};
+      all.push_back({place(*node), Affine()});
+    }
+    if (!source["inverseBindMatrices"].exists()) return all;
+    const auto inverse = source["inverseBindMatrices"].index(model_.accessors.size());
+    if (!inverse || model_.accessors[*inverse].type != TINYGLTF_TYPE_MAT4) return {};
+    const std::vector<float> numbers = readTuples(document_, *inverse, TINYGLTF_TYPE_MAT4);
+    if (numbers.size() < 16 * all.size()) return {};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
+                               numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
+    }
+    return all;
+  }
+
+  // The node in the skeleton, to which it is added with what is above it.
+  std::uint32_t place(std::size_t index) {
+    std::vector<std::size_t> chain;
+    for (std::size_t at = index; at != kTopmost && !places_.contains(at); at = parents_[at]) {
+      if (chain.size() > kGltfDepthLimit) {
+        throwBadScene(document_.where("nodes", index),
+                      "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+      }
+      chain.push_back(at);
+    }
+    for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+      document_.budget().charge(1, 2 * sizeof(RigNode), document_.where("nodes", *at));
+      RigNode node = nodeAt_(*at);
+      if (parents_[*at] != kTopmost) node.parent = places_.at(parents_[*at]);
+      places_[*at] = static_cast<std::uint32_t>(rig_.size());
+      rig_.push_back(std::move(node));
+    }
+    return places_.at(index);
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Model& model_;
+  const std::vector<std::size_t>& parents_;  // or kTopmost
+  NodeAt nodeAt_;
+  std::map<std::size_t, std::uint32_t> places_;  // of nodes in rig_
+  Rig rig_;
+  std::map<std::size_t, GltfDeformation> skins_;
+};
+
 class TreeReader {
  public:
-  TreeReader(const GltfDocument& document, const std::vector<GltfPose>& poses)
-      : document_(document), model_(document.model()), poses_(poses), seen_(model_.nodes.size()) {}
+  TreeReader(const GltfDocument& document, const std::vector<GltfTracks>& tracks)
+      : document_(document),
+        model_(document.model()),
+        tracks_(tracks),
+        skins_(document, parents_, [this](std::size_t index) { return nodeOf(index); }),
+        seen_(model_.nodes.size()) {}
 
   GltfStage read() {
     checkTree();
-    for (const std::size_t root : roots()) visit(root, Affine(), 0);
+    for (const std::size_t root : roots()) visit(root, Affine(), kNoNode, 0);
     nameCameras();
     return std::move(stage_);
   }
@@ -111,7 +224,7 @@ class TreeReader {
     return {nodes.begin(), nodes.end()};
   }
 
-  void visit(std::size_t index, const Affine& toScene, int depth) {
+  void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, int depth) {
     if (depth > kGltfDepthLimit) {
       throwBadScene(document_.where("nodes", index),
                     "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
@@ -121,58 +234,64 @@ class TreeReader {
     }
     seen_[index] = true;
     const tinygltf::Node& node = model_.nodes[index];
-    const Affine map = toScene * mapOfNode(index);
+    RigNode own = nodeOf(index);
+    const Affine map = own.motion ? Affine() : toMover * own.toParent;
+    if (own.motion) {
+      document_.budget().charge(1, 2 * sizeof(RigNode), document_.where("nodes", index));
+      stage_.movers.push_back({mover, toMover, std::move(own.motion)});
+      mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
+    }
     if (!isUsable(map)) return warn("node that flattens space left out", index);
-    if (node.mesh >= 0) placeMesh(index, map);
-    if (node.camera >= 0) addCamera(index, map);
+    if (node.mesh >= 0) placeMesh(index, map, mover);
+    if (node.camera >= 0) addCamera(index, map, mover);
     if (const tinygltf::Value* light = findExtension(node.extensions, kLightsExtension)) {
-      addLight(index, light->Get("light").GetNumberAsInt(), map);
+      addLight(index, light->Get("light").GetNumberAsInt(), map, mover);
     }
-    for (const int child : node.children) visit(static_cast<std::size_t>(child), map, depth + 1);
+    for (const int child : node.children) {
+      visit(static_cast<std::size_t>(child), map, mover, depth + 1);
+    }
   }
 
-  // Translation * rotation * scale, or the matrix.
-  Affine mapOfNode(std::size_t index) {
+  // Within its parent: either where it stands or how it moves.
+  RigNode nodeOf(std::size_t index) {
+    const GltfTracks& tracks = tracks_[index];
+    const std::vector<double>& m = model_.nodes[index].matrix;
+    if (tracks.place()) return {kNoNode, Affine(), motionOf(placeOf(index), tracks)};
+    if (m.empty()) return {kNoNode, placeOf(index).map(), nullptr};
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+      warn("last row of a matrix, other than 0 0 0 1, left out", index);
+    }
+    return {kNoNode, mapOf(m), nullptr};
+  }
+
+  NodePlace placeOf(std::size_t index) {
     const tinygltf::Node& node = model_.nodes[index];
-    const std::vector<double>& m = node.matrix;
-    const GltfPose& pose = poses_[index];
-    const bool posed = !pose.translation.empty() || !pose.rotation.empty() || !pose.scale.empty();
-    if (!m.empty() && !posed) {
-      if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-        warn("last row of a matrix, other than 0 0 0 1, left out", index);
-      }
-      return mapOf(m);
-    }
-    const auto either = [](const std::vector<double>& moved,
-                           const std::vector<double>& own) -> const std::vector<double>& {
-      return moved.empty() ? own : moved;
-    };
-    const std::vector<double>& turn = either(pose.rotation, node.rotation);
     Quaternion rotation{0, 0, 0, 1};
-    std::copy(turn.begin(), turn.end(), rotation.begin());
-    return composed(tripleOr(either(pose.translation, node.translation), {}), rotation,
-                    tripleOr(either(pose.scale, node.scale), {1, 1, 1}), index);
+    std::copy(node.rotation.begin(), node.rotation.end(), rotation.begin());
+    return checked({tripleOr(node.translation, {}), rotation, tripleOr(node.scale, {1, 1, 1})},
+                   index);
   }
 
-  Affine composed(const Vec3d& translation, const Quaternion& rotation, const Vec3d& scale,
-                  std::size_t index) {
-    if (!hasUnitLength(rotation)) warn("rotation that is not of unit length normalized", index);
-    return Affine::translation(translation) * rotationOf(rotation) * Affine::scaling(scale);
+  NodePlace checked(const NodePlace& place, std::size_t index) {
+    if (!hasUnitLength(place.rotation)) {
+      warn("rotation that is not of unit length normalized", index);
+    }
+    return place;
   }
 
-  void placeMesh(std::size_t index, const Affine& map) {
+  void placeMesh(std::size_t index, const Affine& map, std::uint32_t mover) {
     const tinygltf::Node& node = model_.nodes[index];
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const GltfDeformation deformation = deformationOf(index);
-    if (!deformation.joints.empty()) {
-      return stage_.meshes.push_back({mesh, Affine(), deformation});
+    if (deformation.skeleton) {
+      return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation});
     }
     const tinygltf::Value* copies = findExtension(node.extensions, kInstancesExtension);
-    if (!copies) return stage_.meshes.push_back({mesh, map, deformation});
+    if (!copies) return stage_.meshes.push_back({mesh, map, mover, deformation});
     for (const Affine& copy : readCopies(copies->Get("attributes"), index)) {
-      const Affine toScene = map * copy;
-      if (isUsable(toScene)) {
-        stage_.meshes.push_back({mesh, toScene, deformation});
+      const Affine toMover = map * copy;
+      if (isUsable(toMover)) {
+        stage_.meshes.push_back({mesh, toMover, mover, deformation});
       } else {
         warn("copy of a mesh that is flattened left out", index);
       }
@@ -182,57 +301,20 @@ class TreeReader {
   GltfDeformation deformationOf(std::size_t index) {
     const tinygltf::Node& node = model_.nodes[index];
     GltfDeformation deformation;
-    deformation.weights = !poses_[index].weights.empty() ? poses_[index].weights
-                          : !node.weights.empty()
+    if (node.skin >= 0) {
+      const auto skin = static_cast<std::size_t>(node.skin);
+      deformation = skins_.read(skin);
+      document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
+                                document_.where("skins", skin));
+      if (!deformation.skeleton) {
+        warn("skin that cannot be read: its mesh is shown as it was modelled", index);
+      }
+    }
+    deformation.weights = !node.weights.empty()
                               ? node.weights
                               : model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
-    if (node.skin < 0) return deformation;
-    const auto skin = static_cast<std::size_t>(node.skin);
-    const auto [known, isNew] = joints_.try_emplace(skin);
-    if (isNew) known->second = jointsOf(skin, index);
-    document_.budget().charge(known->second.size(), sizeof(Affine), document_.where("skins", skin));
-    deformation.joints = known->second;
+    deformation.movingWeights = tracks_[index].weights;
     return deformation;
-  }
-
-  // None where the skin cannot be read.
-  std::vector<Affine> jointsOf(std::size_t skin, std::size_t index) {
-    const LooseJson source = document_.skins().at(skin), joints = source["joints"];
-    const auto broken = [&] {
-      warn("skin that cannot be read: its mesh is shown as it was modelled", index);
-      return std::vector<Affine>();
-    };
-    std::vector<Affine> maps;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      const auto node = joints.at(i).index(model_.nodes.size());
-      if (!node) return broken();
-      maps.push_back(globalOf(*node));
-    }
-    if (maps.empty()) return broken();
-    if (!source["inverseBindMatrices"].exists()) return maps;
-    const auto inverse = source["inverseBindMatrices"].index(model_.accessors.size());
-    if (!inverse || model_.accessors[*inverse].type != TINYGLTF_TYPE_MAT4) return broken();
-    const std::vector<float> numbers = readTuples(document_, *inverse, TINYGLTF_TYPE_MAT4);
-    if (numbers.size() < 16 * maps.size()) return broken();
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      maps[i] = maps[i] * mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
-                                 numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
-    }
-    return maps;
-  }
-
-  // Of a joint, which may come later in the tree than the mesh it holds.
-  Affine globalOf(std::size_t index) {
-    Affine map = mapOfNode(index);
-    int depth = 0;
-    for (std::size_t at = parents_[index]; at != kTopmost; at = parents_[at]) {
-      if (++depth > kGltfDepthLimit) {
-        throwBadScene(document_.where("nodes", index),
-                      "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
-      }
-      map = mapOfNode(at) * map;
-    }
-    return map;
   }
 
   // EXT_mesh_gpu_instancing: where they stand within the node.
@@ -254,14 +336,15 @@ class TreeReader {
     document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance), where);
     std::vector<Affine> copies;
     for (std::size_t i = 0; i < count; ++i) {
-      copies.push_back(composed(translations.empty() ? Vec3d() : Vec3d(translations[i]),
-                                rotations.empty() ? Quaternion{0, 0, 0, 1} : rotations[i],
-                                scales.empty() ? Vec3d(1.0) : Vec3d(scales[i]), index));
+      const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]),
+                            rotations.empty() ? Quaternion{0, 0, 0, 1} : rotations[i],
+                            scales.empty() ? Vec3d(1.0) : Vec3d(scales[i])};
+      copies.push_back(checked(place, index).map());
     }
     return copies;
   }
 
-  void addCamera(std::size_t index, const Affine& map) {
+  void addCamera(std::size_t index, const Affine& map, std::uint32_t mover) {
     const tinygltf::Node& node = model_.nodes[index];
     const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
     const double fov = source.perspective.yfov * 180 / std::numbers::pi;
@@ -286,9 +369,10 @@ class TreeReader {
       stage_.aspect = orthographic ? xmag / ymag : source.perspective.aspectRatio;
     }
     stage_.cameras.push_back(camera);
+    stage_.cameraMovers.push_back(mover);
   }
 
-  void addLight(std::size_t index, int number, const Affine& map) {
+  void addLight(std::size_t index, int number, const Affine& map, std::uint32_t mover) {
     const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(number)];
     Light light;
     light.name = source.name.empty() ? model_.nodes[index].name : source.name;
@@ -309,6 +393,7 @@ class TreeReader {
     light.direction = Vec3f(-normalized(map.z));
     light.intensity = Rgb(color * (source.intensity / kLumensPerWatt));
     stage_.lights.push_back(light);
+    stage_.lightMovers.push_back(mover);
   }
 
   // A camera is chosen by its name.
@@ -335,9 +420,9 @@ class TreeReader {
 
   const GltfDocument& document_;
   const tinygltf::Model& model_;
-  const std::vector<GltfPose>& poses_;
-  std::vector<std::size_t> parents_;                   // or kTopmost
-  std::map<std::size_t, std::vector<Affine>> joints_;  // of skins
+  const std::vector<GltfTracks>& tracks_;
+  std::vector<std::size_t> parents_;  // or kTopmost
+  SkinReader skins_;
   std::vector<bool> seen_;
   std::vector<std::size_t> topmost_;
   GltfStage stage_;
@@ -345,8 +430,8 @@ class TreeReader {
 
 }  // namespace
 
-GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfPose>& poses) {
-  return TreeReader(document, poses).read();
+GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks) {
+  return TreeReader(document, tracks).read();
 }
 
 }  // namespace whit

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/affine.h"
@@ -11,6 +12,7 @@
 #include "io/gltf_document.h"
 #include "scene/camera.h"
 #include "scene/light.h"
+#include "scene/rig.h"
 
 namespace whit {
 
@@ -21,24 +23,30 @@ inline constexpr int kGltfDepthLimit = 256;
 // lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
 
+// What a mesh, a camera or a light is carried by: nodes that move, a parent before its children.
+// They refer to it by index, kNoNode standing for the scene.
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
-  Affine toScene;  // of a skinned mesh the identity: its joints place it
+  Affine toMover;  // of a skinned mesh the identity: its joints place it
+  std::uint32_t mover = kNoNode;
   GltfDeformation deformation;
 };
 
 struct GltfStage {
+  Rig movers;
   std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
   std::vector<Camera> cameras;
+  std::vector<std::uint32_t> cameraMovers;
   double aspect = 0;  // of the first camera; 0: none is given
   std::vector<Light> lights;
+  std::vector<std::uint32_t> lightMovers;
 };
 
 // Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
 // what they hold; the ranges of lights are left out; rotations are normalized; skins that cannot
 // be read are not applied: each is counted in the document's warnings. Cameras have names of their
-// own. `poses`, one a node, go before what nodes say themselves. Throws badScene "file#/nodes/i"
+// own. `tracks`, one a node, go before what nodes say themselves. Throws badScene "file#/nodes/i"
 // where the nodes are no tree or deeper than kGltfDepthLimit.
-GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfPose>& poses);
+GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks);
 
 }  // namespace whit

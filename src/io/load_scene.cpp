@@ -78,6 +78,7 @@ void settleInstant(const Instant& instant, SceneDescription& scene) {
     throwUsage(scene.name + " has no animation \"" + instant.animation + "\"" +
                (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
   }
+  scene.motion.seconds = instant.seconds.value_or(0);
   if (!instant.seconds) return;
   if (scene.cameraPath.empty() && names.empty()) {
     throwUsage("--time: nothing moves in " + scene.name);
@@ -114,8 +115,8 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   file.need("whit").integer(kSchemaVersion, kSchemaVersion);
   readParameters(file, name.parameters, document);
   SceneContext context(path, options, warnings, progress);
-  readCameras(file, context.scene);
-  readLights(file, context.scene);
+  readCameras(file, options.instant, context.scene);
+  readLights(file, options.instant, context.scene);
   readSky(file, context);
   const std::optional<double> fromSky = readAmbient(file, context.scene);
   replaceSky(context);
@@ -140,7 +141,7 @@ std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
   for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
   JsonObject view{JsonValue(document)};
   context.scene.lights.clear();
-  readLights(view, context.scene);
+  readLights(view, {}, context.scene);
   readSky(view, context);
   const std::optional<double> fromSky = readAmbient(view, context.scene);
   view.finish();
@@ -176,7 +177,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   MaterialReader materials(noMaterials, context);
   ItemReader(context, materials).readModelAlone(file, path);
   settleInstant(options.instant, context.scene);
-  if (options.instant.seconds) {
+  if (options.instant.moves()) {
     supplyView(context, atRest(path, options));
   } else {
     supplyView(context, context.scene);

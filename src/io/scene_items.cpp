@@ -12,6 +12,7 @@
 #include "core/nearest_name.h"
 #include "io/distinct_names.h"
 #include "io/json_reader.h"
+#include "io/read_motion.h"
 #include "io/shape_parameters.h"
 #include "scene/generation_limit.h"
 
@@ -202,9 +203,19 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     item.finish();
     value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
   }
-  const std::vector<Affine> placements = readPlacements(item);
+  std::vector<Affine> placements = readPlacements(item);
+  const Motion motion = readMotion(item, context_.scene);
   item.finish();
-  layout_.append(content, placements, to);
+  if (motion && context_.instant.moves()) {
+    const std::uint32_t carried = layout_.add("");
+    layout_.append(content, placements, layout_.body(carried));
+    to.children.push_back({carried, Affine(), to.parts.size(), motion});
+  } else {
+    if (motion) {
+      for (Affine& placement : placements) placement = motion(0) * placement;
+    }
+    layout_.append(content, placements, to);
+  }
   --depth_;
 }
 

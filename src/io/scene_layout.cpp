@@ -71,7 +71,8 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
       to.parts.push_back({part.mesh, placement * part.toBody, part.mingles});
     }
     for (const Placement& child : from.children) {
-      to.children.push_back({child.body, placement * child.toParent, before + child.partsBefore});
+      to.children.push_back(
+          {child.body, placement * child.toParent, before + child.partsBefore, child.motion});
     }
   }
 }
@@ -94,7 +95,7 @@ void SceneLayout::moveTo(SceneDescription& scene) {
     sizes_[body] = bodies_[body].parts.size();
     for (const Placement& child : bodies_[body].children) sizes_[body] += sizes_[child.body];
   }
-  place(0, Affine(), 0, scene);
+  place(0, Affine(), kNoNode, 0, scene);
 }
 
 // Counted from the body's own; one that mingles with the part before shares its rank.
@@ -127,7 +128,7 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, std::uint64_t ran
     Mesh mesh = take(part, body.name);
     if (!part.mingles) {
       scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                                 toWorld * part.toBody, rank + ranks[i]});
+                                 toWorld * part.toBody, rank + ranks[i], kNoNode});
       scene.objects.push_back({mesh.name, {}});
     }
     scene.objects.back().meshes.push_back(std::move(mesh));
@@ -148,17 +149,26 @@ void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
   scene.objects.push_back(std::move(object));
 }
 
-void SceneLayout::place(std::uint32_t index, const Affine& toWorld, std::uint64_t rank,
-                        SceneDescription& scene) {
+void SceneLayout::place(std::uint32_t index, const Affine& toMover, std::uint32_t mover,
+                        std::uint64_t rank, SceneDescription& scene) {
   Body& body = bodies_[index];
-  if (counts_[index] == 1) {
-    placeOnce(body, toWorld, rank, scene);
+  if (counts_[index] == 1 && mover == kNoNode) {
+    placeOnce(body, toMover, rank, scene);
   } else if (!body.parts.empty()) {
     if (objects_[index] == kNoObject) addObject(index, scene);
-    scene.instances.push_back({objects_[index], toWorld, rank});
+    scene.instances.push_back({objects_[index], toMover, rank, mover});
   }
   for (const Placement& child : body.children) {
-    place(child.body, toWorld * child.toParent, rank + child.partsBefore, scene);
+    const Affine toChild = toMover * child.toParent;
+    const std::uint64_t childRank = rank + child.partsBefore;
+    if (child.motion) {
+      const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
+      budget_.charge(1, sizeof(RigNode), "what moves");
+      scene.motion.rig.push_back({mover, toChild, child.motion});
+      place(child.body, Affine(), node, childRank, scene);
+    } else {
+      place(child.body, toChild, mover, childRank, scene);
+    }
     rank += sizes_[child.body];
   }
 }

@@ -29,6 +29,7 @@ struct Placement {
   std::uint32_t body = 0;
   Affine toParent;
   std::size_t partsBefore = 0;  // of the parent's parts so many come before it
+  Motion motion = nullptr;      // within the place that toParent gives it
 };
 
 struct Body {
@@ -49,16 +50,18 @@ class SceneLayout {
   // Adds `count` copies of what `from` holds to `to`, moved by `placements`.
   void append(const Body& from, const std::vector<Affine>& placements, Body& to);
 
-  // Fills in objects and instances. A body that is placed once adds its meshes to the world one by
-  // one, each with its own map, so that vertices are rounded once; one that is placed more often
-  // becomes an object with an instance for each place. Leaves the layout without its meshes.
+  // Fills in objects, instances and the rig that carries those. A body that is placed once and
+  // stands still adds its meshes to the world one by one, each with its own map, so that vertices
+  // are rounded once; one that moves or is placed more often becomes an object with an instance for
+  // each place. Leaves the layout without its meshes.
   // Ranks follow the file: a part or child after the other, a child's own where it stands.
   // Throws Error(limit) where bodies are nested deeper than kNestingLimit.
   void moveTo(SceneDescription& scene);
 
  private:
   std::vector<std::uint64_t> ranksOfParts(const Body& body) const;
-  void place(std::uint32_t index, const Affine& toWorld, std::uint64_t rank,
+  // `toMover`: to the space of the rig's node that carries it, or to the world.
+  void place(std::uint32_t index, const Affine& toMover, std::uint32_t mover, std::uint64_t rank,
              SceneDescription& scene);
   void placeOnce(Body& body, const Affine& toWorld, std::uint64_t rank, SceneDescription& scene);
   void addObject(std::uint32_t index, SceneDescription& scene);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/options.h"
+#include "io/read_motion.h"
 #include "scene/studio_sky.h"
 
 namespace whit {
@@ -23,6 +24,35 @@ void readCamera(JsonObject& object, Camera& camera) {
   const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
   constexpr double kLeastSine = 1e-6;
   if (!(length(right) > kLeastSine)) object.value().fail("an up that is not along the view");
+}
+
+// The node that carries something from now on.
+std::uint32_t addMover(const Motion& motion, SceneDescription& scene) {
+  scene.motion.rig.push_back({kNoNode, Affine(), motion});
+  return static_cast<std::uint32_t>(scene.motion.rig.size() - 1);
+}
+
+void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
+                  Camera& camera) {
+  const Motion motion = readMotion(object, scene);
+  if (!motion) return;
+  const Camera own = camera;
+  carry(own, motion(0), camera);
+  if (!instant.moves()) return;
+  const auto index = static_cast<std::uint32_t>(scene.cameras.size());
+  scene.motion.cameras.push_back({index, addMover(motion, scene), own});
+}
+
+void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
+                  Light& light) {
+  const Motion motion = readMotion(object, scene);
+  if (!motion) return;
+  const auto index = static_cast<std::uint32_t>(scene.lights.size());
+  const MovingLight moving{index, kNoNode, light.position, light.direction};
+  carry(moving, motion(0), light);
+  if (!instant.moves()) return;
+  scene.motion.lights.push_back(moving);
+  scene.motion.lights.back().node = addMover(motion, scene);
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {
@@ -71,7 +101,7 @@ void readCone(JsonObject& object, Light& light) {
 
 }  // namespace
 
-void readCameras(JsonObject& file, SceneDescription& scene) {
+void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene) {
   if (const auto size = file.find("size")) {
     const auto sides = size->elements(2, "[width, height]");
     scene.width = sides[0].integer(1, kImageSideLimit);
@@ -85,6 +115,7 @@ void readCameras(JsonObject& file, SceneDescription& scene) {
       Camera camera;
       camera.name = name;
       readCamera(object, camera);
+      readMotionOf(object, instant, scene, camera);
       object.finish();
       scene.cameras.push_back(camera);
     }
@@ -92,7 +123,7 @@ void readCameras(JsonObject& file, SceneDescription& scene) {
   readPath(file, scene);
 }
 
-void readLights(JsonObject& file, SceneDescription& scene) {
+void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene) {
   const auto lights = file.find("lights");
   if (!lights) return;
   for (const JsonValue& value : lights->elements()) {
@@ -111,6 +142,7 @@ void readLights(JsonObject& file, SceneDescription& scene) {
       light.radius = object.number("radius", light.radius, kLeastRadius);
       if (kind == "spot") readCone(object, light);
     }
+    readMotionOf(object, instant, scene, light);
     object.finish();
     scene.lights.push_back(light);
   }

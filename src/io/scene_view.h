@@ -10,13 +10,13 @@ namespace whit {
 
 // "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
 // degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
-void readCameras(JsonObject& file, SceneDescription& scene);
+void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
 // "lights": of each, "type" is "point" (default), "spot" or "directional", "name" is free. Point
 // and spot lights have "position", "intensity" (W/sr) and "radius"; spot lights also "direction"
 // and, half angles in degrees, "innerConeAngle" (0) and "outerConeAngle" (45), between which they
 // fall off. Directional lights have "direction" and "irradiance" (W/m^2 on a surface that faces
 // them).
-void readLights(JsonObject& file, SceneDescription& scene);
+void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
 // "sky"; its image is there after context.textures.finish().
 void readSky(JsonObject& file, SceneContext& context);
 // "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image

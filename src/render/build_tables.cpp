@@ -99,6 +99,7 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
 }
 
 void addInstances(const Scene& scene, ShadingTables& tables) {
+  tables.instances.clear();
   for (const InstanceRecord& instance : scene.instances) {
     InstanceTransform t{};
     const Affine& m = instance.toWorld;
@@ -164,6 +165,8 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   tables.ambient = scene.ambient;
   return tables;
 }
+
+void refreshInstances(const Scene& scene, ShadingTables& tables) { addInstances(scene, tables); }
 
 void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
                     int threads, ShadingTables& tables) {

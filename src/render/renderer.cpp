@@ -63,11 +63,25 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   plan_ = makePlan(scene, options);
   const int threads = scheduler_.threads();
   accel_.emplace(scene, accelOptions(options, plan_.effects, threads), progress);
-  enclosed_ = options.robust && options.retry && isEnclosed(scene, *accel_);
-  dielectrics_ = dielectricBounds(scene);
+  lookAround();
   tables_ = buildTables(scene, plan_.effects, options.shading, threads);
   machine_ = {simd::chosenTarget(), accel_->description(), accel_->packet(), threads};
   buildMs_ = stopwatch.ms();
+}
+
+// What follows from where everything is.
+void Renderer::lookAround() {
+  accel_->setEnclosed(false);
+  lookedFrom_.reset();
+  enclosed_ = options_.robust && options_.retry && isEnclosed(scene_, *accel_);
+  dielectrics_ = dielectricBounds(scene_);
+}
+
+void Renderer::sceneMoved() {
+  accel_->sceneMoved();
+  lookAround();
+  refreshInstances(scene_, tables_);
+  shadingChanged();
 }
 
 std::uint64_t Renderer::memoryBytes() const {

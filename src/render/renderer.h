@@ -66,6 +66,10 @@ class Renderer {
   // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
   void shadingChanged();
 
+  // For frames to come, after moveScene(). What stands still keeps its acceleration structure. Not
+  // while rendering.
+  void sceneMoved();
+
   // More frames of this scene are to come: shadows may have verdicts from now on (--verdicts), in
   // tables of no more than so many bytes. Not while rendering.
   void expectFrames(std::uint64_t mostBytes);
@@ -98,6 +102,7 @@ class Renderer {
   void replan(Plan next);
   bool wantsVerdicts(const RenderOptions& options) const;
   void renewVerdicts();
+  void lookAround();
 
   const Scene& scene_;
   RenderOptions options_;

@@ -27,7 +27,8 @@ void Renderer::replan(Plan next) {
 }
 
 bool Renderer::wantsVerdicts(const RenderOptions& options) const {
-  return verdictBytes_ > 0 && options.verdicts != Verdicts::off;
+  const bool standsStill = scene_.motion.empty();  // else what casts shadows may be elsewhere
+  return standsStill && verdictBytes_ > 0 && options.verdicts != Verdicts::off;
 }
 
 void Renderer::expectFrames(std::uint64_t mostBytes) {

@@ -7,6 +7,9 @@
 
 namespace whit {
 
+// The name of what scene files move themselves ("motion"), taken together.
+inline constexpr char kSceneMotion[] = "scene";
+
 // One that a model's file has. It lasts from 0 to `seconds`; before and after it stands still.
 struct Animation {
   std::string name;       // the file's, or "animation N", counted from 0
@@ -15,10 +18,15 @@ struct Animation {
 };
 
 struct Instant {
-  // Not given: everything is where its file has it without animations.
+  // Not given: everything is where its file has it without animations, and what scene files move is
+  // where it is at 0.
   std::optional<double> seconds;
   // By its name; empty: the first one of each model.
   std::string animation;
+  // The scene is to be moved (scene/move_scene.h), whatever the seconds.
+  bool plays = false;
+
+  bool moves() const { return plays || seconds; }
 };
 
 }  // namespace whit

@@ -61,7 +61,13 @@ class Baker {
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
     scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
     for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
-    boundInstances(scene_, boxes_, warnings_);
+    if (scene_.motion.empty()) {
+      boundInstances(scene_, boxes_, warnings_);
+    } else {
+      scene_.motion.instances = scene_.instances;
+      countInstanced(scene_);
+      scene_.motion.boxes = std::move(boxes_);
+    }
     return std::move(order_);
   }
 
@@ -92,15 +98,26 @@ class Baker {
   bool isSearched_ = false;  // for flush triangles
 };
 
-// Which mesh goes where: those of objects used once into geometry 0, others into one of their own.
+bool bends(const Object& object) {
+  return std::any_of(object.meshes.begin(), object.meshes.end(),
+                     [](const Mesh& mesh) { return mesh.deformation != nullptr; });
+}
+
+// Which mesh goes where: those of objects used once that stand still into geometry 0, others into
+// one of their own.
 void Baker::plan() {
   std::vector<Object>& objects = description_.objects;
   std::vector<std::uint64_t> uses(objects.size());
-  for (const Instance& instance : description_.instances) ++uses[instance.object];
+  std::vector<bool> moves(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
+  for (const Instance& instance : description_.instances) {
+    ++uses[instance.object];
+    if (instance.mover != kNoNode) moves[instance.object] = true;
+  }
   std::vector<std::uint32_t> geometryOf(objects.size());
   std::uint32_t geometries = 1;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (uses[i] > 1) geometryOf[i] = geometries++;
+    if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
     if (uses[i] == 0) objects[i] = {};
   }
   sources_.resize(geometries);
@@ -112,7 +129,9 @@ void Baker::plan() {
     const std::uint32_t g = geometryOf[instance.object];
     const bool inWorld = g == 0;
     order_.instances.push_back(instance.rank);
-    if (!inWorld) scene_.instances.push_back({g, i, instance.toWorld});
+    if (!inWorld) {
+      scene_.instances.push_back({g, i, instance.toWorld, instance.mover, instance.toWorld});
+    }
     if (!inWorld && !sources_[g].empty()) continue;
     for (Mesh& mesh : objects[instance.object].meshes) {
       Source source;
@@ -196,7 +215,7 @@ void Baker::placeSpheres(const Source& source, std::size_t g) {
 }
 
 // Of triangles in the same place the last in the scene stays, which is the one that would be met.
-// Not of glass: two faces there are two boundaries.
+// Not of glass: two faces there are two boundaries; nor of what bends: they may part.
 void Baker::dropCoincident(std::size_t g) {
   const std::vector<Vec3f>& position = scene_.geometries[g].position;
   struct Place {
@@ -205,6 +224,7 @@ void Baker::dropCoincident(std::size_t g) {
   std::vector<Place> places;  // from the last on
   for (const std::uint32_t s : fromTheLast(g)) {
     const Source& source = sources_[g][s];
+    if (source.mesh->deformation) continue;
     for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
       if (source.classified.has(i, kDroppedClass)) continue;
       if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
@@ -284,6 +304,11 @@ void Baker::emit(std::size_t g) {
   Geometry& geometry = scene_.geometries[g];
   geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
   geometry.index.reserve(geometry.classBegin.back());
+  for (const Source& source : sources_[g]) {
+    if (!source.mesh->deformation) continue;
+    scene_.motion.bent.push_back(
+        {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
+  }
   for (std::size_t c = 0; c < kTriangleClasses; ++c) {
     for (Source& source : sources_[g]) {
       auto& count = source.classified.count;

@@ -10,9 +10,10 @@ struct Dropped {
 
 bool isUsable(const Vec3f& p) { return isFinite(p) && maxComponent(abs(p)) <= kLargestCoordinate; }
 
-// Whether the triangle is to be dropped, which is then counted.
+// Whether the triangle is to be dropped, which is then counted. One that bends may have an area at
+// another time.
 bool drop(const std::array<std::uint32_t, 3>& corners, const Vec3f* position, std::size_t vertices,
-          std::size_t triangle, Dropped& dropped) {
+          std::size_t triangle, bool bends, Dropped& dropped) {
   const auto& [i, j, k] = corners;
   if (i >= vertices || j >= vertices || k >= vertices) {
     dropped.badIndex.add(triangle);
@@ -23,7 +24,7 @@ bool drop(const std::array<std::uint32_t, 3>& corners, const Vec3f* position, st
     dropped.badCorner.add(triangle);
     return true;
   }
-  if (areaVector(a, b, c) == Vec3d{}) {
+  if (!bends && areaVector(a, b, c) == Vec3d{}) {
     dropped.degenerate.add(triangle);
     return true;
   }
@@ -39,7 +40,8 @@ TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position
   TriangleClassification result;
   result.classes.resize(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const bool out = drop(mesh.triangles[i], position, vertices, i, dropped);
+    const bool out =
+        drop(mesh.triangles[i], position, vertices, i, mesh.deformation != nullptr, dropped);
     result.classes[i] = out ? kDroppedClass : uses[mesh.material(i)].triangleClass;
     ++result.count[result.classes[i]];
   }

@@ -120,11 +120,12 @@ void Gatherer::geometry() {
       "no vertex normal differs from its triangle's");
   set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
       "no vertex has a color");
-  set(Effect::spheres, scene_.instancedSpheres > 0, counted(scene_.instancedSpheres, "sphere"),
-      "nothing is a sphere but by its triangles");
-  set(Effect::instances, !scene_.instances.empty(),
-      counted(scene_.instances.size(), "instance") + " of " +
-          counted(scene_.geometries.size() - 1, "object"),
+  set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
+      counted(scene_.instancedSpheres, "sphere"), "nothing is a sphere but by its triangles");
+  const std::size_t instances =
+      scene_.motion.empty() ? scene_.instances.size() : scene_.motion.instances.size();
+  set(Effect::instances, instances > 0,
+      counted(instances, "instance") + " of " + counted(scene_.geometries.size() - 1, "object"),
       "no object is used more than once");
 }
 
@@ -173,6 +174,11 @@ std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene) {
 
 bool hasSmoothNormals(const Scene& scene) {
   if (scene.normals.empty()) return false;
+  const auto& bent = scene.motion.bent;
+  if (std::any_of(bent.begin(), bent.end(),
+                  [](const BentVertices& b) { return !b.deformation->normals.empty(); })) {
+    return true;
+  }
   for (std::uint32_t i = 0; i < scene.firstSphere; ++i) {
     const Vec3d face = faceNormal(scene.triangles[i]);
     const float* n = scene.normals[i].normal;

@@ -4,6 +4,7 @@
 
 #include "core/usable_threads.h"
 #include "scene/finalize_steps.h"
+#include "scene/move_scene.h"
 
 namespace whit {
 
@@ -71,17 +72,24 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.ambient = d.ambient;
   scene.materials = std::move(d.materials);
   scene.textures = std::move(d.textures);
-  const SceneOrder order = bakeGeometry(d, scene, warnings, progress);
+  scene.motion.given = std::move(d.motion);
+  SceneOrder order = bakeGeometry(d, scene, warnings, progress);
   if (!hasSmoothNormals(scene)) scene.normals = {};
   if (!hasVertexColors(scene)) scene.colors = {};
   numberMedia(scene);
+  gatherEffects(scene);
+  if (scene.motion.empty()) {
+    scene.flush = findFlushTriangles(scene, usableThreads());
+    scene.flush.rankBy(scene, order);
+  } else {
+    scene.motion.order = std::move(order);
+    moveScene(scene, 0);
+  }
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
                                                      : scene.cameraPath.front().camera);
   }
-  gatherEffects(scene);
-  scene.flush = findFlushTriangles(scene, usableThreads());
-  scene.flush.rankBy(scene, order);
+  if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds);
   return scene;
 }
 

@@ -42,16 +42,20 @@ void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warni
   });
   warnings.add("instance too small or too flat to be traced left out", scene.name, lost);
   Box box = boxes[0];
+  for (const InstanceRecord& instance : scene.instances) addInstance(instance, boxes, box);
+  countInstanced(scene);
+  if (scene.instancedTriangles + scene.instancedSpheres == 0) return;
+  scene.lower = box.lower;
+  scene.upper = box.upper;
+}
+
+void countInstanced(Scene& scene) {
   scene.instancedTriangles = scene.geometries[0].index.size();
   scene.instancedSpheres = scene.geometries[0].spheres;
   for (const InstanceRecord& instance : scene.instances) {
     scene.instancedTriangles += scene.geometries[instance.geometry].index.size();
     scene.instancedSpheres += scene.geometries[instance.geometry].spheres;
-    addInstance(instance, boxes, box);
   }
-  if (scene.instancedTriangles + scene.instancedSpheres == 0) return;
-  scene.lower = box.lower;
-  scene.upper = box.upper;
 }
 
 float instanceReach(const Affine& toWorld) {

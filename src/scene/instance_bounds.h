@@ -13,6 +13,9 @@ namespace whit {
 // range of coordinates. Throws Error(badScene) for one that is too far away.
 void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings);
 
+// Triangles and spheres as seen.
+void countInstanced(Scene& scene);
+
 // The largest coordinate with which a ray may start (its direction's length at most 1) so that in
 // the instance's own space it stays within kLargestCoordinate, beyond which Embree takes no rays;
 // 0 where the inverse of the map has no floats. Embree inverts it as adjoint over determinant, in

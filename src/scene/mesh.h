@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/affine.h"
 #include "core/vec3.h"
+#include "scene/deformation.h"
 
 namespace whit {
 
@@ -23,6 +25,8 @@ struct Mesh {
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
   Affine fromModel;  // what transform() has applied so far
+  // Not none: it bends while the scene moves, and has the vertices of its start here.
+  std::shared_ptr<const Deformation> deformation;
 
   // Where it stands in the order of the scene, counted from Instance::rank.
   std::uint64_t rank = 0;
@@ -35,8 +39,8 @@ struct Mesh {
   }
 };
 
-// Meshes that move together. An object that is used once is baked into the world; one that is used
-// more often is kept once and instanced.
+// Meshes that move together. An object that is used once, stands still and does not bend is baked
+// into the world; all others are kept once and instanced.
 struct Object {
   std::string name;
   std::vector<Mesh> meshes;
@@ -47,8 +51,9 @@ struct Object {
 // triangles in theirs.
 struct Instance {
   std::uint32_t object = 0;
-  Affine toWorld;
+  Affine toWorld;  // where something carries it: to the space of that
   std::uint64_t rank = 0;
+  std::uint32_t mover = kNoNode;  // what carries it, a node of SceneMotion::rig
 };
 
 // Applies `map` to positions, normals (rounded once) and spheres, flips the winding if it mirrors.

@@ -18,6 +18,7 @@
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
+#include "scene/scene_motion.h"
 #include "scene/texture.h"
 
 namespace whit {
@@ -40,6 +41,7 @@ struct SceneDescription {
   std::vector<Texture> textures;
   std::vector<Object> objects;
   std::vector<Instance> instances;
+  SceneMotion motion;  // given where the scene is to move
 };
 
 // Triangles of one class lie together and become one Embree geometry, whose id is the class: bit 0
@@ -85,12 +87,6 @@ struct Geometry {
   std::array<std::uint32_t, kTriangleClasses + 1> classBegin{};
   std::uint32_t firstTriangle = 0;
   std::uint32_t firstSphere = 0, spheres = 0;  // in Scene::triangles too
-};
-
-struct InstanceRecord {
-  std::uint32_t geometry = 0;  // index into Scene::geometries, never 0
-  std::uint32_t written = 0;   // index into SceneDescription::instances
-  Affine toWorld;
 };
 
 // A dielectric that some triangle bounds. Number 0 is the vacuum around everything (ior 1).
@@ -146,6 +142,7 @@ class Scene {
   std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
 
   FlushTriangles flush;  // that share their place with others
+  BakedMotion motion;    // see scene/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -1,0 +1,131 @@
+#include "io/read_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "scene/track.h"
+
+namespace whit {
+
+namespace {
+
+constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
+
+// What a key sets, one after the other: three of translation, the degrees, three of scale.
+constexpr std::size_t kKeyNumbers = 7;
+
+class KeyReader {
+ public:
+  void read(const JsonValue& value) {
+    JsonObject key(value);
+    const JsonValue time = key.need("time");
+    if (!times.empty() && !(time.number() > times.back())) {
+      time.fail("a time after that of the key before");
+    }
+    times.push_back(time.number());
+    const auto translate = key.find("translate");
+    add(translate ? translate->vector() : Vec3d());
+    const auto rotate = key.find("rotate");
+    values.push_back(rotate ? readDegrees(*rotate) : 0);
+    const auto scale = key.find("scale");
+    add(scale ? readScale(*scale) : Vec3d(1.0));
+    key.finish();
+  }
+
+  std::vector<double> times, values;
+  Vec3d axis;  // none: nothing is turned
+
+ private:
+  void add(const Vec3d& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+
+  static Vec3d readScale(const JsonValue& value) {
+    const Vec3d scale = value.isNumber() ? Vec3d(value.number()) : value.vector();
+    for (const double s : {scale.x, scale.y, scale.z}) {
+      if (!(s >= kLeastScale && s <= kLargestScale)) value.fail("a scale above 0");
+    }
+    return scale;
+  }
+
+  double readDegrees(const JsonValue& value) {
+    const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
+    const Vec3d about{e[0].number(), e[1].number(), e[2].number()};
+    if (about == Vec3d()) value.fail("an axis other than 0");
+    if (axis == Vec3d()) axis = about;
+    if (!(axis == about)) value.fail("the axis of the keys before: groups turn about several");
+    return e[3].number();
+  }
+};
+
+// Along the line between the neighbors; at the ends along that to the only one.
+void addTangents(Track& track) {
+  const std::size_t keys = track.times.size();
+  std::vector<double> all;
+  for (std::size_t i = 0; i < keys; ++i) {
+    const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, keys - 1);
+    std::vector<double> tangent(kKeyNumbers);
+    for (std::size_t k = 0; b > a && k < kKeyNumbers; ++k) {
+      tangent[k] = (track.values[b * kKeyNumbers + k] - track.values[a * kKeyNumbers + k]) /
+                   (track.times[b] - track.times[a]);
+    }
+    all.insert(all.end(), tangent.begin(), tangent.end());
+    const auto value = track.values.begin() + static_cast<std::ptrdiff_t>(i * kKeyNumbers);
+    all.insert(all.end(), value, value + kKeyNumbers);
+    all.insert(all.end(), tangent.begin(), tangent.end());
+  }
+  track.values = std::move(all);
+}
+
+Track::Interpolation readInterpolation(JsonObject& motion) {
+  const auto value = motion.find("interpolation");
+  const std::string word = value ? value->word({"linear", "step", "cubic"}) : "linear";
+  if (word == "step") return Track::Interpolation::step;
+  return word == "cubic" ? Track::Interpolation::cubic : Track::Interpolation::linear;
+}
+
+double looped(double seconds, double first, double last) {
+  const double period = last - first;
+  if (!(period > 0)) return first;
+  const double within = std::fmod(seconds - first, period);
+  return first + (within < 0 ? within + period : within);
+}
+
+void count(double seconds, SceneDescription& scene) {
+  const auto known = std::find_if(scene.animations.begin(), scene.animations.end(),
+                                  [](const Animation& a) { return a.name == kSceneMotion; });
+  Animation& all = known != scene.animations.end() ? *known : scene.animations.emplace_back();
+  all.name = kSceneMotion;
+  all.seconds = std::max(all.seconds, seconds);
+  ++all.nodes;
+}
+
+}  // namespace
+
+Motion readMotion(JsonObject& object, SceneDescription& scene) {
+  const auto value = object.find("motion");
+  if (!value) return nullptr;
+  JsonObject motion(*value);
+  KeyReader keys;
+  const JsonValue list = motion.need("keys");
+  for (const JsonValue& key : list.elements()) keys.read(key);
+  if (keys.times.empty()) list.fail("at least one key");
+  Track track{readInterpolation(motion), false, kKeyNumbers, keys.times, keys.values};
+  const auto loop = motion.find("loop");
+  const bool loops = loop && loop->flag();
+  motion.finish();
+  if (track.interpolation == Track::Interpolation::cubic) addTangents(track);
+  count(track.times.back(), scene);
+  return [track = std::make_shared<const Track>(std::move(track)), axis = keys.axis,
+          loops](double seconds) {
+    const double time =
+        loops ? looped(seconds, track->times.front(), track->times.back()) : seconds;
+    const std::vector<double> v = valueAt(*track, time);
+    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
+    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis, v[3]) *
+           Affine::scaling(scale);
+  };
+}
+
+}  // namespace whit

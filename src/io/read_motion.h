@@ -1,0 +1,18 @@
+// "motion" in scene files: how an item, a camera or a light moves.
+#pragma once
+
+#include "io/json_reader.h"
+#include "scene/rig.h"
+#include "scene/scene.h"
+
+namespace whit {
+
+// The member "motion" of `object`: where it takes what it moves, in the space that this stands in,
+// after its other transforms; null where there is none. {"keys": [{"time", "translate", "rotate",
+// "scale"}, ...], "interpolation": "linear" | "step" | "cubic", "loop": true}; scale comes first,
+// translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
+// smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
+// Throws badScene with the place.
+Motion readMotion(JsonObject& object, SceneDescription& scene);
+
+}  // namespace whit

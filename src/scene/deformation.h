@@ -1,0 +1,57 @@
+// Meshes that bend: morph targets, and skins by linear blending (Magnenat-Thalmann, Laperriere and
+// Thalmann 1988; glTF 2.0 specification, sections 3.7.2.2 and 3.7.3).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/affine.h"
+#include "core/vec3.h"
+#include "scene/rig.h"
+#include "scene/track.h"
+
+namespace whit {
+
+struct MorphTarget {
+  std::vector<Vec3f> positions, normals;  // by how much each is moved; empty: not at all
+};
+
+// What holds a vertex. The weights of one are scaled to the sum 1.
+struct Influence {
+  std::uint32_t joint = 0;
+  double weight = 0;
+};
+
+struct Deformation {
+  std::vector<Vec3f> positions, normals;  // as they were modelled; normals may be none
+  std::vector<MorphTarget> targets;
+  std::vector<double> weights;          // of targets; those that are missing are zero
+  std::optional<Track> movingWeights;   // in place of them
+  std::shared_ptr<const Rig> skeleton;  // none: no skin
+  struct Joint {
+    std::uint32_t node = 0;  // of the skeleton
+    Affine fromMesh;         // from the mesh as it was modelled to the joint's own space
+  };
+  std::vector<Joint> joints;
+  // Of the vertex i from firstInfluence[i] to firstInfluence[i + 1]. None: no joint holds it, and
+  // it stays where it was modelled.
+  std::vector<std::uint32_t> firstInfluence;
+  std::vector<Influence> influences;
+
+  bool hasSkin() const { return skeleton != nullptr; }
+  // Whether it stays as it was modelled, at all times.
+  bool none() const;
+  // Whether it depends on time.
+  bool moves() const;
+};
+
+struct DeformedVertices {
+  std::vector<Vec3f> positions, normals;  // rounded once; normals of unit length, or zero
+  bool mirrored = false;                  // the skin turns more than half of them inside out
+};
+// Morph targets first, then joints.
+DeformedVertices deform(const Deformation& deformation, double seconds);
+
+}  // namespace whit

@@ -1,0 +1,97 @@
+#include "scene/move_scene.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/usable_threads.h"
+#include "core/warnings.h"
+#include "scene/bake_triangles.h"
+#include "scene/instance_bounds.h"
+#include "scene/sphere.h"
+
+namespace whit {
+
+namespace {
+
+void moveView(Scene& scene, const std::vector<Affine>& poses) {
+  for (const MovingCamera& moving : scene.motion.given.cameras) {
+    carry(moving.own, poses[moving.node], scene.cameras[moving.camera]);
+  }
+  for (const MovingLight& moving : scene.motion.given.lights) {
+    carry(moving, poses[moving.node], scene.lights[moving.light]);
+  }
+}
+
+void setCorners(const Geometry& geometry, const std::array<std::uint32_t, 3>& corners,
+                TriangleRecord& record) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3f& p = geometry.position[corners[i]];
+    std::copy_n(&p.x, 3, record.position + 3 * i);
+  }
+}
+
+// `normals` are those of the bent vertices, by their places among them; the face's where there are
+// none or where one has no direction.
+void setNormals(const std::vector<Vec3f>& normals, const std::array<std::uint32_t, 3>& places,
+                const TriangleRecord& triangle, NormalRecord& record) {
+  const Vec3f face(faceNormal(triangle));
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3f n = normals.empty() ? face : normals[places[i]];
+    if (n == Vec3f()) n = face;
+    std::copy_n(&n.x, 3, record.normal + 3 * i);
+  }
+}
+
+void bend(Scene& scene, const BentVertices& bent, double seconds) {
+  Geometry& geometry = scene.geometries[bent.geometry];
+  const DeformedVertices vertices = deform(*bent.deformation, seconds);
+  std::copy(vertices.positions.begin(), vertices.positions.end(),
+            geometry.position.begin() + bent.firstVertex);
+  const std::size_t count = vertices.positions.size();
+  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+    const auto& corners = geometry.index[i];
+    if (corners[0] < bent.firstVertex || corners[0] - bent.firstVertex >= count) continue;
+    TriangleRecord& record = scene.triangles[geometry.firstTriangle + i];
+    setCorners(geometry, corners, record);
+    if (scene.normals.empty()) continue;
+    const auto place = [&](std::size_t k) { return corners[k] - bent.firstVertex; };
+    setNormals(vertices.normals, {place(0), place(1), place(2)}, record,
+               scene.normals[geometry.firstTriangle + i]);
+  }
+}
+
+Box boxOf(const Scene& scene, const Geometry& geometry) {
+  Box box;
+  for (const auto& corners : geometry.index) {
+    for (const std::uint32_t corner : corners) box.add(geometry.position[corner]);
+  }
+  for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+    const Box own = sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i]));
+    box.add(own.lower);
+    box.add(own.upper);
+  }
+  return box;
+}
+
+}  // namespace
+
+void moveScene(Scene& scene, double seconds) {
+  BakedMotion& motion = scene.motion;
+  if (motion.empty()) return;
+  const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
+  moveView(scene, poses);
+  for (const BentVertices& bent : motion.bent) {
+    bend(scene, bent, seconds);
+    motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
+  }
+  scene.instances = motion.instances;
+  for (InstanceRecord& instance : scene.instances) {
+    if (instance.mover != kNoNode) instance.toWorld = poses[instance.mover] * instance.toMover;
+  }
+  Warnings expected;  // that some are flattened at times
+  boundInstances(scene, motion.boxes, expected);
+  scene.flush = findFlushTriangles(scene, usableThreads());
+  scene.flush.rankBy(scene, motion.order);
+}
+
+}  // namespace whit

@@ -1,0 +1,16 @@
+// A baked scene at another time.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace whit {
+
+// Moves instances, cameras and lights and bends meshes, as they are after so many seconds. What the
+// scene then is follows from the time alone, not from the times before. Instances that are
+// flattened are left out at that time. Geometries keep their places in memory, so that pointers
+// into them stay valid. Renderers of the scene have to be told (Renderer::sceneMoved) before their
+// next frame. Throws Error(badScene) where something is carried out of the range of coordinates.
+// Nothing is done to a scene without motion.
+void moveScene(Scene& scene, double seconds);
+
+}  // namespace whit

@@ -1,0 +1,23 @@
+#include "scene/scene_motion.h"
+
+#include <algorithm>
+
+namespace whit {
+
+void carry(const Camera& own, const Affine& map, Camera& camera) {
+  constexpr double kNearest = 1.0 / 16;
+  const Vec3d eye = map.point(Vec3d(own.eye));
+  Vec3d forward = map.vector(Vec3d(own.at) - Vec3d(own.eye));
+  if (forward == Vec3d()) forward = Vec3d(own.at) - Vec3d(own.eye);
+  const double distance = std::max(length(forward), kNearest * length(eye));
+  camera.eye = Vec3f(eye);
+  camera.at = Vec3f(eye + normalized(forward) * distance);
+  camera.up = Vec3f(normalized(map.vector(Vec3d(own.up)), Vec3d(own.up)));
+}
+
+void carry(const MovingLight& own, const Affine& map, Light& light) {
+  light.position = Vec3f(map.point(Vec3d(own.position)));
+  light.direction = Vec3f(normalized(map.vector(Vec3d(own.direction)), Vec3d(own.direction)));
+}
+
+}  // namespace whit
