@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -59,20 +60,27 @@ class KeyReader {
   }
 };
 
-// Along the line between the neighbors; at the ends along that to the only one.
-void addTangents(Track& track) {
-  const std::size_t keys = track.times.size();
+// Along the line between the neighbors; at the ends along that to the only one, but where a loop
+// ends as it begins: there it goes on.
+void addTangents(bool loops, Track& track) {
+  const std::size_t last = track.times.size() - 1;
+  const auto value = [&](std::size_t key) {
+    return std::span(track.values).subspan(key * kKeyNumbers, kKeyNumbers);
+  };
+  const bool closed = loops && last > 1 && std::ranges::equal(value(0), value(last));
   std::vector<double> all;
-  for (std::size_t i = 0; i < keys; ++i) {
-    const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, keys - 1);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool joined = closed && (i == 0 || i == last);
+    const std::size_t a = joined ? last - 1 : i - std::min<std::size_t>(i, 1);
+    const std::size_t b = joined ? 1 : std::min(i + 1, last);
+    double span = track.times[b] - track.times[a];
+    if (joined) span += track.times[last] - track.times[0];
     std::vector<double> tangent(kKeyNumbers);
-    for (std::size_t k = 0; b > a && k < kKeyNumbers; ++k) {
-      tangent[k] = (track.values[b * kKeyNumbers + k] - track.values[a * kKeyNumbers + k]) /
-                   (track.times[b] - track.times[a]);
+    for (std::size_t k = 0; a != b && k < kKeyNumbers; ++k) {
+      tangent[k] = (value(b)[k] - value(a)[k]) / span;
     }
     all.insert(all.end(), tangent.begin(), tangent.end());
-    const auto value = track.values.begin() + static_cast<std::ptrdiff_t>(i * kKeyNumbers);
-    all.insert(all.end(), value, value + kKeyNumbers);
+    all.insert(all.end(), value(i).begin(), value(i).end());
     all.insert(all.end(), tangent.begin(), tangent.end());
   }
   track.values = std::move(all);
@@ -115,7 +123,7 @@ Motion readMotion(JsonObject& object, SceneDescription& scene) {
   const auto loop = motion.find("loop");
   const bool loops = loop && loop->flag();
   motion.finish();
-  if (track.interpolation == Track::Interpolation::cubic) addTangents(track);
+  if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
   count(track.times.back(), scene);
   return [track = std::make_shared<const Track>(std::move(track)), axis = keys.axis,
           loops](double seconds) {
