@@ -98,7 +98,7 @@ void add(Digester& d, const Medium& medium) {
   add(d, ior), add(d, absorption), add(d, priority);
 }
 void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, written, toWorld, mover, toMover] = instance;
+  const auto& [geometry, written, toWorld, mover, toMover, moves] = instance;
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {

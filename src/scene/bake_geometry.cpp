@@ -64,6 +64,12 @@ class Baker {
     if (scene_.motion.empty()) {
       boundInstances(scene_, boxes_, warnings_);
     } else {
+      for (InstanceRecord& i : scene_.instances) {
+        const auto& bent = scene_.motion.bent;
+        i.moves = i.mover != kNoNode ||
+                  std::any_of(bent.begin(), bent.end(),
+                              [&](const BentVertices& b) { return b.geometry == i.geometry; });
+      }
       scene_.motion.instances = scene_.instances;
       countInstanced(scene_);
       scene_.motion.boxes = std::move(boxes_);

@@ -129,6 +129,9 @@ class PairFinder {
 bool PairFinder::isWanted(const BoxedBlock& a, const BoxedBlock& b) const {
   if (which_ == PairsOf::asked) return a.asked != b.asked;
   if (which_ == PairsOf::all) return true;
+  if (which_ == PairsOf::withMoving) {
+    return a.instance != b.instance && (space_.moves(a.instance) || space_.moves(b.instance));
+  }
   return a.instance != b.instance || a.instance == kNoInstance;
 }
 

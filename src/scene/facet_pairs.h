@@ -12,6 +12,7 @@ namespace whit {
 
 enum class PairsOf {
   differentPlaces,  // all but those of triangles that one instance carries
+  withMoving,       // those of them of which one moves
   asked,            // those of one that is asked for and one that is not
   all,
 };

@@ -43,6 +43,11 @@ class FacetSpace {
   static FacetSpace ofObject(const Scene& scene, const std::vector<TriangleBlocks>& blocks,
                              std::uint32_t geometry);
 
+  // Whether an instance is carried by something that moves, or bends.
+  bool moves(std::uint32_t instance) const {
+    return instance != kNoInstance && scene_.instances[instance].moves;
+  }
+
   Facet facet(PlacedTriangleId id) const;
   BoxedBlock triangle(PlacedTriangleId id) const;
 

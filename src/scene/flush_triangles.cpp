@@ -43,18 +43,26 @@ std::size_t hashOf(PlacedTriangleId id) {
 
 class FlushFinder {
  public:
+  enum class Among { all, still, moving };
+
   FlushFinder(const Scene& scene, int threads);
 
-  FlushTriangles find();
+  // Triangles that overlap others; of those that move the others may stand still.
+  Orders overlapping(Among which) const;
+  // With what touches the triangles that overlap others, itself among those.
+  FlushTriangles find(Orders flush, Among touching) const;
 
  private:
-  std::vector<BoxedBlock> everything() const;
+  bool isAmong(Among which, std::uint32_t instance) const {
+    if (which == Among::all) return true;
+    return world_.moves(instance) == (which == Among::moving);
+  }
+  std::vector<BoxedBlock> everything(Among which) const;
   std::vector<BoxedBlock> boxesOf(const Orders& orders) const;
   std::vector<FacetPair> pairs(std::vector<BoxedBlock> of, PairsOf which, FacetTest test) const {
     return findPairs(world_, std::move(of), which, test, scene_.triangles.size(), threads_);
   }
-  void addWithinInstances(std::uint32_t geometry, Orders& all) const;
-  Orders overlapping() const;
+  void addWithinInstances(std::uint32_t geometry, Among which, Orders& all) const;
   void findCovered(FlushTriangles& found) const;
 
   const Scene& scene_;
@@ -103,10 +111,12 @@ FlushFinder::FlushFinder(const Scene& scene, int threads)
       world_(scene, blocks_),
       leftOut_(instancesInHeaps(scene)) {}
 
-std::vector<BoxedBlock> FlushFinder::everything() const {
+std::vector<BoxedBlock> FlushFinder::everything(Among which) const {
   std::vector<BoxedBlock> all = world_.everything();
-  std::erase_if(
-      all, [&](const BoxedBlock& b) { return b.instance != kNoInstance && leftOut_[b.instance]; });
+  std::erase_if(all, [&](const BoxedBlock& b) {
+    if (which == Among::still && !isAmong(which, b.instance)) return true;
+    return b.instance != kNoInstance && leftOut_[b.instance];
+  });
   return all;
 }
 
@@ -118,8 +128,13 @@ std::vector<BoxedBlock> FlushFinder::boxesOf(const Orders& orders) const {
 }
 
 // Of triangles that one instance carries. What may overlap is looked for once for all instances.
-void FlushFinder::addWithinInstances(std::uint32_t geometry, Orders& all) const {
-  if (blocks_[geometry].top() == 0) return;
+void FlushFinder::addWithinInstances(std::uint32_t geometry, Among which, Orders& all) const {
+  std::vector<std::uint32_t> instances;
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const bool own = scene_.instances[i].geometry == geometry;
+    if (own && !leftOut_[i] && isAmong(which, i)) instances.push_back(i);
+  }
+  if (blocks_[geometry].top() == 0 || instances.empty()) return;
   const FacetSpace object = FacetSpace::ofObject(scene_, blocks_, geometry);
   Orders candidates;
   addBoth(findPairs(object, object.everything(), PairsOf::differentPlaces, facetsOverlap,
@@ -127,13 +142,11 @@ void FlushFinder::addWithinInstances(std::uint32_t geometry, Orders& all) const 
           candidates);
   if (candidates.empty()) return;
   sortUnique(candidates);
-  std::vector<Orders> found(scene_.instances.size());
-  parallelFor(threads_, scene_.instances.size(), [&](std::size_t i, int) {
-    if (scene_.instances[i].geometry != geometry || leftOut_[i]) return;
+  std::vector<Orders> found(instances.size());
+  parallelFor(threads_, instances.size(), [&](std::size_t i, int) {
     std::vector<BoxedBlock> boxes;
     for (const std::uint64_t order : candidates) {
-      boxes.push_back(
-          world_.triangle({placedTriangle(order).triangle, static_cast<std::uint32_t>(i)}));
+      boxes.push_back(world_.triangle({placedTriangle(order).triangle, instances[i]}));
     }
     addBoth(findPairs(world_, std::move(boxes), PairsOf::all, facetsOverlap,
                       scene_.triangles.size(), 1),
@@ -143,20 +156,22 @@ void FlushFinder::addWithinInstances(std::uint32_t geometry, Orders& all) const 
   for (const Orders& some : found) all.insert(all.end(), some.begin(), some.end());
 }
 
-Orders FlushFinder::overlapping() const {
+Orders FlushFinder::overlapping(Among which) const {
   Orders found;
-  addBoth(pairs(everything(), PairsOf::differentPlaces, facetsOverlap), found);
-  for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) addWithinInstances(g, found);
+  const PairsOf places = which == Among::moving ? PairsOf::withMoving : PairsOf::differentPlaces;
+  addBoth(pairs(everything(which), places, facetsOverlap), found);
+  for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) {
+    addWithinInstances(g, which, found);
+  }
   sortUnique(found);
   return found;
 }
 
-FlushTriangles FlushFinder::find() {
-  Orders flush = overlapping();
+FlushTriangles FlushFinder::find(Orders flush, Among touching) const {
   if (flush.empty()) return {};
   std::vector<BoxedBlock> blocks = boxesOf(flush);
   for (BoxedBlock& b : blocks) b.asked = true;
-  const std::vector<BoxedBlock> all = everything();
+  const std::vector<BoxedBlock> all = everything(touching);
   blocks.insert(blocks.end(), all.begin(), all.end());
   addBoth(pairs(std::move(blocks), PairsOf::asked, facetsTouch), flush);
   sortUnique(flush);
@@ -300,7 +315,26 @@ std::uint64_t FlushTriangles::bytes() const {
 
 FlushTriangles findFlushTriangles(const Scene& scene, int threads) {
   if (scene.firstSphere > kMostSearched) return {};
-  return FlushFinder(scene, threads).find();
+  const FlushFinder finder(scene, threads);
+  return finder.find(finder.overlapping(FlushFinder::Among::all), FlushFinder::Among::all);
+}
+
+void updateFlushTriangles(Scene& scene, StillFlush& still, const SceneOrder& order, int threads) {
+  using Among = FlushFinder::Among;
+  if (scene.firstSphere > kMostSearched) return;
+  const FlushFinder finder(scene, threads);
+  std::vector<std::uint32_t> instances;
+  for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
+  if (!still.known || still.instances != instances) {
+    still = {true, std::move(instances), finder.overlapping(Among::still), false};
+  }
+  Orders moving = finder.overlapping(Among::moving);
+  if (moving.empty() && still.all) return;
+  still.all = moving.empty();
+  moving.insert(moving.end(), still.triangles.begin(), still.triangles.end());
+  sortUnique(moving);
+  scene.flush = finder.find(std::move(moving), still.all ? Among::still : Among::all);
+  scene.flush.rankBy(scene, order);
 }
 
 }  // namespace whit

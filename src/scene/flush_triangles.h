@@ -153,4 +153,17 @@ class FlushTriangles {
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
 FlushTriangles findFlushTriangles(const Scene& scene, int threads);
 
+// What is flush among all that stands still in a scene that moves, looked for once.
+struct StillFlush {
+  bool known = false;
+  std::vector<std::uint32_t> instances;  // InstanceRecord::written of those that were there
+  std::vector<std::uint64_t> triangles;  // that overlap others, by orderOf()
+  bool all = false;                      // nothing else was flush when the scene was last searched
+};
+
+// Searches again where that may have changed: scene.flush comes out as findFlushTriangles() would
+// find it, but that what moves and only touches what is flush is a partner of that no more unless
+// something that moves overlaps another triangle in its plane.
+void updateFlushTriangles(Scene& scene, StillFlush& still, const SceneOrder& order, int threads);
+
 }  // namespace whit

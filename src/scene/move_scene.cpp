@@ -90,8 +90,7 @@ void moveScene(Scene& scene, double seconds) {
   }
   Warnings expected;  // that some are flattened at times
   boundInstances(scene, motion.boxes, expected);
-  scene.flush = findFlushTriangles(scene, usableThreads());
-  scene.flush.rankBy(scene, motion.order);
+  updateFlushTriangles(scene, motion.still, motion.order, usableThreads());
 }
 
 }  // namespace whit

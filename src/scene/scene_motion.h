@@ -8,6 +8,7 @@
 #include "core/box.h"
 #include "scene/camera.h"
 #include "scene/deformation.h"
+#include "scene/flush_triangles.h"
 #include "scene/light.h"
 #include "scene/rig.h"
 #include "scene/scene_order.h"
@@ -43,6 +44,7 @@ struct InstanceRecord {
   Affine toWorld;
   std::uint32_t mover = kNoNode;  // of the scene's rig
   Affine toMover;
+  bool moves = false;  // is carried by something, or bends
 };
 
 // The vertices of a baked geometry that a mesh bends, from `firstVertex` on.
@@ -58,6 +60,7 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
+  StillFlush still;
 
   bool empty() const { return given.rig.empty() && bent.empty(); }
 };
