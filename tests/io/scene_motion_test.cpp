@@ -1,0 +1,153 @@
+// "motion" in scene files, against positions worked out by hand.
+#include <cmath>
+
+#include "scene/scene.h"
+#include "scene_files.h"
+
+namespace whit {
+namespace {
+
+constexpr double kRounding = 1e-12;  // a few operations in double, on numbers of about 10
+
+class SceneMotionFile : public SceneFileTest {
+ protected:
+  // An item with this "motion" and these other members.
+  static std::string item(const std::string& motion, const std::string& rest = "") {
+    return "{\"shape\": \"sphere\", " + rest + "\"motion\": {" + motion + "}}";
+  }
+  static std::string scene(const std::string& items) { return "\"scene\": [" + items + "]"; }
+  SceneDescription at(double seconds, const std::string& members) {
+    options_.instant.seconds = seconds;
+    return loadMembers(members);
+  }
+  // Where the sphere that the first instance places has `point`.
+  static Vec3d placed(const SceneDescription& scene, const Vec3d& point = {}) {
+    const Instance& instance = scene.instances.at(0);
+    const std::vector<Affine> poses = poseRig(scene.motion.rig, scene.motion.seconds);
+    const Affine map =
+        instance.mover == kNoNode ? instance.toWorld : poses.at(instance.mover) * instance.toWorld;
+    return (map * scene.objects.at(instance.object).meshes.at(0).spheres.at(0)).point(point);
+  }
+  static void expectPoint(const Vec3d& a, const Vec3d& b) {
+    EXPECT_LT(length(a - b), kRounding) << a.x << " " << a.y << " " << a.z;
+  }
+};
+
+TEST_F(SceneMotionFile, KeysScaleThenTurnThenTranslate) {
+  const std::string moving = scene(item(
+      "\"keys\": [{\"time\": 1}, {\"time\": 3, \"translate\": [4, 0, 2], \"rotate\": [0, 0, 2, 180], "
+      "\"scale\": [3, 1, 1]}]"));
+  expectPoint(placed(at(0, moving), {1, 0, 0}), {1, 0, 0});
+  expectPoint(placed(at(2, moving), {1, 0, 0}), {2, 2, 1});
+  expectPoint(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
+}
+
+TEST_F(SceneMotionFile, AnItemIsMovedFromWhereItsTransformPutsIt) {
+  const std::string moving =
+      scene(item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 90]}]",
+                 "\"transform\": {\"translate\": [2, 1, 0]}, "));
+  expectPoint(placed(at(1, moving)), {0, 1, -2});
+}
+
+TEST_F(SceneMotionFile, GroupsCarryWhatMovesInThem) {
+  const std::string moon = item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 180]}]",
+                                "\"transform\": {\"translate\": [1, 0, 0]}, ");
+  const std::string moving = scene(
+      "{\"group\": [{\"group\": [" + moon +
+      "], \"transform\": {\"translate\": [5, 0, 0]}}], \"motion\": {\"keys\": [{\"time\": 0}, "
+      "{\"time\": 1, \"rotate\": [0, 1, 0, 90]}]}}");
+  expectPoint(placed(at(1, moving)), {0, 0, -4});
+  expectPoint(placed(at(0.5, moving)),
+              {5 * std::sqrt(0.5) - std::sqrt(0.5), 0, -5 * std::sqrt(0.5) - std::sqrt(0.5)});
+}
+
+TEST_F(SceneMotionFile, StepsHoldAndCurvesGoThroughTheirKeys) {
+  const auto keys = [](const std::string& interpolation) {
+    return scene(item("\"interpolation\": \"" + interpolation +
+                      "\", \"keys\": [{\"time\": 0, \"translate\": [1, 0, 0]}, {\"time\": 1, "
+                      "\"translate\": [3, 0, 0]}, {\"time\": 2, \"translate\": [9, 0, 0]}, "
+                      "{\"time\": 3, \"translate\": [2, 0, 0]}]"));
+  };
+  expectPoint(placed(at(1.9, keys("step"))), {3, 0, 0});
+  expectPoint(placed(at(2, keys("cubic"))), {9, 0, 0});
+  expectPoint(placed(at(1.5, keys("cubic"))), {(-1 + 9 * 3 + 9 * 9 - 2) / 16.0, 0, 0});
+}
+
+TEST_F(SceneMotionFile, LoopsBeginAgain) {
+  const std::string line =
+      "\"keys\": [{\"time\": 1}, {\"time\": 3, \"translate\": [4, 0, 0]}], \"loop\": ";
+  expectPoint(placed(at(3.5, scene(item(line + "true")))), {1, 0, 0});
+  expectPoint(placed(at(0.5, scene(item(line + "true")))), {3, 0, 0});
+  expectPoint(placed(at(3.5, scene(item(line + "false")))), {4, 0, 0});
+}
+
+// The speed at the end of a closed loop is that at its beginning.
+TEST_F(SceneMotionFile, ClosedCurvesGoOnWhereTheyBegan) {
+  const std::string closed = scene(
+      item("\"interpolation\": \"cubic\", \"loop\": true, \"keys\": [{\"time\": 0}, {\"time\": 1, "
+           "\"translate\": [3, 0, 0]}, {\"time\": 2, \"translate\": [0, 5, 0]}, {\"time\": 4}]"));
+  constexpr double kStep = 1e-4, kCurvature = 1e-2;
+  const Vec3d before = placed(at(4 - kStep, closed)), after = placed(at(4 + kStep, closed));
+  EXPECT_GT(length(before), kStep);
+  EXPECT_LT(length(before + after), kCurvature * length(before));
+}
+
+TEST_F(SceneMotionFile, CamerasAndLightsAreCarried) {
+  const std::string moving =
+      "\"cameras\": {\"c\": {\"eye\": [0, 0, 4], \"at\": [0, 0, 0], \"motion\": {\"keys\": "
+      "[{\"time\": 0}, {\"time\": 2, \"rotate\": [0, 1, 0, 180]}]}}}, \"lights\": [{\"type\": "
+      "\"spot\", \"position\": [1, 0, 0], \"direction\": [1, 0, 0], \"intensity\": 1, \"motion\": "
+      "{\"keys\": [{\"time\": 0, \"translate\": [0, 1, 0]}, {\"time\": 2, \"translate\": [0, 3, 0], "
+      "\"rotate\": [0, 0, 1, 90]}]}}]";
+  const Scene later = Scene::finalize(at(2, moving), warnings_);
+  EXPECT_LT(length(Vec3d(later.cameras.at(0).eye) - Vec3d(0, 0, -4)), 1e-6);
+  EXPECT_LT(length(Vec3d(later.cameras.at(0).at)), 1e-6);
+  EXPECT_LT(length(Vec3d(later.lights.at(0).position) - Vec3d(0, 4, 0)), 1e-6);
+  EXPECT_LT(length(Vec3d(later.lights.at(0).direction) - Vec3d(0, 1, 0)), 1e-6);
+  options_.instant = {};
+  EXPECT_EQ(loadMembers(moving).lights.at(0).position, (Vec3f{1, 1, 0}));
+}
+
+// Without a time a scene is as at 0, and nothing of it is made to be moved.
+TEST_F(SceneMotionFile, NothingIsPaidForWhereNoTimeIsGiven) {
+  const std::string moving =
+      scene(item("\"keys\": [{\"time\": -1}, {\"time\": 1, \"translate\": [4, 0, 0]}]") +
+            ", {\"shape\": \"box\"}");
+  const SceneDescription still = loadMembers(moving);
+  EXPECT_TRUE(still.motion.rig.empty());
+  expectPoint(placed(still), {2, 0, 0});
+  ASSERT_EQ(still.animations.size(), 1u);
+  EXPECT_EQ(still.animations[0].name, kSceneMotion);
+  EXPECT_EQ(still.animations[0].seconds, 1);
+  EXPECT_EQ(still.animations[0].nodes, 1u);
+  EXPECT_TRUE(Scene::finalize(loadMembers(moving), warnings_).instances.empty());
+  const Scene played = Scene::finalize(at(0, moving), warnings_);
+  EXPECT_EQ(played.instances.size(), 1u);
+  EXPECT_EQ(played.geometries.at(0).index.size(), 12u);  // the box
+}
+
+TEST_F(SceneMotionFile, MistakesAreNamed) {
+  const auto error = [&](const std::string& motion) { return errorOfMembers(scene(item(motion))); };
+  const std::string place = "3 s.json#/scene/0/motion/keys";
+  EXPECT_EQ(error("\"keys\": []"), place + ": expected at least one key, found a list of 0");
+  EXPECT_EQ(error("\"keys\": [{}]"), place + "/0: expected a member \"time\"");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1}, {\"time\": 1}]"),
+            place + "/1/time: expected a time after that of the key before, found 1");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"scale\": [1, 0, 1]}]"),
+            place + "/0/scale: expected a scale above 0, found a list of 3");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"rotate\": [0, 0, 0, 1]}]"),
+            place + "/0/rotate: expected an axis other than 0, found a list of 4");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1, \"rotate\": [0, 0, 1, 1]}, {\"time\": 2, \"rotate\": "
+                  "[0, 1, 0, 1]}]"),
+            place +
+                "/1/rotate: expected the axis of the keys before: groups turn about several, found "
+                "a list of 4");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1}], \"interpolation\": \"cubik\""),
+            "3 s.json#/scene/0/motion/interpolation: expected one of \"linear\", \"step\", "
+            "\"cubic\" (is \"cubic\" meant?), found \"cubik\"");
+  EXPECT_EQ(error("\"keys\": [{\"time\": 1}], \"looop\": true"),
+            "3 s.json#/scene/0/motion/looop: unknown key; is \"loop\" meant?");
+}
+
+}  // namespace
+}  // namespace whit
