@@ -130,7 +130,7 @@ mutations() {
   plant bad-rays-traced simd/packets-inl.h \
     'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
-    'options.retry && isEnclosed(scene, *accel_)' 'false && isEnclosed(scene, *accel_)'
+    'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene, *accel_)'
   plant eye-in-vacuum src/render/frame_setup.cpp '.media = camera.media,' '.media = 0,'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
   plant sphere-in-floats simd/meet_sphere.cpp \

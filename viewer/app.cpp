@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/printable.h"
 #include "io/image_file.h"
+#include "scene/move_scene.h"
 #include "viewer/inspector.h"
 #include "viewer/panel.h"
 
@@ -42,6 +43,11 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
   settings_.rate = resolution_.rate();
   settings_.options = options.common.render;
   settings_.view = options.view;
+  settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
+  const Camera start = control_.camera();
+  for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
+    if (sameView(scene->scene.cameras[i], start)) followed_ = i;
+  }
 }
 
 void App::run() {
@@ -64,7 +70,8 @@ bool App::step() {
   }
   handleInput();
   doWhatThePanelAsks();
-  restSeconds_ = moveCamera(seconds) ? 0 : restSeconds_ + seconds;
+  const bool moved = moveCamera(seconds), played = play(seconds);
+  restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
   watchSceneFile(seconds);
   followRays();
   askForFrame();  // before anything is drawn, which the next picture need not wait for
@@ -79,7 +86,8 @@ double App::waitSeconds() const {
   if (script_) return thread_.busy() ? kScriptSecondsPerFrame : 0;
   if (drawAgain_ > 0) return 0;
   if (thread_.committed()) return kUndrawnSeconds;  // nothing can be asked for until it is there
-  const bool active = !window_.input.held.empty() || pathTime_ || restSeconds_ < kSettleSeconds;
+  const bool active = !window_.input.held.empty() || pathTime_ || settings_.timeline.playing ||
+                      restSeconds_ < kSettleSeconds;
   return active ? 1 / resolution_.rate() : kIdleSeconds;
 }
 
@@ -106,8 +114,23 @@ bool App::moveCamera(double seconds) {
     return true;
   }
   const bool moved = control_.step(motionOf(window_.input), seconds);
-  if (moved) latency_.changed(serial_ + 1);
+  if (moved) {
+    latency_.changed(serial_ + 1);
+    followed_.reset();
+  }
   return moved;
+}
+
+bool App::play(double seconds) {
+  if (!settings_.timeline.step(seconds)) return false;
+  followCamera();
+  return true;
+}
+
+// A camera that moves, for as long as nothing else has moved the view.
+void App::followCamera() {
+  if (!followed_ || !settings_.timeline.there) return;
+  control_.set(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
 }
 
 void App::flyPath(double seconds) {
@@ -199,6 +222,7 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   request.measureKnobs = still && finest && settings_.measureKnobs;
   request.reloads = reloads_;
   request.edits = edits_;
+  request.seconds = settings_.timeline.time();
   request.interruptible = still;
   return request;
 }
@@ -249,6 +273,7 @@ void App::followRays() {
   query.options.size = picked_->options.size;
   query.reloads = reloads_;
   query.edits = edits_;
+  query.seconds = shown_.request.seconds;
   if (queried_ && sameRays(query, *queried_)) return;
   thread_.query(query);
   queried_ = query;
@@ -276,6 +301,10 @@ void App::drawPanel() {
   if (!settings_.shown || !shown_.scene) return;
   const PanelSettings before = settings_;
   const bool edited = panel_.draw(shown_, rays_, control_.speed(), settings_, read_.sky, edit_);
+  if (drawTimeline(settings_.timeline)) {
+    restSeconds_ = 0;
+    followCamera();
+  }
   if (edited) passOnEdit();
   if (edited || settings_.options != before.options || settings_.view != before.view) {
     restSeconds_ = 0;

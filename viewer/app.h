@@ -47,6 +47,8 @@ class App {
   bool worthDrawing(const ScriptStep& step, bool fresh, double seconds);
   double tick();
   bool moveCamera(double seconds);
+  bool play(double seconds);
+  void followCamera();
   void flyPath(double seconds);
   bool fetchFrame();  // whether there is another picture to show
   void askForFrame();
@@ -91,6 +93,7 @@ class App {
   void watchSceneFile(double seconds);
   void watch(const std::string& scene);
   void reload();
+  void changeAnimation();
   void open(const std::string& name);
   void openFile(const std::string& file);
   void showSky(const std::string& file);
@@ -131,6 +134,7 @@ class App {
   bool newsWait_ = false;  // something new is to be presented
   bool selects_ = false;   // the next answer says which material and light
   std::optional<double> pathTime_;
+  std::optional<std::size_t> followed_;  // the camera of the scene that is looked through
   std::string message_, error_;
   double messageSeconds_ = 0;  // that it is still to be seen
   std::filesystem::path sceneFile_;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/formatted.h"
+#include "scene/move_scene.h"
 #include "viewer/app.h"
 #include "viewer/save_scene.h"
 #include "viewer/view_files.h"
@@ -79,6 +80,7 @@ void App::handleInput() {
 void App::doWhatThePanelAsks() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
+    if (std::exchange(settings_.timeline.another, false)) changeAnimation();
     askForFile();
     if (const auto file = dialog_.takeChosen()) {
       dialog_.wanted() == FileDialog::Wanted::sky ? showSky(*file) : openFile(*file);
@@ -98,6 +100,7 @@ void App::askForFile() {
 
 // That makes the picture shown.
 std::string App::command() const {
+  const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, shown_.options);
 }
 
@@ -114,6 +117,7 @@ RenderOptions App::viewOptions() const {
 }
 
 std::string App::viewCommand() const {
+  const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, viewOptions());
 }
 
@@ -161,6 +165,11 @@ void App::handleKey(int key) {
       {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
       // The viewpoint.
       {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
+      {GLFW_KEY_P,
+       [&] {
+         if (!settings_.timeline.there) return say("nothing moves in this scene");
+         settings_.timeline.playOrPause();
+       }},
       {GLFW_KEY_F5,
        [&] {
          writeCamera(cameraFile(scene()), control_.camera());
@@ -198,6 +207,7 @@ void App::printView() {
 
 void App::saveScene() {
   if (!shown_.scene) return;
+  const std::lock_guard lock(scene_->moving);
   const SavedScene saved =
       view::saveScene(options_.common.load, sceneName_, *scene_, edit_, control_.camera());
   std::printf("%s\n", commandFor(saved, scene(), viewOptions()).c_str());
@@ -268,12 +278,14 @@ void App::jumpToNumber(std::size_t number) {
     say("the scene has " + std::to_string(cameras.size()) + " cameras");
     return;
   }
-  jump(cameras[number]);
+  jump(whit::cameraAt(scene(), number, settings_.timeline.seconds));
+  followed_ = number;
   say("camera " + cameras[number].name);
 }
 
 void App::jump(const Camera& camera) {
   control_.set(camera);
+  followed_.reset();
   pathTime_.reset();
   restSeconds_ = 0;
   latency_.changed(serial_ + 1);

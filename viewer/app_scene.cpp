@@ -36,8 +36,14 @@ void App::reload() {
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();
-  thread_.load({sceneName_, scene_->settings});
+  thread_.load({sceneName_, scene_->settings, settings_.timeline.animation});
   say("reading the scene again");
+}
+
+void App::changeAnimation() {
+  settings_.timeline.seconds = 0;
+  reload();
+  say("animation " + settings_.timeline.animation);
 }
 
 void App::open(const std::string& name) {
@@ -45,7 +51,7 @@ void App::open(const std::string& name) {
   restSeconds_ = 0;
   error_.clear();
   opening_ = name;
-  thread_.load({name, {}});  // settings belong to the scene that they were given with
+  thread_.load({name, {}, {}});  // settings belong to the scene that they were given with
   say("reading " + name);
 }
 
@@ -66,10 +72,16 @@ void App::showSky(const std::string& file) {
 // The frame just fetched shows a scene that was read anew.
 void App::takeScene() {
   scene_ = shown_.scene;
+  const std::lock_guard lock(scene_->moving);
   read_ = edit_ = traced_ = withoutEdits(scene_);
   edits_ = tracedEdits_ = 0;
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();
+    const Timeline before = settings_.timeline;
+    settings_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
+    settings_.timeline.seconds = std::min(before.seconds, settings_.timeline.length);
+    settings_.timeline.playing = settings_.timeline.there && before.playing;
+    settings_.timeline.loops = before.loops;
     say("the scene was read again");
     return;
   }
@@ -81,6 +93,8 @@ void App::takeScene() {
   forgetRays();
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   pathTime_.reset();
+  followed_ = 0;
+  settings_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
   window_.setTitle("whit: " + scene().name);
   say("opened " + sceneName_);

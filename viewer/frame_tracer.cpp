@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/frame_summary.h"
 #include "app/image_output.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
@@ -11,6 +12,7 @@
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
+#include "scene/move_scene.h"
 
 namespace whit::view {
 
@@ -65,11 +67,14 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
       scene_(std::move(scene)),
       options_(common.render),
       renderer_(std::make_unique<Renderer>(scene_->scene, options_)),
-      sky_(skyOf(*scene_)) {}
+      sky_(skyOf(*scene_)),
+      seconds_(scene_->scene.motion.given.seconds),
+      animation_(common.load.instant.animation) {}
 
 void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
   common.load.settings = choice.settings;
+  common.load.instant.animation = choice.animation;
   std::shared_ptr<cli::OpenScene> scene = cli::openScene(choice.name, common, nullptr);
   auto renderer = std::make_unique<Renderer>(scene->scene, options_);
   renderer_ = std::move(renderer);  // before the scene that the old one reads goes
@@ -77,6 +82,15 @@ void FrameTracer::load(const SceneChoice& choice) {
   editSettings_.clear();
   sky_ = skyOf(*scene_);
   ownSky_ = Sky();
+  seconds_ = scene_->scene.motion.given.seconds;
+  animation_ = choice.animation;
+}
+
+void FrameTracer::moveTo(double seconds) {
+  const std::lock_guard lock(scene_->moving);
+  moveScene(scene_->scene, seconds);
+  renderer_->sceneMoved();
+  seconds_ = seconds;
 }
 
 void FrameTracer::edit(ShadingEdit edit) {
@@ -91,6 +105,8 @@ void FrameTracer::edit(ShadingEdit edit) {
     editSurroundings(edit, std::move(opened));
   }
   renderer_->shadingChanged();
+  if (!scene_->scene.motion.empty())
+    moveTo(seconds_);  // lights that move are edited at their start
   editSettings_ = std::move(edit.settings);
 }
 
@@ -134,6 +150,7 @@ RayPick FrameTracer::explain(const RayQuery& query) {
 }
 
 bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls) {
+  if (request.seconds && *request.seconds != seconds_) moveTo(*request.seconds);
   applyOptions(request);
   frame.comparison.reset();
   frame.costs.clear();
@@ -142,6 +159,9 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.request = request;
   frame.request.options.exposure = options_.exposure;
   frame.options = options_;
+  frame.animation = animation_;
+  frame.surfaces =
+      cli::surfacesText(scene_->scene.instancedTriangles, scene_->scene.instancedSpheres);
   frame.metadata = describeImage(scene_->scene, request.camera, *renderer_, frame.film, options_);
   frame.settings = scene_->settings;
   frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());

@@ -52,6 +52,7 @@ class FrameTracer {
 
  private:
   void editSurroundings(const ShadingEdit& edit, Sky opened);
+  void moveTo(double seconds);
   void applyOptions(const FrameRequest& request);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // What there is to trace in a part of the picture.
@@ -76,6 +77,8 @@ class FrameTracer {
   std::vector<std::string> editSettings_;  // of the scene as it is now
   SkyChoice sky_;                          // that the scene has now
   Sky ownSky_;                             // its own, while it has another one
+  double seconds_ = 0;                     // when it is, where it moves
+  std::string animation_;                  // that it was read with
   Film band_;
   std::vector<WatchedPixel> watched_;  // of the view that is being traced
   AmountScale scale_;                  // of its last picture, by which the next one begins

@@ -107,6 +107,7 @@ int run(const std::vector<std::string>& words) {
   check(options);
   std::optional<ScriptPlayer> script = readScript(options.script);
 
+  options.common.load.instant.plays = !options.benchmark && options.record.empty();
   const Display display;  // before a scene is loaded in vain
   const cli::CommonOptions& common = options.common;
   auto progress = cli::makeProgressBar(common);

@@ -304,9 +304,7 @@ void Panel::remember(const UnfinishedFrame& frame) {
 
 void Panel::drawTimes(const TracedFrame& frame) const {
   const FrameStats& stats = frame.stats;
-  const Scene& scene = frame.scene->scene;
-  ImGui::Text("%s, %s", scene.name.c_str(),
-              cli::surfacesText(scene.instancedTriangles, scene.instancedSpheres).c_str());
+  ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
   const Image& image = frame.film.image;
   ImGui::Text("%d x %d, %d sample%s a pixel", image.width, image.height, frame.request.spp,
               frame.request.spp == 1 ? "" : "s");

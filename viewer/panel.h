@@ -8,6 +8,7 @@
 
 #include "viewer/knob_costs.h"
 #include "viewer/ray_panel.h"
+#include "viewer/timeline.h"
 
 namespace whit::view {
 
@@ -32,7 +33,8 @@ struct PanelSettings {
   CompareMode compare = CompareMode::off;
   bool measureKnobs = false;  // until it is done
   RayView rays;
-  bool inspects = true;                     // the pixel under the pointer
+  bool inspects = true;  // the pixel under the pointer
+  Timeline timeline;
   bool saveScene = false;                   // asked for
   bool openScene = false, openSky = false;  // a file is to be chosen
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,13 @@ struct RayQuery {
   RenderOptions options;  // as for a whole picture; the size must be there
   int x = 0, y = 0;       // from the top left
   int reloads = 0, edits = 0;
+  std::optional<double> seconds;  // of the picture on screen; the answer is that of the scene's
 };
 
 // Whether the answer to one is that to the other.
 inline bool sameRays(const RayQuery& a, const RayQuery& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.x == b.x && a.y == b.y &&
-         a.reloads == b.reloads && a.edits == b.edits;
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
 }
 
 // Of a node. The scene itself may be edited by the time that they are read.

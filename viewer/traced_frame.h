@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace whit::view {
 struct SceneChoice {
   std::string name;
   std::vector<std::string> settings;
+  std::string animation;  // empty: the first
 };
 
 struct FrameRequest {
@@ -30,11 +32,12 @@ struct FrameRequest {
   int depth = kDepthLimit;  // that is traced at most, in motion
   bool coarse = false;      // at rest finer pixels will follow
   DebugView view = DebugView::none;
-  bool withReference = false;  // the reference's picture as well, and how far apart they are
-  bool measureKnobs = false;   // also what each knob costs
-  int reloads = 0, edits = 0;  // of the scene before it
-  int serial = 0;              // tells requests apart
-  bool interruptible = false;  // given up when another one is asked for
+  bool withReference = false;     // the reference's picture as well, and how far apart they are
+  bool measureKnobs = false;      // also what each knob costs
+  int reloads = 0, edits = 0;     // of the scene before it
+  std::optional<double> seconds;  // of a scene that moves: when it is looked at
+  int serial = 0;                 // tells requests apart
+  bool interruptible = false;     // given up when another one is asked for
 };
 
 // Whether both ask for the same picture.
@@ -42,7 +45,7 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
          a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
          a.withReference == b.withReference && a.measureKnobs == b.measureKnobs &&
-         a.reloads == b.reloads && a.edits == b.edits;
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
 }
 
 // Whether both show the same, however finely.
@@ -87,6 +90,8 @@ struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
   RenderOptions options;  // the picture's
+  std::string surfaces;   // how many there are, in words
+  std::string animation;  // that was asked for
   Film film;
   FrameStats stats;
   ImageMetadata metadata;

@@ -122,6 +122,10 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   RenderOptions usual;
   if (shown.isModel) applyModelDefaults(usual, {});
   std::string text = commandWith(scene, shown.name, options, usual);
+  if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
+  if (frame.request.seconds && !frame.animation.empty()) {
+    text += " --animation " + quoted(frame.animation);
+  }
   for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
   if (!frame.sky.empty()) text += " --sky " + quoted(frame.sky);
   if (common.load.allowOutside ||

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct OpenScene {
   std::vector<std::string> settings;
   std::string sky;
   double loadMs = 0;  // reading and baking
+  // Held while the scene is brought to another time, where other threads look at it.
+  mutable std::mutex moving;
 };
 
 // Loads and bakes; tells people on standard error what was repaired, unless --quiet.

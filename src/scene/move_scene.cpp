@@ -75,6 +75,16 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
 
 }  // namespace
 
+Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
+  const SceneMotion& motion = scene.motion.given;
+  const auto moving = std::find_if(motion.cameras.begin(), motion.cameras.end(),
+                                   [&](const MovingCamera& m) { return m.camera == camera; });
+  if (moving == motion.cameras.end()) return scene.cameras[camera];
+  Camera carried = moving->own;
+  carry(moving->own, poseRig(motion.rig, seconds)[moving->node], carried);
+  return carried;
+}
+
 void moveScene(Scene& scene, double seconds) {
   BakedMotion& motion = scene.motion;
   if (motion.empty()) return;

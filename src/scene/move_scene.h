@@ -13,4 +13,7 @@ namespace whit {
 // Nothing is done to a scene without motion.
 void moveScene(Scene& scene, double seconds);
 
+// A camera of the scene as it is then, wherever the scene has been moved to.
+Camera cameraAt(const Scene& scene, std::size_t camera, double seconds);
+
 }  // namespace whit

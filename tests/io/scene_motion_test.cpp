@@ -34,9 +34,10 @@ class SceneMotionFile : public SceneFileTest {
 };
 
 TEST_F(SceneMotionFile, KeysScaleThenTurnThenTranslate) {
-  const std::string moving = scene(item(
-      "\"keys\": [{\"time\": 1}, {\"time\": 3, \"translate\": [4, 0, 2], \"rotate\": [0, 0, 2, 180], "
-      "\"scale\": [3, 1, 1]}]"));
+  const std::string moving =
+      scene(item("\"keys\": [{\"time\": 1}, {\"time\": 3, \"translate\": [4, 0, 2], \"rotate\": "
+                 "[0, 0, 2, 180], "
+                 "\"scale\": [3, 1, 1]}]"));
   expectPoint(placed(at(0, moving), {1, 0, 0}), {1, 0, 0});
   expectPoint(placed(at(2, moving), {1, 0, 0}), {2, 2, 1});
   expectPoint(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
@@ -50,8 +51,9 @@ TEST_F(SceneMotionFile, AnItemIsMovedFromWhereItsTransformPutsIt) {
 }
 
 TEST_F(SceneMotionFile, GroupsCarryWhatMovesInThem) {
-  const std::string moon = item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 180]}]",
-                                "\"transform\": {\"translate\": [1, 0, 0]}, ");
+  const std::string moon =
+      item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 180]}]",
+           "\"transform\": {\"translate\": [1, 0, 0]}, ");
   const std::string moving = scene(
       "{\"group\": [{\"group\": [" + moon +
       "], \"transform\": {\"translate\": [5, 0, 0]}}], \"motion\": {\"keys\": [{\"time\": 0}, "
@@ -99,7 +101,8 @@ TEST_F(SceneMotionFile, CamerasAndLightsAreCarried) {
       "\"cameras\": {\"c\": {\"eye\": [0, 0, 4], \"at\": [0, 0, 0], \"motion\": {\"keys\": "
       "[{\"time\": 0}, {\"time\": 2, \"rotate\": [0, 1, 0, 180]}]}}}, \"lights\": [{\"type\": "
       "\"spot\", \"position\": [1, 0, 0], \"direction\": [1, 0, 0], \"intensity\": 1, \"motion\": "
-      "{\"keys\": [{\"time\": 0, \"translate\": [0, 1, 0]}, {\"time\": 2, \"translate\": [0, 3, 0], "
+      "{\"keys\": [{\"time\": 0, \"translate\": [0, 1, 0]}, {\"time\": 2, \"translate\": [0, 3, "
+      "0], "
       "\"rotate\": [0, 0, 1, 90]}]}}]";
   const Scene later = Scene::finalize(at(2, moving), warnings_);
   EXPECT_LT(length(Vec3d(later.cameras.at(0).eye) - Vec3d(0, 0, -4)), 1e-6);

@@ -85,11 +85,12 @@ class MovingFile : public testing::Test {
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
   }
   Scene at(double seconds, const std::string& members) const {
-    std::ofstream(file_) << "{\"whit\": 1, \"size\": [64, 64], \"cameras\": {\"c\": {\"eye\": [0, "
-                            "0, 9], \"at\": [0, 0, 0], \"orthographicHeight\": 8}}, \"materials\": "
-                            "{\"lit\": {\"diffuse\": 0, \"emission\": 1}, \"red\": {\"diffuse\": 0, "
-                            "\"emission\": [1, 0, 0]}}, "
-                         << members << "}";
+    std::ofstream(file_)
+        << "{\"whit\": 1, \"size\": [64, 64], \"cameras\": {\"c\": {\"eye\": [0, "
+           "0, 9], \"at\": [0, 0, 0], \"orthographicHeight\": 8}}, \"materials\": "
+           "{\"lit\": {\"diffuse\": 0, \"emission\": 1}, \"red\": {\"diffuse\": 0, "
+           "\"emission\": [1, 0, 0]}}, "
+        << members << "}";
     Warnings warnings;
     LoadOptions options;
     options.instant.seconds = seconds;
@@ -121,11 +122,12 @@ Seen seenIn(const Image& image) {
 // A glowing ball in parallel rays, eight pixels a unit: a disc where it is, as large as it is.
 TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   constexpr double kPixels = 8;
-  Scene scene = at(
-      0,
-      "\"scene\": [{\"shape\": \"sphere\", \"material\": \"lit\", \"motion\": {\"keys\": [{\"time\": "
-      "0}, {\"time\": 4, \"translate\": [2, -1, 0], \"scale\": 2}]}}, {\"shape\": \"box\", "
-      "\"material\": \"lit\", \"transform\": {\"translate\": [0, 0, 40]}}]");
+  Scene scene =
+      at(0,
+         "\"scene\": [{\"shape\": \"sphere\", \"material\": \"lit\", \"motion\": {\"keys\": "
+         "[{\"time\": "
+         "0}, {\"time\": 4, \"translate\": [2, -1, 0], \"scale\": 2}]}}, {\"shape\": \"box\", "
+         "\"material\": \"lit\", \"transform\": {\"translate\": [0, 0, 40]}}]");
   const RenderOptions options;
   Renderer renderer(scene, options);
   for (const double seconds : {3.0, 1.0, 4.0}) {

@@ -71,8 +71,8 @@ TEST(FrameExchange, ScenesAndEditsComeBeforePictures) {
   FrameExchange exchange;
   EXPECT_TRUE(exchange.ask(request(1)));
   exchange.edit({});
-  exchange.load({"a", {}});
-  exchange.load({"b", {}});
+  exchange.load({"a", {}, {}});
+  exchange.load({"b", {}, {}});
   EXPECT_EQ(exchange.nextScene().value().name, "b");
   EXPECT_FALSE(exchange.nextScene());
   EXPECT_TRUE(exchange.nextEdit());

@@ -1,0 +1,137 @@
+// Scenes that move, in the viewer.
+#include "viewer/timeline.h"
+
+#include "render_thread_fixture.h"
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+Timeline timelineOfTwoSeconds() {
+  Timeline timeline;
+  timeline.there = timeline.playing = true;
+  timeline.length = 2;
+  return timeline;
+}
+
+TEST(Timeline, PlaysByTheClockAndBeginsAgain) {
+  Timeline timeline = timelineOfTwoSeconds();
+  EXPECT_TRUE(timeline.step(1.5));
+  EXPECT_EQ(timeline.time(), 1.5);
+  EXPECT_TRUE(timeline.step(1));
+  EXPECT_EQ(timeline.time(), 0.5);
+  timeline.playOrPause();
+  EXPECT_FALSE(timeline.step(1));
+  EXPECT_EQ(timeline.time(), 0.5);
+}
+
+TEST(Timeline, StopsAtItsEndWhereItDoesNotLoop) {
+  Timeline timeline = timelineOfTwoSeconds();
+  timeline.loops = false;
+  EXPECT_TRUE(timeline.step(5));
+  EXPECT_EQ(timeline.time(), 2);
+  EXPECT_FALSE(timeline.playing);
+  timeline.playOrPause();
+  EXPECT_EQ(timeline.time(), 0);
+}
+
+TEST(Timeline, LastsAsLongAsWhatPlays) {
+  Scene scene;
+  EXPECT_FALSE(timelineOf(scene, {}).there);
+  EXPECT_EQ(timelineOf(scene, {}).time(), std::nullopt);
+  scene.motion.given.rig.push_back({kNoNode, Affine(), nullptr});
+  scene.animations = {{"walk", 3, 1}, {"run", 9, 1}, {kSceneMotion, 2, 1}};
+  const Timeline first = timelineOf(scene, {});
+  EXPECT_EQ(first.length, 3);
+  EXPECT_EQ(first.animation, "walk");
+  EXPECT_EQ(first.animations, (std::vector<std::string>{"walk", "run"}));
+  EXPECT_TRUE(first.playing);
+  const Timeline named = timelineOf(scene, {4.0, "run"});
+  EXPECT_EQ(named.length, 9);
+  EXPECT_EQ(named.time(), 4);
+  EXPECT_FALSE(named.playing);
+}
+
+// A ball that rises, a lamp that sinks, a camera that moves aside.
+std::string writeMovingScene(const cli::TemporaryFolder& folder) {
+  const auto keys = [](const std::string& to) {
+    return "\"motion\": {\"keys\": [{\"time\": 0}, {\"time\": 2, \"translate\": " + to + "}]}";
+  };
+  std::ofstream(folder / "tiny.json")
+      << "{\"whit\": 1, \"size\": [48, 32], \"cameras\": {\"front\": {\"eye\": [0, 2, 6], \"at\": "
+         "[0, "
+         "1, 0], \"fov\": 40, "
+      << keys("[2, 0, 0]") << "}}, \"lights\": [{\"position\": [3, 6, 4], \"intensity\": 60, "
+      << keys("[0, -3, 0]")
+      << "}], \"materials\": {\"red\": {\"diffuse\": [0.5, 0, 0]}}, \"scene\": [{\"shape\": "
+         "\"quad\", "
+         "\"width\": 8, \"depth\": 8}, {\"shape\": \"sphere\", \"material\": \"red\", "
+      << keys("[0, 2, 0]") << "}]}";
+  return folder / "tiny.json";
+}
+
+class MovingPictures : public RenderThreadTest {
+ protected:
+  MovingPictures() {
+    name_ = writeMovingScene(folder_);
+    common_.load.instant.plays = true;
+    opened_ = cli::openScene(name_, common_, nullptr);
+  }
+  // The scene as it is read at that time.
+  void expectPictureAt(double seconds, RenderThread& thread) {
+    cli::CommonOptions then = common_;
+    then.load.instant.seconds = seconds;
+    scene_ = cli::openScene(name_, then, nullptr);
+    request_.seconds = seconds;
+    expectRightPicture(thread);
+  }
+};
+
+TEST_F(MovingPictures, AreOfTheirTime) {
+  RenderThread thread(opened_, common_, [] {});
+  for (const double seconds : {1.2, 0.0, 2.0}) expectPictureAt(seconds, thread);
+}
+
+// What is edited is the lamp's color; it goes on moving from where the file has it.
+TEST_F(MovingPictures, KeepWhatWasEdited) {
+  RenderThread thread(opened_, common_, [] {});
+  expectPictureAt(1.2, thread);
+  ShadingEdit edit = withoutEdits(opened_);
+  edit.lights[0].intensity = Rgb(90.0f);
+  edit.lights[0].position = {3, 6, 4};  // where it begins
+  thread.edit(edit);
+  request_.edits = 1;
+  common_.load.settings = {"/lights/0/intensity=90"};
+  expectPictureAt(1.2, thread);
+  request_.edits = 1;
+  expectPictureAt(0.4, thread);
+}
+
+TEST_F(Viewer, PlaysUntilItIsPaused) {
+  writeMovingScene(folder_);
+  const cli::Outcome outcome = play(
+      "key H\nkey N\nwait 58 frames\nkey P\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey "
+      "C\n"
+      "key A 0.2\nkey P\nwait 30 frames\nkey P\nwait sharp\nkey C\n",
+      {"--size", "240x160"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  // The camera's own place is that of the file at this time.
+  EXPECT_EQ(lines[0].rfind("whit render tiny.json -o tiny.png --size=240x160 --time 1.0", 0), 0u)
+      << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+  EXPECT_NE(lines[1].find("--eye"), std::string::npos) << "moved by hand: " << lines[1];
+  EXPECT_NE(lines[1].find("--time 1."), std::string::npos) << lines[1];
+}
+
+TEST_F(Viewer, AScenePausedAtATimeShowsThat) {
+  writeMovingScene(folder_);
+  const cli::Outcome outcome =
+      play("key N\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.5"});
+  EXPECT_EQ(linesOf(outcome.out).at(0),
+            "whit render tiny.json -o tiny.png --size=240x160 --time 1.5");
+}
+
+}  // namespace
+}  // namespace whit::view
