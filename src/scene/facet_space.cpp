@@ -37,11 +37,11 @@ void setBox(const Vec3d& lower, const Vec3d& upper, double error, BoxedBlock& bl
 
 }  // namespace
 
-FacetSpace FacetSpace::ofObject(const Scene& scene, const std::vector<TriangleBlocks>& blocks,
+FacetSpace FacetSpace::ofObject(const Scene& scene, const BlocksOfGeometries& blocks,
                                 std::uint32_t geometry) {
   FacetSpace space(scene, blocks);
   space.geometry_ = geometry;
-  const Vec3d far = largestCorner(blocks[geometry].box(blocks[geometry].top(), 0));
+  const Vec3d far = largestCorner(blocks[geometry]->box(blocks[geometry]->top(), 0));
   for (const InstanceRecord& instance : scene.instances) {
     if (instance.geometry != geometry) continue;
     const Stretch stretch = stretchOf(instance.toWorld);
@@ -84,11 +84,11 @@ BoxedBlock FacetSpace::triangle(PlacedTriangleId id) const {
 
 std::vector<BoxedBlock> FacetSpace::everything() const {
   std::vector<BoxedBlock> all;
-  const TriangleBlocks& own = blocks_[geometry_];
+  const TriangleBlocks& own = *blocks_[geometry_];
   if (own.top() > 0) all.push_back(block(own.top(), 0, kNoInstance));
   if (geometry_ != 0) return all;
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    const TriangleBlocks& placed = blocks_[scene_.instances[i].geometry];
+    const TriangleBlocks& placed = *blocks_[scene_.instances[i].geometry];
     if (placed.top() > 0) all.push_back(block(placed.top(), 0, i));
   }
   return all;
@@ -103,7 +103,7 @@ std::uint32_t FacetSpace::firstPart(const BoxedBlock& block) const {
 std::uint32_t FacetSpace::endOfParts(const BoxedBlock& block) const {
   const std::uint32_t geometry = geometryOf(block.instance);
   const std::uint32_t first = block.number * TriangleBlocks::kChildren;
-  const std::uint32_t left = blocks_[geometry].count(block.level - 1) - first;
+  const std::uint32_t left = blocks_[geometry]->count(block.level - 1) - first;
   return firstPart(block) + std::min(left, TriangleBlocks::kChildren);
 }
 
@@ -118,7 +118,7 @@ BoxedBlock FacetSpace::block(std::uint32_t level, std::uint32_t number,
   boxed.level = level;
   boxed.number = number;
   boxed.instance = instance;
-  const Box& box = blocks_[geometryOf(instance)].box(level, number);
+  const Box& box = blocks_[geometryOf(instance)]->box(level, number);
   const Affine* const map = toWorld(instance);
   Vec3d lower(box.lower), upper(box.upper);
   const double error = kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), map);

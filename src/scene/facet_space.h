@@ -35,12 +35,12 @@ struct BoxedBlock {
 class FacetSpace {
  public:
   // The world, where everything is in its place.
-  FacetSpace(const Scene& scene, const std::vector<TriangleBlocks>& blocks)
+  FacetSpace(const Scene& scene, const BlocksOfGeometries& blocks)
       : scene_(scene), blocks_(blocks) {}
 
   // The space of a geometry's triangles, which count as ones of the world. Two of them that
   // overlap in one plane in some instance do so here.
-  static FacetSpace ofObject(const Scene& scene, const std::vector<TriangleBlocks>& blocks,
+  static FacetSpace ofObject(const Scene& scene, const BlocksOfGeometries& blocks,
                              std::uint32_t geometry);
 
   // Whether an instance is carried by something that moves, or bends.
@@ -68,10 +68,10 @@ class FacetSpace {
   BoxedBlock block(std::uint32_t level, std::uint32_t number, std::uint32_t instance) const;
 
   const Scene& scene_;
-  const std::vector<TriangleBlocks>& blocks_;  // one a geometry
-  std::uint32_t geometry_ = 0;                 // whose triangles are not carried by an instance
-  double error_ = 0;                           // of every facet, where it is not its own
-  double leastShare_ = 1;                      // of a facet's own error in Facet::least
+  const BlocksOfGeometries& blocks_;  // one a geometry
+  std::uint32_t geometry_ = 0;        // whose triangles are not carried by an instance
+  double error_ = 0;                  // of every facet, where it is not its own
+  double leastShare_ = 1;             // of a facet's own error in Facet::least
 };
 
 }  // namespace whit

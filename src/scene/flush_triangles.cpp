@@ -45,7 +45,9 @@ class FlushFinder {
  public:
   enum class Among { all, still, moving };
 
-  FlushFinder(const Scene& scene, int threads);
+  FlushFinder(const Scene& scene, BlocksOfGeometries known, int threads);
+
+  const BlocksOfGeometries& blocks() const { return blocks_; }
 
   // Triangles that overlap others; of those that move the others may stand still.
   Orders overlapping(Among which) const;
@@ -67,14 +69,18 @@ class FlushFinder {
 
   const Scene& scene_;
   int threads_;
-  std::vector<TriangleBlocks> blocks_;  // one a geometry
+  BlocksOfGeometries blocks_;  // one a geometry
   FacetSpace world_;
   std::vector<bool> leftOut_;  // one an instance
 };
 
-std::vector<TriangleBlocks> blocksOf(const Scene& scene, int threads) {
-  std::vector<TriangleBlocks> blocks;
-  for (const Geometry& g : scene.geometries) blocks.emplace_back(scene, g, threads);
+// Those that are known already stay.
+BlocksOfGeometries blocksOf(const Scene& scene, BlocksOfGeometries blocks, int threads) {
+  blocks.resize(scene.geometries.size());
+  for (std::size_t g = 0; g < blocks.size(); ++g) {
+    if (blocks[g]) continue;
+    blocks[g] = std::make_shared<const TriangleBlocks>(scene, scene.geometries[g], threads);
+  }
   return blocks;
 }
 
@@ -104,10 +110,10 @@ std::vector<bool> instancesInHeaps(const Scene& scene) {
   return leftOut;
 }
 
-FlushFinder::FlushFinder(const Scene& scene, int threads)
+FlushFinder::FlushFinder(const Scene& scene, BlocksOfGeometries known, int threads)
     : scene_(scene),
       threads_(threads),
-      blocks_(blocksOf(scene, threads)),
+      blocks_(blocksOf(scene, std::move(known), threads)),
       world_(scene, blocks_),
       leftOut_(instancesInHeaps(scene)) {}
 
@@ -134,7 +140,7 @@ void FlushFinder::addWithinInstances(std::uint32_t geometry, Among which, Orders
     const bool own = scene_.instances[i].geometry == geometry;
     if (own && !leftOut_[i] && isAmong(which, i)) instances.push_back(i);
   }
-  if (blocks_[geometry].top() == 0 || instances.empty()) return;
+  if (blocks_[geometry]->top() == 0 || instances.empty()) return;
   const FacetSpace object = FacetSpace::ofObject(scene_, blocks_, geometry);
   Orders candidates;
   addBoth(findPairs(object, object.everything(), PairsOf::differentPlaces, facetsOverlap,
@@ -315,18 +321,22 @@ std::uint64_t FlushTriangles::bytes() const {
 
 FlushTriangles findFlushTriangles(const Scene& scene, int threads) {
   if (scene.firstSphere > kMostSearched) return {};
-  const FlushFinder finder(scene, threads);
+  const FlushFinder finder(scene, {}, threads);
   return finder.find(finder.overlapping(FlushFinder::Among::all), FlushFinder::Among::all);
 }
 
 void updateFlushTriangles(Scene& scene, StillFlush& still, const SceneOrder& order, int threads) {
   using Among = FlushFinder::Among;
   if (scene.firstSphere > kMostSearched) return;
-  const FlushFinder finder(scene, threads);
+  BlocksOfGeometries rigid = still.blocks;
+  for (const BentVertices& bent : scene.motion.bent) {
+    if (bent.geometry < rigid.size()) rigid[bent.geometry].reset();
+  }
+  const FlushFinder finder(scene, std::move(rigid), threads);
   std::vector<std::uint32_t> instances;
   for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
   if (!still.known || still.instances != instances) {
-    still = {true, std::move(instances), finder.overlapping(Among::still), false};
+    still = {true, std::move(instances), finder.overlapping(Among::still), false, finder.blocks()};
   }
   Orders moving = finder.overlapping(Among::moving);
   if (moving.empty() && still.all) return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 namespace whit {
 
 class Scene;
+class TriangleBlocks;
 struct SceneOrder;
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
@@ -159,6 +161,7 @@ struct StillFlush {
   std::vector<std::uint32_t> instances;  // InstanceRecord::written of those that were there
   std::vector<std::uint64_t> triangles;  // that overlap others, by orderOf()
   bool all = false;                      // nothing else was flush when the scene was last searched
+  std::vector<std::shared_ptr<const TriangleBlocks>> blocks;  // of geometries, as they were then
 };
 
 // Searches again where that may have changed: scene.flush comes out as findFlushTriangles() would

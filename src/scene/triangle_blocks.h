@@ -2,6 +2,7 @@
 // eight such blocks and so on. Triangles of a mesh that follow one another are mostly neighbors.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/box.h"
@@ -29,5 +30,7 @@ class TriangleBlocks {
   std::uint32_t triangles_;
   std::vector<std::vector<Box>> levels_;  // from level 1
 };
+
+using BlocksOfGeometries = std::vector<std::shared_ptr<const TriangleBlocks>>;
 
 }  // namespace whit
