@@ -63,6 +63,25 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
   EXPECT_EQ(pixels("instant.exr"), pixels("frame3.exr"));
 }
 
+TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
+  const TemporaryFolder folder;
+  const auto film = [&](const std::string& name, const std::string& frames,
+                        const std::string& threads) {
+    expectDone({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames, "--size",
+                "32x20", "--threads", threads, "--quiet"});
+  };
+  const auto pixels = [&](const std::string& name) {
+    Warnings warnings;
+    return readRawImage(folder / name, ImageLimits(), warnings).values;
+  };
+  film("whole", "0..99", "2");
+  film("one", "57", "1");
+  film("eight", "57", "8");
+  EXPECT_NE(pixels("whole57.exr"), pixels("whole56.exr"));
+  EXPECT_EQ(pixels("whole57.exr"), pixels("one57.exr"));
+  EXPECT_EQ(pixels("whole57.exr"), pixels("eight57.exr"));
+}
+
 TEST(Motion, IsTimedAndListed) {
   const TemporaryFolder folder;
   const std::string moving = writeMoving(folder);
