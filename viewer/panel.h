@@ -33,8 +33,8 @@ struct PanelSettings {
   CompareMode compare = CompareMode::off;
   bool measureKnobs = false;  // until it is done
   RayView rays;
-  bool inspects = true;  // the pixel under the pointer
   Timeline timeline;
+  bool inspects = true;  // the pixel under the pointer
   bool saveScene = false;                   // asked for
   bool openScene = false, openSky = false;  // a file is to be chosen
 };

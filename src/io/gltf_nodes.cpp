@@ -83,18 +83,25 @@ Vec3d tripleAt(const std::optional<Track>& track, double seconds, const Vec3d& f
   return track ? tripleOr(valueAt(*track, seconds), fallback) : fallback;
 }
 
-Motion motionOf(const NodePlace& own, const GltfTracks& tracks) {
-  return [own, tracks = std::make_shared<const GltfTracks>(tracks)](double seconds) {
-    NodePlace place = own;
-    place.translation = tripleAt(tracks->translation, seconds, own.translation);
-    place.scale = tripleAt(tracks->scale, seconds, own.scale);
-    if (tracks->rotation) {
-      const std::vector<double> turn = valueAt(*tracks->rotation, seconds);
+class NodeMotion : public Motion {
+ public:
+  NodeMotion(const NodePlace& own, const GltfTracks& tracks) : own_(own), tracks_(tracks) {}
+
+  Affine at(double seconds) const override {
+    NodePlace place = own_;
+    place.translation = tripleAt(tracks_.translation, seconds, own_.translation);
+    place.scale = tripleAt(tracks_.scale, seconds, own_.scale);
+    if (tracks_.rotation) {
+      const std::vector<double> turn = valueAt(*tracks_.rotation, seconds);
       std::copy(turn.begin(), turn.end(), place.rotation.begin());
     }
     return place.map();
-  };
-}
+  }
+
+ private:
+  NodePlace own_;
+  GltfTracks tracks_;
+};
 
 // A document's skins, whose joints may come later in the tree than the meshes they hold.
 class SkinReader {
@@ -256,7 +263,9 @@ class TreeReader {
   RigNode nodeOf(std::size_t index) {
     const GltfTracks& tracks = tracks_[index];
     const std::vector<double>& m = model_.nodes[index].matrix;
-    if (tracks.place()) return {kNoNode, Affine(), motionOf(placeOf(index), tracks)};
+    if (tracks.place()) {
+      return {kNoNode, Affine(), std::make_shared<const NodeMotion>(placeOf(index), tracks)};
+    }
     if (m.empty()) return {kNoNode, placeOf(index).map(), nullptr};
     if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
       warn("last row of a matrix, other than 0 0 0 1, left out", index);

@@ -100,6 +100,25 @@ double looped(double seconds, double first, double last) {
   return first + (within < 0 ? within + period : within);
 }
 
+class KeyedMotion : public Motion {
+ public:
+  KeyedMotion(Track track, const Vec3d& axis, bool loops)
+      : track_(std::move(track)), axis_(axis), loops_(loops) {}
+
+  Affine at(double seconds) const override {
+    const std::vector<double> v = valueAt(
+        track_, loops_ ? looped(seconds, track_.times.front(), track_.times.back()) : seconds);
+    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
+    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis_, v[3]) *
+           Affine::scaling(scale);
+  }
+
+ private:
+  Track track_;
+  Vec3d axis_;
+  bool loops_;
+};
+
 void count(double seconds, SceneDescription& scene) {
   const auto known = std::find_if(scene.animations.begin(), scene.animations.end(),
                                   [](const Animation& a) { return a.name == kSceneMotion; });
@@ -111,7 +130,7 @@ void count(double seconds, SceneDescription& scene) {
 
 }  // namespace
 
-Motion readMotion(JsonObject& object, SceneDescription& scene) {
+std::shared_ptr<const Motion> readMotion(JsonObject& object, SceneDescription& scene) {
   const auto value = object.find("motion");
   if (!value) return nullptr;
   JsonObject motion(*value);
@@ -125,15 +144,7 @@ Motion readMotion(JsonObject& object, SceneDescription& scene) {
   motion.finish();
   if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
   count(track.times.back(), scene);
-  return [track = std::make_shared<const Track>(std::move(track)), axis = keys.axis,
-          loops](double seconds) {
-    const double time =
-        loops ? looped(seconds, track->times.front(), track->times.back()) : seconds;
-    const std::vector<double> v = valueAt(*track, time);
-    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
-    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis, v[3]) *
-           Affine::scaling(scale);
-  };
+  return std::make_shared<const KeyedMotion>(std::move(track), keys.axis, loops);
 }
 
 }  // namespace whit

@@ -1,6 +1,8 @@
 // "motion" in scene files: how an item, a camera or a light moves.
 #pragma once
 
+#include <memory>
+
 #include "io/json_reader.h"
 #include "scene/rig.h"
 #include "scene/scene.h"
@@ -13,6 +15,6 @@ namespace whit {
 // translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
 // smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
 // Throws badScene with the place.
-Motion readMotion(JsonObject& object, SceneDescription& scene);
+std::shared_ptr<const Motion> readMotion(JsonObject& object, SceneDescription& scene);
 
 }  // namespace whit

@@ -204,7 +204,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
   }
   std::vector<Affine> placements = readPlacements(item);
-  const Motion motion = readMotion(item, context_.scene);
+  const std::shared_ptr<const Motion> motion = readMotion(item, context_.scene);
   item.finish();
   if (motion && context_.instant.moves()) {
     const std::uint32_t carried = layout_.add("");
@@ -212,7 +212,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     to.children.push_back({carried, Affine(), to.parts.size(), motion});
   } else {
     if (motion) {
-      for (Affine& placement : placements) placement = motion(0) * placement;
+      for (Affine& placement : placements) placement = motion->at(0) * placement;
     }
     layout_.append(content, placements, to);
   }

@@ -28,8 +28,8 @@ struct BodyPart {
 struct Placement {
   std::uint32_t body = 0;
   Affine toParent;
-  std::size_t partsBefore = 0;  // of the parent's parts so many come before it
-  Motion motion = nullptr;      // within the place that toParent gives it
+  std::size_t partsBefore = 0;                     // of the parent's parts so many come before it
+  std::shared_ptr<const Motion> motion = nullptr;  // within the place that toParent gives it
 };
 
 struct Body {

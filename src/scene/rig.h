@@ -3,22 +3,26 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/affine.h"
 
 namespace whit {
 
-// Where something is at a time in seconds, in the space that it moves in.
-using Motion = std::function<Affine(double seconds)>;
+// Where something is at a time, in the space that it moves in.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  virtual Affine at(double seconds) const = 0;
+};
 
 inline constexpr std::uint32_t kNoNode = 0xffffffffu;
 
 struct RigNode {
-  std::uint32_t parent = kNoNode;  // comes before it
-  Affine toParent;                 // where its motion takes place
-  Motion motion;                   // none: it stands still there
+  std::uint32_t parent = kNoNode;        // comes before it
+  Affine toParent;                       // where its motion takes place
+  std::shared_ptr<const Motion> motion;  // none: it stands still there
 };
 
 using Rig = std::vector<RigNode>;
