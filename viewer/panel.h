@@ -34,7 +34,7 @@ struct PanelSettings {
   bool measureKnobs = false;  // until it is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;  // the pixel under the pointer
+  bool inspects = true;                     // the pixel under the pointer
   bool saveScene = false;                   // asked for
   bool openScene = false, openSky = false;  // a file is to be chosen
 };
