@@ -15,6 +15,7 @@
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/renderer.h"
+#include "scene/move_scene.h"
 
 namespace whit::api {
 
@@ -67,6 +68,8 @@ Scene loadScene(const std::string& name, const LoadOptions& options, const char*
     load.threads = options.threads;
     load.sky = options.sky;
     load.sphereSegments = options.sphereSegments;
+    load.instant.plays = options.moves;
+    load.instant.animation = options.animation;
     load.shippedScenes = shippedScenes;
     auto data = std::make_shared<Scene::Data>(options.strict);
     data->scene =
@@ -90,6 +93,12 @@ std::vector<std::string> Scene::cameras() const {
 double Scene::pathSeconds() const {
   const std::vector<Keyframe>& path = data_->scene.cameraPath;
   return path.empty() ? 0 : static_cast<double>(path.back().time);
+}
+
+std::vector<Animation> Scene::animations() const {
+  std::vector<Animation> all;
+  for (const whit::Animation& a : data_->scene.animations) all.push_back({a.name, a.seconds});
+  return all;
 }
 
 std::vector<std::string> Scene::warnings() const {
@@ -146,14 +155,16 @@ void Image::write(const std::string& path) const {
 struct Renderer::Data {
   explicit Data(Scene s) : scene(std::move(s)) {}
 
-  const whit::Scene& internal() const { return scene.data_->scene; }
+  const whit::Scene& internal() const { return moved ? *moved : scene.data_->scene; }
+  void setTime(double seconds);
   RenderOptions settledOptions() const;
   void prepare();
   void prepare(Film& film) const;
   void render(const Camera& camera, Image& image);
 
   Scene scene;
-  RenderOptions options;  // as set
+  std::unique_ptr<whit::Scene> moved;  // its own copy, once it was brought to another time
+  RenderOptions options;               // as set
   std::set<std::string> given;
   RenderOptions settled;  // with what --quality stands for and follows from the scene
   bool changed = true;
@@ -180,6 +191,21 @@ void Renderer::Data::prepare() {
   }
   settleExposure(*renderer, chooseCamera(internal(), settled), settled);
   changed = false;
+}
+
+void Renderer::Data::setTime(double seconds) {
+  if (internal().motion.empty()) {
+    throwUsage("setTime: nothing moves in " + internal().name +
+               ", or it was loaded without LoadOptions::moves");
+  }
+  if (!std::isfinite(seconds)) throwUsage("setTime: expected a finite number of seconds");
+  if (!moved) {
+    renderer.reset();  // that of the shared scene
+    moved = std::make_unique<whit::Scene>(scene.data_->scene);
+    changed = true;
+  }
+  moveScene(*moved, seconds);
+  if (renderer) renderer->sceneMoved();
 }
 
 void Renderer::Data::prepare(Film& film) const {
@@ -216,6 +242,13 @@ Renderer& Renderer::set(const std::string& name, const std::string& value) {
 
 std::string Renderer::get(const std::string& name) const {
   return guarded([&] { return optionText(data_->settledOptions(), name); });
+}
+
+Renderer& Renderer::setTime(double seconds) {
+  return guarded([&]() -> Renderer& {
+    data_->setTime(seconds);
+    return *this;
+  });
 }
 
 Image Renderer::render() {

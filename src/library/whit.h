@@ -44,6 +44,18 @@ struct LoadOptions {
   std::string sky = {};
   // Triangles in place of the scene's exact spheres, so many around each, 4 or more; 0: none.
   int sphereSegments = 0;
+  // Renderers will bring it to other times than its start (Renderer::setTime). What moves is then
+  // traced as instances, which takes a little longer.
+  bool moves = false;
+  // Which animation moves it, by its name; empty: the first of each model. What a scene file moves
+  // by itself ("scene") does so always.
+  std::string animation = {};
+};
+
+// What moves a scene from 0 to `seconds`; before and after it stands still.
+struct Animation {
+  std::string name;
+  double seconds = 0;
 };
 
 // A scene that is ready to be rendered. A handle: copies share the scene, which never changes.
@@ -53,6 +65,7 @@ class Scene {
   int width() const, height() const;  // the scene's own image size, in pixels
   std::vector<std::string> cameras() const;
   double pathSeconds() const;                 // when its camera path ends; 0 without a path
+  std::vector<Animation> animations() const;  // those to choose from
   std::uint64_t triangles() const;            // as seen, instances multiplied out
   std::vector<std::string> warnings() const;  // what was repaired while loading
 
@@ -129,6 +142,11 @@ class Renderer {
   Renderer& set(const std::string& name, const std::string& value);
   // Its value as text; empty where the scene decides.
   std::string get(const std::string& name) const;
+
+  // Brings the scene of this renderer alone to a time in seconds, for frames to come: what moves,
+  // its cameras and lights. The bits of a frame follow from the time, not from the times before.
+  // Status 2 for a scene that was not loaded to move, or in which nothing does.
+  Renderer& setTime(double seconds);
 
   // A frame from the camera that the options name. The second form reuses the image's memory.
   Image render();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -184,6 +185,50 @@ TEST(Library, ScenesThatAreNotGoodSayWhere) {
     EXPECT_NE(std::string(error.what()).find("#/size"), std::string::npos) << error.what();
   }
   std::filesystem::remove(file);
+}
+
+TEST(Library, ScenesMoveAndComeBack) {
+  LoadOptions moving;
+  moving.moves = true;
+  const Scene scene = loadScene("orrery", moving);
+  ASSERT_EQ(scene.animations().size(), 1u);
+  EXPECT_EQ(scene.animations()[0].name, "scene");
+  EXPECT_EQ(scene.animations()[0].seconds, 10);
+  const auto small = [](const Scene& of) {
+    Renderer renderer(of);
+    renderer.set("size", "40x24").set("threads", "1");
+    return renderer;
+  };
+  Renderer renderer = small(scene), still = small(scene);
+  const Image start = renderer.render();
+  for (const double seconds : {6.5, 2.5}) {
+    Warnings warnings;
+    whit::LoadOptions then;
+    then.instant.seconds = seconds;
+    const auto expected =
+        whit::Scene::finalize(whit::loadScene("orrery", then, warnings), warnings);
+    RenderOptions options;
+    options.size = ImageSize{40, 24};
+    options.threads = 1;
+    whit::Renderer inside(expected, options);
+    Film film = makeFilm(expected, options);
+    inside.render(chooseCamera(expected, options), film);
+    EXPECT_TRUE(sameBits(film.image, renderer.setTime(seconds).render())) << seconds;
+  }
+  const auto same = [&](const Image& image) {
+    return std::equal(start.rgb().begin(), start.rgb().end(), image.rgb().begin());
+  };
+  EXPECT_FALSE(same(renderer.render()));
+  EXPECT_TRUE(same(still.render())) << "another renderer's scene has moved";
+  EXPECT_TRUE(same(renderer.setTime(0).render()));
+}
+
+TEST(Library, WhatDoesNotMoveHasNoTime) {
+  EXPECT_EQ(statusOf([] { smallRenderer().setTime(1); }), 2);
+  EXPECT_EQ(statusOf([] { Renderer(loadScene("orrery")).setTime(1); }), 2);
+  LoadOptions moving;
+  moving.moves = true;
+  EXPECT_EQ(statusOf([&] { Renderer(loadScene("orrery", moving)).setTime(NAN); }), 2);
 }
 
 }  // namespace
