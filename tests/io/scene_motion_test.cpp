@@ -7,7 +7,7 @@
 namespace whit {
 namespace {
 
-constexpr double kRounding = 1e-12;  // a few operations in double, on numbers of about 10
+constexpr double kPlaceRounding = 1e-12;  // a few operations in double, on numbers of about 10
 
 class SceneMotionFile : public SceneFileTest {
  protected:
@@ -29,7 +29,7 @@ class SceneMotionFile : public SceneFileTest {
     return (map * scene.objects.at(instance.object).meshes.at(0).spheres.at(0)).point(point);
   }
   static void expectPoint(const Vec3d& a, const Vec3d& b) {
-    EXPECT_LT(length(a - b), kRounding) << a.x << " " << a.y << " " << a.z;
+    EXPECT_LT(length(a - b), kPlaceRounding) << a.x << " " << a.y << " " << a.z;
   }
 };
 
