@@ -66,6 +66,7 @@ checkThreads() {
   filter+=':Verdicts.TablesMay*:Verdicts.FollowALightThatMoves'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
+  filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
   if [ -d build-tsan/viewer/CMakeFiles/whit_view.dir ]; then
     areas+=(viewer)
