@@ -89,6 +89,7 @@ void settleInstant(const Instant& instant, SceneDescription& scene) {
   const auto taken = [](const Camera& other) { return other.name == "path"; };
   if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken)) camera.name += " at --time";
   scene.cameras.insert(scene.cameras.begin(), camera);
+  for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
 }
 
 void replaceSpheres(int segments, SceneContext& context) {

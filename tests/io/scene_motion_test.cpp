@@ -113,6 +113,19 @@ TEST_F(SceneMotionFile, CamerasAndLightsAreCarried) {
   EXPECT_EQ(loadMembers(moving).lights.at(0).position, (Vec3f{1, 1, 0}));
 }
 
+// At an instant the path's camera comes before those of the file.
+TEST_F(SceneMotionFile, CamerasMoveBesideAPath) {
+  const Scene later = Scene::finalize(
+      at(1,
+         "\"cameras\": {\"c\": {\"eye\": [0, 0, 4], \"at\": [0, 0, 0], \"motion\": {\"keys\": "
+         "[{\"time\": 0}, {\"time\": 1, \"translate\": [1, 0, 0]}]}}}, \"path\": [{\"time\": 0, "
+         "\"eye\": [0, 0, 9]}, {\"time\": 2, \"eye\": [0, 2, 9]}]"),
+      warnings_);
+  ASSERT_EQ(later.cameras.size(), 2u);
+  EXPECT_EQ(later.cameras[0].eye, (Vec3f{0, 1, 9}));
+  EXPECT_EQ(later.cameras[1].eye, (Vec3f{1, 0, 4}));
+}
+
 // Without a time a scene is as at 0, and nothing of it is made to be moved.
 TEST_F(SceneMotionFile, NothingIsPaidForWhereNoTimeIsGiven) {
   const std::string moving =
