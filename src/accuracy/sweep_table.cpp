@@ -47,6 +47,21 @@ std::string thousands(const FrameStats& stats) {
   return formatted(rays < 1e6 ? "%.1f" : "%.0f", rays / 1e3);
 }
 
+// In four columns and a mark. On a busy machine a frame of microseconds may take a thousand times
+// as long as the one before.
+std::string spreadColumn(const Timing& t) {
+  if (!t.hasSpread()) return "   ? ";
+  constexpr double kLargest = 9999;
+  const double pct = t.spreadPct();
+  const std::string number = pct <= kLargest ? formatted("%4.*f", pct < 10 ? 1 : 0, pct) : ">1e4";
+  return number + (t.noisy() ? "~" : " ");
+}
+
+std::string ratioColumn(double ratio) {
+  constexpr double kLargest = 9999;
+  return formatted(ratio <= kLargest ? "%6.2f" : "%6.1e", ratio);
+}
+
 std::string rowOf(const Point& point, std::size_t labelWidth) {
   const Timing& t = point.timing;
   std::string label = point.label(), row;
@@ -56,10 +71,8 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
   }
   row += formatted("%-*s%s%9.2f", static_cast<int>(labelWidth), label.c_str(),
                    point.onFront ? "*" : " ", t.settledMs);
-  row += t.hasSpread() ? formatted(" %4.*f%s", t.spreadPct() < 10 ? 1 : 0, t.spreadPct(),
-                                   t.noisy() ? "~" : " ")
-                       : std::string("    ? ");
-  row += formatted(" %6.2f %8s", t.ratio, thousands(point.stats).c_str());
+  row += " " + spreadColumn(t) + " " + ratioColumn(t.ratio);
+  row += formatted(" %8s", thousands(point.stats).c_str());
   const ImageDifference& d = point.total;
   row += formatted("  %7.5f %7.1e %7.2f", d.flipMean, d.rmse, d.pixelsGe1CodePct);
   if (!point.sameSamples) return row + formatted("  %7s %7s\n", "-", "-");
