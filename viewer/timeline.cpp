@@ -44,6 +44,10 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
       timeline.length = std::max(timeline.length, animation.seconds);
     }
   }
+  for (const MovingCamera& camera : scene.motion.given.cameras) {
+    if (camera.node != kNoNode) continue;  // else it flies along the path
+    timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
+  }
   if (timeline.animations.size() == 1) timeline.animations.clear();
   return timeline;
 }

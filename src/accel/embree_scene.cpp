@@ -92,7 +92,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
   };
   const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
   if (kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) streamWidth_ = 8;
-  const bool moves = !scene.motion.instances.empty();
+  const bool moves = scene.motion.ofGeometry;
   mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && (moves || !scene.instances.empty());
   rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
   if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);

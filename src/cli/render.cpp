@@ -149,25 +149,28 @@ class ImageWriter {
         films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     // One for all frames, whichever of them are asked for.
-    settleExposure(*renderer_, firstCamera(), options_);
+    settleExposure(*renderer_, camera(), options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
   }
 
-  // Of a scene that moves: frames to come are those of another instant.
+  // Frames to come are those of another instant. Where cameras alone move, that is for nothing.
   void updateScene(double seconds) {
     const Stopwatch stopwatch;
     moveScene(open_->scene, seconds);
+    if (!scene().motion.ofGeometry && !scene().motion.ofLights()) return;
     renderer_->sceneMoved();
     run_.updateMs.push_back(stopwatch.ms());
     if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
-  // With --resume, nothing is traced when all files are there. The files are there after finish().
-  void write(const Camera& camera, const std::vector<std::string>& files, Progress* progress,
+  // The scene as its camera sees it. With --resume, nothing is traced when all files are there. The
+  // files are there after finish().
+  void write(const std::vector<std::string>& files, Progress* progress,
              const ImageMetadata& more = {}) {
     const Stopwatch stopwatch;
+    const Camera camera = this->camera();
     Film& film = films_[film_];
     ImageMetadata metadata = describeImage(open_->scene, camera, *renderer_, film, options_);
     addSettings(open_->settings, open_->sky, metadata);
@@ -190,11 +193,6 @@ class ImageWriter {
   }
 
   const Scene& scene() const { return open_->scene; }
-  // Of the film's frame at that time; the scene is there already.
-  Camera filmCamera(double seconds) const {
-    return scene().cameraPath.empty() ? chooseCamera(scene(), options_)
-                                      : cameraOnPath(scene(), options_, seconds);
-  }
 
   void finish() {
     const Stopwatch stopwatch;
@@ -212,9 +210,7 @@ class ImageWriter {
   const std::vector<std::string>& written() const { return written_; }
 
  private:
-  Camera firstCamera() const {
-    return job_.frames.empty() ? chooseCamera(scene(), options_) : filmCamera(0);
-  }
+  Camera camera() const { return chooseCamera(scene(), options_); }
 
   // Of an audit: the first frame asks for verdicts of shadow, and those after it have them.
   void prepareAudit(const Camera& camera, Film& film) {
@@ -293,7 +289,6 @@ class PathProgress : public Progress {
 };
 
 void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
-  const bool moves = !writer.scene().motion.empty();
   const FrameRange range = parseFrameRange(job.frames);
   std::optional<PathProgress> path;
   if (progress) path.emplace(*progress, range);
@@ -301,10 +296,8 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
     std::vector<std::string> files;
     for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
     if (path) path->begin(frame, writer.kept());
-    const double seconds = frame / job.fps;
-    if (moves) writer.updateScene(seconds);
-    writer.write(writer.filmCamera(seconds), files, path ? &*path : nullptr,
-                 {{"frame", std::to_string(frame)}});
+    writer.updateScene(frame / job.fps);
+    writer.write(files, path ? &*path : nullptr, {{"frame", std::to_string(frame)}});
   }
 }
 
@@ -327,12 +320,12 @@ int render(const Words& words, Farm& farm) {
   checkJob(job, farm);
 
   auto progress = makeProgressBar(job.common);
-  job.common.load.instant.plays = !job.frames.empty();
+  job.common.load.instant.plays = job.common.load.instant.alongPath = !job.frames.empty();
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   checkFilmed(job, open->scene);
   ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {
-    writer.write(chooseCamera(open->scene, job.common.render), job.outputs, progress.get());
+    writer.write(job.outputs, progress.get());
   } else {
     writeFilm(job, writer, progress.get());
   }

@@ -67,8 +67,18 @@ void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyS
   }
 }
 
-// The instant that was asked for is one of something that moves. A camera's path is looked along
-// from where it is then.
+// Before all others.
+void addPathCamera(SceneDescription& scene) {
+  Camera camera = scene.cameraPath.front().camera;
+  camera.name = "path";
+  const auto taken = [](const Camera& other) { return other.name == "path"; };
+  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken)) camera.name += " at --time";
+  scene.cameras.insert(scene.cameras.begin(), camera);
+  for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
+  scene.motion.cameras.push_back({0, kNoNode, camera});
+}
+
+// The instant that was asked for is one of something that moves.
 void settleInstant(const Instant& instant, SceneDescription& scene) {
   std::vector<std::string> names;
   for (const Animation& animation : scene.animations) names.push_back(animation.name);
@@ -79,17 +89,10 @@ void settleInstant(const Instant& instant, SceneDescription& scene) {
                (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
   }
   scene.motion.seconds = instant.seconds.value_or(0);
-  if (!instant.seconds) return;
-  if (scene.cameraPath.empty() && names.empty()) {
+  if (instant.seconds && scene.cameraPath.empty() && names.empty()) {
     throwUsage("--time: nothing moves in " + scene.name);
   }
-  if (scene.cameraPath.empty()) return;
-  Camera camera = cameraAt(scene.cameraPath, *instant.seconds);
-  camera.name = "path";
-  const auto taken = [](const Camera& other) { return other.name == "path"; };
-  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken)) camera.name += " at --time";
-  scene.cameras.insert(scene.cameras.begin(), camera);
-  for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
+  if (instant.fliesPath() && !scene.cameraPath.empty()) addPathCamera(scene);
 }
 
 void replaceSpheres(int segments, SceneContext& context) {

@@ -1,5 +1,6 @@
 #include "render/enclosure.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace whit {
@@ -14,6 +15,12 @@ Vec3f latticeDirection(int i, int n) {
   return Vec3f(Vec3d{r * std::cos(turn), y, r * std::sin(turn)});
 }
 
+bool moves(const Scene& scene, std::uint32_t camera) {
+  const std::vector<MovingCamera>& moving = scene.motion.given.cameras;
+  return std::any_of(moving.begin(), moving.end(),
+                     [&](const MovingCamera& m) { return m.camera == camera; });
+}
+
 }  // namespace
 
 bool isEnclosed(const Accel& accel, const Vec3f& eye) {
@@ -25,8 +32,8 @@ bool isEnclosed(const Accel& accel, const Vec3f& eye) {
 }
 
 bool isEnclosed(const Scene& scene, const Accel& accel) {
-  for (const Camera& camera : scene.cameras) {
-    if (!isEnclosed(accel, camera.eye)) return false;
+  for (std::uint32_t i = 0; i < scene.cameras.size(); ++i) {
+    if (!moves(scene, i) && !isEnclosed(accel, scene.cameras[i].eye)) return false;
   }
   for (const Keyframe& key : scene.cameraPath) {
     if (!isEnclosed(accel, key.camera.eye)) return false;

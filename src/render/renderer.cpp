@@ -78,10 +78,12 @@ void Renderer::lookAround() {
 }
 
 void Renderer::sceneMoved() {
-  accel_->sceneMoved();
-  lookAround();
-  refreshInstances(scene_, tables_);
-  shadingChanged();
+  if (scene_.motion.ofGeometry) {
+    accel_->sceneMoved();
+    lookAround();
+    refreshInstances(scene_, tables_);
+  }
+  if (scene_.motion.ofGeometry || scene_.motion.ofLights()) shadingChanged();
 }
 
 std::uint64_t Renderer::memoryBytes() const {

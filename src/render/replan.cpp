@@ -27,7 +27,7 @@ void Renderer::replan(Plan next) {
 }
 
 bool Renderer::wantsVerdicts(const RenderOptions& options) const {
-  const bool standsStill = scene_.motion.empty();  // else what casts shadows may be elsewhere
+  const bool standsStill = !scene_.motion.ofGeometry && !scene_.motion.ofLights();
   return standsStill && verdictBytes_ > 0 && options.verdicts != Verdicts::off;
 }
 

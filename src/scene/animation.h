@@ -25,8 +25,11 @@ struct Instant {
   std::string animation;
   // The scene is to be moved (scene/move_scene.h), whatever the seconds.
   bool plays = false;
+  // It is looked at from its camera's path, where it has one; at given seconds it is anyway.
+  bool alongPath = false;
 
   bool moves() const { return plays || seconds; }
+  bool fliesPath() const { return alongPath || seconds; }
 };
 
 }  // namespace whit

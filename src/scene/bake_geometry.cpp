@@ -61,15 +61,10 @@ class Baker {
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
     scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
     for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
-    if (scene_.motion.empty()) {
+    findWhatMoves();
+    if (!scene_.motion.ofGeometry) {
       boundInstances(scene_, boxes_, warnings_);
     } else {
-      for (InstanceRecord& i : scene_.instances) {
-        const auto& bent = scene_.motion.bent;
-        i.moves = i.mover != kNoNode ||
-                  std::any_of(bent.begin(), bent.end(),
-                              [&](const BentVertices& b) { return b.geometry == i.geometry; });
-      }
       scene_.motion.instances = scene_.instances;
       countInstanced(scene_);
       scene_.motion.boxes = std::move(boxes_);
@@ -90,6 +85,7 @@ class Baker {
   void emit(std::size_t g);
   void emitSpheres(std::size_t g);
   void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
+  void findWhatMoves();
 
   SceneDescription& description_;
   Scene& scene_;
@@ -103,6 +99,22 @@ class Baker {
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
   bool isSearched_ = false;  // for flush triangles
 };
+
+void Baker::findWhatMoves() {
+  BakedMotion& motion = scene_.motion;
+  const auto isBent = [&](const InstanceRecord& i) {
+    return std::any_of(motion.bent.begin(), motion.bent.end(),
+                       [&](const BentVertices& b) { return b.geometry == i.geometry; });
+  };
+  for (InstanceRecord& i : scene_.instances) {
+    i.moves = i.mover != kNoNode || isBent(i);
+    motion.ofGeometry |= i.moves;
+  }
+  const auto& cameras = motion.given.cameras;
+  const bool carried = std::any_of(cameras.begin(), cameras.end(),
+                                   [](const MovingCamera& m) { return m.node != kNoNode; });
+  motion.ofGeometry |= carried && !scene_.instances.empty();
+}
 
 bool bends(const Object& object) {
   return std::any_of(object.meshes.begin(), object.meshes.end(),

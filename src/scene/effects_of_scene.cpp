@@ -123,7 +123,7 @@ void Gatherer::geometry() {
   set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
       counted(scene_.instancedSpheres, "sphere"), "nothing is a sphere but by its triangles");
   const std::size_t instances =
-      scene_.motion.empty() ? scene_.instances.size() : scene_.motion.instances.size();
+      scene_.motion.ofGeometry ? scene_.motion.instances.size() : scene_.instances.size();
   set(Effect::instances, instances > 0,
       counted(instances, "instance") + " of " + counted(scene_.geometries.size() - 1, "object"),
       "no object is used more than once");

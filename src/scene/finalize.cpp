@@ -78,13 +78,13 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   if (!hasVertexColors(scene)) scene.colors = {};
   numberMedia(scene);
   gatherEffects(scene);
-  if (scene.motion.empty()) {
+  if (scene.motion.ofGeometry) {
+    scene.motion.order = std::move(order);
+  } else {
     scene.flush = findFlushTriangles(scene, usableThreads());
     scene.flush.rankBy(scene, order);
-  } else {
-    scene.motion.order = std::move(order);
-    moveScene(scene, 0);
   }
+  moveScene(scene, 0);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
                                                      : scene.cameraPath.front().camera);

@@ -13,9 +13,16 @@ namespace whit {
 
 namespace {
 
-void moveView(Scene& scene, const std::vector<Affine>& poses) {
+void moveCamera(const Scene& scene, const MovingCamera& moving, const std::vector<Affine>& poses,
+                double seconds, Camera& camera) {
+  if (moving.node != kNoNode) return carry(moving.own, poses[moving.node], camera);
+  camera = cameraAt(scene.cameraPath, seconds);
+  camera.name = moving.own.name;
+}
+
+void moveView(Scene& scene, const std::vector<Affine>& poses, double seconds) {
   for (const MovingCamera& moving : scene.motion.given.cameras) {
-    carry(moving.own, poses[moving.node], scene.cameras[moving.camera]);
+    moveCamera(scene, moving, poses, seconds, scene.cameras[moving.camera]);
   }
   for (const MovingLight& moving : scene.motion.given.lights) {
     carry(moving, poses[moving.node], scene.lights[moving.light]);
@@ -81,7 +88,7 @@ Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
                                    [&](const MovingCamera& m) { return m.camera == camera; });
   if (moving == motion.cameras.end()) return scene.cameras[camera];
   Camera carried = moving->own;
-  carry(moving->own, poseRig(motion.rig, seconds)[moving->node], carried);
+  moveCamera(scene, *moving, poseRig(motion.rig, seconds), seconds, carried);
   return carried;
 }
 
@@ -89,7 +96,8 @@ void moveScene(Scene& scene, double seconds) {
   BakedMotion& motion = scene.motion;
   if (motion.empty()) return;
   const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
-  moveView(scene, poses);
+  moveView(scene, poses, seconds);
+  if (!motion.ofGeometry) return;
   for (const BentVertices& bent : motion.bent) {
     bend(scene, bent, seconds);
     motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);

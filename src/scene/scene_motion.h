@@ -15,9 +15,10 @@
 
 namespace whit {
 
-// Where they stand without the rig, and the node that carries them.
+// Where they stand without the rig, and the node that carries them. A camera without a node flies
+// along the scene's camera path.
 struct MovingCamera {
-  std::uint32_t camera = 0, node = 0;
+  std::uint32_t camera = 0, node = kNoNode;
   Camera own;
 };
 struct MovingLight {
@@ -53,16 +54,20 @@ struct BentVertices {
   std::shared_ptr<const Deformation> deformation;
 };
 
-// What moveScene() starts from. Empty where nothing moves.
+// What moveScene() starts from.
 struct BakedMotion {
   SceneMotion given;
+  // Instances move, meshes bend, or cameras may go to where instances are too small to be traced.
+  // If not, only cameras and lights move, and all below is empty.
+  bool ofGeometry = false;
   std::vector<InstanceRecord> instances;  // all of them, also those that are flattened at times
   std::vector<Box> boxes;                 // of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
   StillFlush still;
 
-  bool empty() const { return given.rig.empty() && bent.empty(); }
+  bool ofLights() const { return !given.lights.empty(); }
+  bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }
 };
 
 }  // namespace whit

@@ -1,7 +1,7 @@
 // "motion" in scene files, against positions worked out by hand.
 #include <cmath>
 
-#include "scene/scene.h"
+#include "scene/move_scene.h"
 #include "scene_files.h"
 
 namespace whit {
@@ -124,6 +124,24 @@ TEST_F(SceneMotionFile, CamerasMoveBesideAPath) {
   ASSERT_EQ(later.cameras.size(), 2u);
   EXPECT_EQ(later.cameras[0].eye, (Vec3f{0, 1, 9}));
   EXPECT_EQ(later.cameras[1].eye, (Vec3f{1, 0, 4}));
+}
+
+// A film flies along the path, and nothing but the camera is moved.
+TEST_F(SceneMotionFile, APathMovesTheCameraAlone) {
+  const std::string flown =
+      scene(
+          "{\"shape\": \"box\"}, {\"shape\": \"box\", \"repeat\": {\"count\": [2, 1, 1], \"step\": "
+          "[3, 0, 0]}}") +
+      ", \"path\": [{\"time\": 0, \"eye\": [0, 0, 9]}, {\"time\": 2, \"eye\": [0, 2, 9]}]";
+  options_.instant.plays = options_.instant.alongPath = true;
+  Scene film = Scene::finalize(loadMembers(flown), warnings_);
+  EXPECT_FALSE(film.motion.empty());
+  EXPECT_FALSE(film.motion.ofGeometry);
+  EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 0, 9}));
+  moveScene(film, 1);
+  EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 1, 9}));
+  EXPECT_EQ(film.cameras.at(0).name, "path");
+  EXPECT_EQ(cameraAt(film, 0, 2).eye, (Vec3f{0, 2, 9}));
 }
 
 // Without a time a scene is as at 0, and nothing of it is made to be moved.

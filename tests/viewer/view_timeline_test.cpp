@@ -39,7 +39,7 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
   Scene scene;
   EXPECT_FALSE(timelineOf(scene, {}).there);
   EXPECT_EQ(timelineOf(scene, {}).time(), std::nullopt);
-  scene.motion.given.rig.push_back({kNoNode, Affine(), nullptr});
+  scene.motion.given.lights.emplace_back();
   scene.animations = {{"walk", 3, 1}, {"run", 9, 1}, {kSceneMotion, 2, 1}};
   const Timeline first = timelineOf(scene, {});
   EXPECT_EQ(first.length, 3);
@@ -50,6 +50,9 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
   EXPECT_EQ(named.length, 9);
   EXPECT_EQ(named.time(), 4);
   EXPECT_FALSE(named.playing);
+  scene.cameraPath = {{0, {}}, {12, {}}};
+  scene.motion.given.cameras.emplace_back();
+  EXPECT_EQ(timelineOf(scene, {4.0, "run"}).length, 12);
 }
 
 // A ball that rises, a lamp that sinks, a camera that moves aside.
