@@ -78,7 +78,7 @@ class MoverBodies {
       const RigNode& node = movers_[mover];
       Body& parent = of(node.parent);
       bodies_[mover] = layout_.add("");
-      parent.children.push_back({bodies_[mover], node.toParent, 0, node.motion});
+      parent.children.push_back({bodies_[mover], node.toParent, 0, node.motion, node.name});
     }
     return layout_.body(bodies_[mover]);
   }
@@ -95,7 +95,7 @@ GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
     : document_(path, rules, budget, warnings),
       sources_(readGltfMaterials(document_)),
       maps_(document_),
-      stage_(readGltfNodes(document_, readGltfTracks(document_, instant))) {
+      stage_(readGltfNodes(document_, readGltfTracks(document_, instant), instant.movable)) {
   for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
 }
 

@@ -182,10 +182,12 @@ class SkinReader {
 
 class TreeReader {
  public:
-  TreeReader(const GltfDocument& document, const std::vector<GltfTracks>& tracks)
+  TreeReader(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
+             const std::set<std::string>& movable)
       : document_(document),
         model_(document.model()),
         tracks_(tracks),
+        movable_(movable),
         skins_(document, parents_, [this](std::size_t index) { return nodeOf(index); }),
         seen_(model_.nodes.size()) {}
 
@@ -245,7 +247,7 @@ class TreeReader {
     const Affine map = own.motion ? Affine() : toMover * own.toParent;
     if (own.motion) {
       document_.budget().charge(1, 2 * sizeof(RigNode), document_.where("nodes", index));
-      stage_.movers.push_back({mover, toMover, std::move(own.motion)});
+      stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
       mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
     }
     if (!isUsable(map)) return warn("node that flattens space left out", index);
@@ -261,6 +263,14 @@ class TreeReader {
 
   // Within its parent: either where it stands or how it moves.
   RigNode nodeOf(std::size_t index) {
+    RigNode node = asInFile(index);
+    const std::string name = "/nodes/" + std::to_string(index);
+    if (!movable_.contains(name)) return node;
+    if (!node.motion) node.motion = std::make_shared<const FixedMotion>(node.toParent);
+    return {kNoNode, Affine(), node.motion, name};
+  }
+
+  RigNode asInFile(std::size_t index) {
     const GltfTracks& tracks = tracks_[index];
     const std::vector<double>& m = model_.nodes[index].matrix;
     if (tracks.place()) {
@@ -430,6 +440,7 @@ class TreeReader {
   const GltfDocument& document_;
   const tinygltf::Model& model_;
   const std::vector<GltfTracks>& tracks_;
+  const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;  // or kTopmost
   SkinReader skins_;
   std::vector<bool> seen_;
@@ -439,8 +450,9 @@ class TreeReader {
 
 }  // namespace
 
-GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks) {
-  return TreeReader(document, tracks).read();
+GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
+                        const std::set<std::string>& movable) {
+  return TreeReader(document, tracks, movable).read();
 }
 
 }  // namespace whit

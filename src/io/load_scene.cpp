@@ -78,6 +78,23 @@ void addPathCamera(SceneDescription& scene) {
   scene.motion.cameras.push_back({0, kNoNode, camera});
 }
 
+bool has(const Rig& rig, const std::string& name) {
+  return std::any_of(rig.begin(), rig.end(), [&](const RigNode& n) { return n.name == name; });
+}
+
+void requireMovable(const std::string& pointer, const SceneDescription& scene) {
+  if (has(scene.motion.rig, pointer)) return;
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes) {
+      if (!mesh.deformation || !mesh.deformation->hasSkin()) continue;
+      if (has(*mesh.deformation->skeleton, pointer)) return;
+    }
+  }
+  throwUsage("\"" + pointer + "\" is not in " + scene.name +
+             ", or not what can be moved: an item, a camera or a light of a scene file, or a node "
+             "of a glTF model that holds something");
+}
+
 // The instant that was asked for is one of something that moves.
 void settleInstant(const Instant& instant, SceneDescription& scene) {
   std::vector<std::string> names;
@@ -93,6 +110,7 @@ void settleInstant(const Instant& instant, SceneDescription& scene) {
     throwUsage("--time: nothing moves in " + scene.name);
   }
   if (instant.fliesPath() && !scene.cameraPath.empty()) addPathCamera(scene);
+  for (const std::string& pointer : instant.movable) requireMovable(pointer, scene);
 }
 
 void replaceSpheres(int segments, SceneContext& context) {

@@ -130,9 +130,18 @@ void count(double seconds, SceneDescription& scene) {
 
 }  // namespace
 
-std::shared_ptr<const Motion> readMotion(JsonObject& object, SceneDescription& scene) {
+std::string movableName(const JsonObject& object, const Instant& instant) {
+  const std::string& pointer = object.value().pointer();
+  return instant.movable.contains(pointer) ? pointer : std::string();
+}
+
+std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
+                                         SceneDescription& scene) {
   const auto value = object.find("motion");
-  if (!value) return nullptr;
+  if (!value) {
+    if (movableName(object, instant).empty()) return nullptr;
+    return std::make_shared<const FixedMotion>(Affine());
+  }
   JsonObject motion(*value);
   KeyReader keys;
   const JsonValue list = motion.need("keys");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "io/json_reader.h"
 #include "scene/rig.h"
@@ -14,7 +15,11 @@ namespace whit {
 // "scale"}, ...], "interpolation": "linear" | "step" | "cubic", "loop": true}; scale comes first,
 // translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
 // smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
-// Throws badScene with the place.
-std::shared_ptr<const Motion> readMotion(JsonObject& object, SceneDescription& scene);
+// What is moved by hand has a motion always. Throws badScene with the place.
+std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
+                                         SceneDescription& scene);
+
+// The pointer to an object of which that motion was read, where it is moved by hand; empty else.
+std::string movableName(const JsonObject& object, const Instant& instant);
 
 }  // namespace whit

@@ -204,12 +204,13 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
   }
   std::vector<Affine> placements = readPlacements(item);
-  const std::shared_ptr<const Motion> motion = readMotion(item, context_.scene);
+  const std::shared_ptr<const Motion> motion = readMotion(item, context_.instant, context_.scene);
   item.finish();
   if (motion && context_.instant.moves()) {
     const std::uint32_t carried = layout_.add("");
     layout_.append(content, placements, layout_.body(carried));
-    to.children.push_back({carried, Affine(), to.parts.size(), motion});
+    to.children.push_back(
+        {carried, Affine(), to.parts.size(), motion, movableName(item, context_.instant)});
   } else {
     if (motion) {
       for (Affine& placement : placements) placement = motion->at(0) * placement;

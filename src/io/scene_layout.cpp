@@ -71,8 +71,8 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
       to.parts.push_back({part.mesh, placement * part.toBody, part.mingles});
     }
     for (const Placement& child : from.children) {
-      to.children.push_back(
-          {child.body, placement * child.toParent, before + child.partsBefore, child.motion});
+      to.children.push_back({child.body, placement * child.toParent, before + child.partsBefore,
+                             child.motion, child.mover});
     }
   }
 }
@@ -164,7 +164,7 @@ void SceneLayout::place(std::uint32_t index, const Affine& toMover, std::uint32_
     if (child.motion) {
       const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
       budget_.charge(1, sizeof(RigNode), "what moves");
-      scene.motion.rig.push_back({mover, toChild, child.motion});
+      scene.motion.rig.push_back({mover, toChild, child.motion, child.mover});
       place(child.body, Affine(), node, childRank, scene);
     } else {
       place(child.body, toChild, mover, childRank, scene);

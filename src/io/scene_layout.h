@@ -30,6 +30,7 @@ struct Placement {
   Affine toParent;
   std::size_t partsBefore = 0;                     // of the parent's parts so many come before it
   std::shared_ptr<const Motion> motion = nullptr;  // within the place that toParent gives it
+  std::string mover = {};                          // RigNode::name
 };
 
 struct Body {

@@ -27,32 +27,34 @@ void readCamera(JsonObject& object, Camera& camera) {
 }
 
 // The node that carries something from now on.
-std::uint32_t addMover(const std::shared_ptr<const Motion>& motion, SceneDescription& scene) {
-  scene.motion.rig.push_back({kNoNode, Affine(), motion});
+std::uint32_t addMover(const std::shared_ptr<const Motion>& motion, const std::string& name,
+                       SceneDescription& scene) {
+  scene.motion.rig.push_back({kNoNode, Affine(), motion, name});
   return static_cast<std::uint32_t>(scene.motion.rig.size() - 1);
 }
 
 void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
                   Camera& camera) {
-  const std::shared_ptr<const Motion> motion = readMotion(object, scene);
+  const std::shared_ptr<const Motion> motion = readMotion(object, instant, scene);
   if (!motion) return;
   const Camera own = camera;
   carry(own, motion->at(0), camera);
   if (!instant.moves()) return;
   const auto index = static_cast<std::uint32_t>(scene.cameras.size());
-  scene.motion.cameras.push_back({index, addMover(motion, scene), own});
+  const std::uint32_t mover = addMover(motion, movableName(object, instant), scene);
+  scene.motion.cameras.push_back({index, mover, own});
 }
 
 void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
                   Light& light) {
-  const std::shared_ptr<const Motion> motion = readMotion(object, scene);
+  const std::shared_ptr<const Motion> motion = readMotion(object, instant, scene);
   if (!motion) return;
   const auto index = static_cast<std::uint32_t>(scene.lights.size());
   const MovingLight moving{index, kNoNode, light.position, light.direction};
   carry(moving, motion->at(0), light);
   if (!instant.moves()) return;
   scene.motion.lights.push_back(moving);
-  scene.motion.lights.back().node = addMover(motion, scene);
+  scene.motion.lights.back().node = addMover(motion, movableName(object, instant), scene);
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {

@@ -69,6 +69,7 @@ Scene loadScene(const std::string& name, const LoadOptions& options, const char*
     load.sky = options.sky;
     load.sphereSegments = options.sphereSegments;
     load.instant.plays = options.moves;
+    load.instant.movable = {options.movable.begin(), options.movable.end()};
     load.instant.animation = options.animation;
     load.shippedScenes = shippedScenes;
     auto data = std::make_shared<Scene::Data>(options.strict);
@@ -157,14 +158,19 @@ struct Renderer::Data {
 
   const whit::Scene& internal() const { return moved ? *moved : scene.data_->scene; }
   void setTime(double seconds);
+  void setTransform(const std::string& pointer, std::span<const double, 12> rows);
+  void ownScene();
+  void moveNow();
   RenderOptions settledOptions() const;
   void prepare();
   void prepare(Film& film) const;
   void render(const Camera& camera, Image& image);
 
   Scene scene;
-  std::unique_ptr<whit::Scene> moved;  // its own copy, once it was brought to another time
-  RenderOptions options;               // as set
+  std::unique_ptr<whit::Scene> moved;  // its own copy, once it was moved
+  double seconds = 0;
+  bool stale = false;     // it is not yet where it was moved to
+  RenderOptions options;  // as set
   std::set<std::string> given;
   RenderOptions settled;  // with what --quality stands for and follows from the scene
   bool changed = true;
@@ -181,6 +187,7 @@ RenderOptions Renderer::Data::settledOptions() const {
 
 // After options were set: the renderer takes them over, or is made anew.
 void Renderer::Data::prepare() {
+  if (stale) moveNow();
   if (!changed) return;
   settled = settledOptions();
   if (renderer && renderer->canSetOptions(settled)) {
@@ -199,13 +206,32 @@ void Renderer::Data::setTime(double seconds) {
                ", or it was loaded without LoadOptions::moves");
   }
   if (!std::isfinite(seconds)) throwUsage("setTime: expected a finite number of seconds");
-  if (!moved) {
-    renderer.reset();  // that of the shared scene
-    moved = std::make_unique<whit::Scene>(scene.data_->scene);
-    changed = true;
+  ownScene();
+  this->seconds = seconds;
+  stale = true;
+}
+
+void Renderer::Data::setTransform(const std::string& pointer, std::span<const double, 12> rows) {
+  if (!std::all_of(rows.begin(), rows.end(), [](double x) { return std::isfinite(x); })) {
+    throwUsage("setTransform: expected finite numbers");
   }
+  const auto column = [&](std::size_t i) { return Vec3d{rows[i], rows[i + 4], rows[i + 8]}; };
+  ownScene();
+  setPlace(*moved, pointer, Affine{column(0), column(1), column(2), column(3)});
+  stale = true;
+}
+
+void Renderer::Data::ownScene() {
+  if (moved) return;
+  renderer.reset();  // that of the shared scene
+  moved = std::make_unique<whit::Scene>(scene.data_->scene);
+  changed = true;
+}
+
+void Renderer::Data::moveNow() {
   moveScene(*moved, seconds);
   if (renderer) renderer->sceneMoved();
+  stale = false;
 }
 
 void Renderer::Data::prepare(Film& film) const {
@@ -247,6 +273,13 @@ std::string Renderer::get(const std::string& name) const {
 Renderer& Renderer::setTime(double seconds) {
   return guarded([&]() -> Renderer& {
     data_->setTime(seconds);
+    return *this;
+  });
+}
+
+Renderer& Renderer::setTransform(const std::string& pointer, std::span<const double, 12> rows) {
+  return guarded([&]() -> Renderer& {
+    data_->setTransform(pointer, rows);
     return *this;
   });
 }

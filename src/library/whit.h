@@ -47,6 +47,9 @@ struct LoadOptions {
   // Renderers will bring it to other times than its start (Renderer::setTime). What moves is then
   // traced as instances, which takes a little longer.
   bool moves = false;
+  // JSON pointers to what will be moved by hand (Renderer::setTransform): items, cameras and lights
+  // of scene files ("/scene/3", "/cameras/front", "/lights/0"), nodes of glTF models ("/nodes/7").
+  std::vector<std::string> movable = {};
   // Which animation moves it, by its name; empty: the first of each model. What a scene file moves
   // by itself ("scene") does so always.
   std::string animation = {};
@@ -147,6 +150,13 @@ class Renderer {
   // its cameras and lights. The bits of a frame follow from the time, not from the times before.
   // Status 2 for a scene that was not loaded to move, or in which nothing does.
   Renderer& setTime(double seconds);
+
+  // Moves a thing of the scene of this renderer alone, for frames to come, whatever the time:
+  // `rows` is a matrix of three rows and four columns, the last of which is a translation, row by
+  // row, and stands in place of the item's, camera's or light's "motion" or of what the node says
+  // of itself. What it flattens is left out. Status 2 for what was not among LoadOptions::movable
+  // and numbers that are not finite.
+  Renderer& setTransform(const std::string& pointer, std::span<const double, 12> rows);
 
   // A frame from the camera that the options name. The second form reuses the image's memory.
   Image render();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace whit {
@@ -27,8 +28,11 @@ struct Instant {
   bool plays = false;
   // It is looked at from its camera's path, where it has one; at given seconds it is anyway.
   bool alongPath = false;
+  // JSON pointers to what is moved by hand (setPlace() in scene/move_scene.h): items, cameras and
+  // lights of scene files, nodes of glTF models.
+  std::set<std::string> movable = {};
 
-  bool moves() const { return plays || seconds; }
+  bool moves() const { return plays || seconds || !movable.empty(); }
   bool fliesPath() const { return alongPath || seconds; }
 };
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
+#include "core/error.h"
 #include "core/usable_threads.h"
 #include "core/warnings.h"
 #include "scene/bake_triangles.h"
@@ -80,6 +83,16 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
   return box;
 }
 
+bool setMotion(const std::string& name, const std::shared_ptr<const Motion>& motion, Rig& rig) {
+  bool found = false;
+  for (RigNode& node : rig) {
+    if (node.name != name) continue;
+    node.motion = motion;
+    found = true;
+  }
+  return found;
+}
+
 }  // namespace
 
 Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
@@ -90,6 +103,24 @@ Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
   Camera carried = moving->own;
   moveCamera(scene, *moving, poseRig(motion.rig, seconds), seconds, carried);
   return carried;
+}
+
+void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
+  const auto motion = std::make_shared<const FixedMotion>(place);
+  bool found = setMotion(pointer, motion, scene.motion.given.rig);
+  for (BentVertices& bent : scene.motion.bent) {
+    if (!bent.deformation->hasSkin()) continue;
+    Rig skeleton = *bent.deformation->skeleton;
+    if (!setMotion(pointer, motion, skeleton)) continue;
+    Deformation deformation = *bent.deformation;  // other scenes may share it
+    deformation.skeleton = std::make_shared<const Rig>(std::move(skeleton));
+    bent.deformation = std::make_shared<const Deformation>(std::move(deformation));
+    found = true;
+  }
+  if (!found) {
+    throwUsage("\"" + pointer + "\" is not among what was to be moved when " + scene.name +
+               " was loaded");
+  }
 }
 
 void moveScene(Scene& scene, double seconds) {

@@ -13,6 +13,10 @@ namespace whit {
 // Nothing is done to a scene without motion.
 void moveScene(Scene& scene, double seconds);
 
+// In place of its motion, whatever the time: where what has this pointer (Instant::movable) takes
+// what it moves. For the next moveScene(). Throws Error(usage) where nothing has that pointer.
+void setPlace(Scene& scene, const std::string& pointer, const Affine& place);
+
 // A camera of the scene as it is then, wherever the scene has been moved to.
 Camera cameraAt(const Scene& scene, std::size_t camera, double seconds);
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -221,6 +223,60 @@ TEST(Library, ScenesMoveAndComeBack) {
   EXPECT_FALSE(same(renderer.render()));
   EXPECT_TRUE(same(still.render())) << "another renderer's scene has moved";
   EXPECT_TRUE(same(renderer.setTime(0).render()));
+}
+
+std::string writeLoose(const std::filesystem::path& file, const std::string& place) {
+  std::ofstream(file) << "{\"whit\": 1, \"cameras\": {\"c\": {\"eye\": [0, 0, 9], \"at\": [0, 0, 0]"
+                      << place << "}}, \"lights\": [{\"position\": [3, 5, 6], \"intensity\": 90"
+                      << place << "}], \"scene\": [{\"shape\": \"box\"}, {\"group\": [{\"shape\": "
+                      << "\"sphere\"" << place
+                      << "}], \"transform\": {\"translate\": [2, 0, 0]}}]}";
+  return file.string();
+}
+
+// What is placed by hand has the picture of a file that says so.
+TEST(Library, ThingsAreMovedByHand) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string prefix = "whit-loose-" + std::to_string(getpid());
+  const std::string loose = writeLoose(folder / (prefix + "-a.json"), "");
+  const std::string placed = writeLoose(
+      folder / (prefix + "-b.json"),
+      ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
+  LoadOptions moving;
+  moving.movable = {"/cameras/c", "/lights/0", "/scene/1/group/0"};
+  const auto small = [](const Scene& of) {
+    Renderer renderer(of);
+    renderer.set("size", "40x24").set("threads", "1");
+    return renderer;
+  };
+  const auto same = [](const Image& a, const Image& b) {
+    return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin());
+  };
+  Renderer renderer = small(loadScene(loose, moving));
+  const Image rest = renderer.render();
+  constexpr std::array<double, 12> kPlace{2, 0, 0, -1, 0, 2, 0, 0.5, 0, 0, 2, 0};
+  for (const std::string& pointer : moving.movable) renderer.setTransform(pointer, kPlace);
+  const Image there = renderer.render();
+  EXPECT_FALSE(same(rest, there));
+  moving.moves = true;
+  moving.movable = {};
+  EXPECT_TRUE(same(small(loadScene(placed, moving)).render(), there));
+  constexpr std::array<double, 12> kRest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  for (const char* pointer : {"/lights/0", "/scene/1/group/0", "/cameras/c"}) {
+    renderer.setTransform(pointer, kRest);
+  }
+  EXPECT_TRUE(same(rest, renderer.render()));
+  EXPECT_EQ(statusOf([&] { renderer.setTransform("/scene/0", kRest); }), 2);
+  EXPECT_EQ(statusOf([&] {
+              std::array<double, 12> wrong = kRest;
+              wrong[7] = NAN;
+              renderer.setTransform("/lights/0", wrong);
+            }),
+            2);
+  moving.movable = {"/scene/7"};
+  EXPECT_EQ(statusOf([&] { loadScene(loose, moving); }), 2);
+  std::filesystem::remove(loose);
+  std::filesystem::remove(placed);
 }
 
 TEST(Library, WhatDoesNotMoveHasNoTime) {

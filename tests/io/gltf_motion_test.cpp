@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "gltf_files.h"
+#include "scene/move_scene.h"
 
 namespace whit {
 namespace {
@@ -207,6 +208,50 @@ TEST_F(GltfSkin, VerticesFollowTheirJoints) {
   expectNear(cornerOf(scene, 0, 0, 1), {0.5, 1.5, 0},
              kPoseRounding);  // half of (1, 1), half of (0, 2)
   expectNear(cornerOf(scene, 0, 0, 2), {-1, 1, 0}, kPoseRounding);
+}
+
+TEST_F(GltfSkin, JointsArePlacedByHand) {
+  options_.instant.movable = {"/nodes/2"};
+  Scene scene = Scene::finalize(loadText(text("0,0,0,1")), warnings_);
+  const Scene shared = scene;
+  const auto corner = [](const Scene& of, std::size_t i) {
+    return Vec3d(of.geometries.at(of.instances.at(0).geometry).position.at(i));
+  };
+  expectNear(corner(scene, 2), {0, 2, 0}, kPoseRounding);
+  const Affine turned{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  setPlace(scene, "/nodes/2", turned);
+  moveScene(scene, 0);
+  expectNear(corner(scene, 0), {0, 0, 0}, kPoseRounding);
+  expectNear(corner(scene, 1), {0.5, 1.5, 0}, kPoseRounding);
+  expectNear(corner(scene, 2), {-1, 1, 0}, kPoseRounding);
+  expectNear(corner(shared, 2), {0, 2, 0}, kPoseRounding);
+  EXPECT_THROW(setPlace(scene, "/nodes/1", turned), Error);
+}
+
+// A fan of joints under one that moves, each of which holds a corner of its own.
+TEST_F(GltfSkin, ThousandsOfJointsHold) {
+  constexpr std::uint16_t kJoints = 9000;
+  std::string children, list, nodes;
+  for (int i = 0; i < kJoints; ++i) {
+    const std::string node = std::to_string(i + 2), comma = i == 0 ? "" : ",";
+    children += comma + node;
+    list += comma + node;
+    nodes += ",{\"translation\":[" + std::to_string(i) + ",0,0]}";
+  }
+  GltfBuilder b;
+  b.positions(xyz);
+  b.accessor(b.view(bytesOf<std::uint16_t>({0, 0, 0, 0, 5000, 0, 0, 0, 8999, 0, 0, 0}), 8), 5123,
+             "VEC4", 3);
+  b.accessor(b.view(bytesOf<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 16), 5126, "VEC4", 3);
+  const std::string times = scalars(b, {0, 2}), up = threes(b, {0, 0, 0, 0, 2, 0});
+  const SceneDescription scene = at(
+      1, b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,"
+                "\"WEIGHTS_0\":2}}]}],\"skins\":[{\"joints\":[" +
+                list + "]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\"children\":[" + children + "]}" +
+                nodes + "],\"animations\":[" + animation(times, up, 1, "translation") + "]"));
+  expectNear(movedCorner(scene, 0), {0, 1, 0}, kPoseRounding);
+  expectNear(movedCorner(scene, 1), {5001, 2, 0}, kPoseRounding);
+  expectNear(movedCorner(scene, 2), {8999, 3, 0}, kPoseRounding);
 }
 
 TEST_F(GltfSkin, AtRestItIsAsItWasModelled) {
