@@ -13,6 +13,7 @@
 #include "render/describe_image.h"
 #include "scene/edit_shading.h"
 #include "scene/move_scene.h"
+#include "simd/deform_vertices.h"
 
 namespace whit::view {
 
@@ -88,7 +89,7 @@ void FrameTracer::load(const SceneChoice& choice) {
 
 void FrameTracer::moveTo(double seconds) {
   const std::lock_guard lock(scene_->moving);
-  moveScene(scene_->scene, seconds);
+  moveScene(scene_->scene, seconds, simd::deformVertices);
   renderer_->sceneMoved();
   seconds_ = seconds;
 }

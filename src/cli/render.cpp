@@ -27,6 +27,7 @@
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "scene/move_scene.h"
+#include "simd/deform_vertices.h"
 
 namespace whit::cli {
 
@@ -157,7 +158,7 @@ class ImageWriter {
   // Frames to come are those of another instant. Where cameras alone move, that is for nothing.
   void updateScene(double seconds) {
     const Stopwatch stopwatch;
-    moveScene(open_->scene, seconds);
+    moveScene(open_->scene, seconds, simd::deformVertices);
     if (!scene().motion.ofGeometry && !scene().motion.ofLights()) return;
     renderer_->sceneMoved();
     run_.updateMs.push_back(stopwatch.ms());

@@ -140,7 +140,7 @@ bool GltfDeformation::none() const {
 void deform(const GltfDocument& document, const tinygltf::Primitive& primitive,
             const GltfDeformation& deformation, const std::string& where, Mesh& mesh) {
   Deformation own = DeformationReader(document, primitive, deformation, where, mesh).read();
-  DeformedVertices start = deform(own, 0);
+  DeformedVertices start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
   if (start.mirrored) {

@@ -16,6 +16,7 @@
 #include "render/describe_image.h"
 #include "render/renderer.h"
 #include "scene/move_scene.h"
+#include "simd/deform_vertices.h"
 
 namespace whit::api {
 
@@ -229,7 +230,7 @@ void Renderer::Data::ownScene() {
 }
 
 void Renderer::Data::moveNow() {
-  moveScene(*moved, seconds);
+  moveScene(*moved, seconds, simd::deformVertices);
   if (renderer) renderer->sceneMoved();
   stale = false;
 }

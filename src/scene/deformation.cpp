@@ -53,27 +53,31 @@ bool Deformation::moves() const {
                                   [](const RigNode& node) { return node.motion != nullptr; });
 }
 
-DeformedVertices deform(const Deformation& deformation, double seconds) {
+DeformationPose poseAt(const Deformation& deformation, double seconds) {
+  DeformationPose pose;
+  pose.weights = deformation.movingWeights ? valueAt(*deformation.movingWeights, seconds)
+                                           : deformation.weights;
+  if (deformation.hasSkin()) pose.joints = poseJoints(deformation, seconds);
+  return pose;
+}
+
+DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose) {
   std::vector<Vec3d> positions = widened(deformation.positions);
   std::vector<Vec3d> normals = widened(deformation.normals);
-  const std::vector<double> weights = deformation.movingWeights
-                                          ? valueAt(*deformation.movingWeights, seconds)
-                                          : deformation.weights;
-  for (std::size_t i = 0; i < std::min(weights.size(), deformation.targets.size()); ++i) {
-    if (weights[i] == 0) continue;
-    add(deformation.targets[i].positions, weights[i], positions);
-    add(deformation.targets[i].normals, weights[i], normals);
+  for (std::size_t i = 0; i < std::min(pose.weights.size(), deformation.targets.size()); ++i) {
+    if (pose.weights[i] == 0) continue;
+    add(deformation.targets[i].positions, pose.weights[i], positions);
+    add(deformation.targets[i].normals, pose.weights[i], normals);
   }
   DeformedVertices bent;
   std::size_t mirrored = 0;
   if (deformation.hasSkin()) {
-    const std::vector<Affine> joints = poseJoints(deformation, seconds);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Influence* const all = deformation.influences.data();
       const std::uint32_t begin = deformation.firstInfluence[i];
       const std::uint32_t end = deformation.firstInfluence[i + 1];
       if (begin == end) continue;
-      const Affine map = blended(joints, all + begin, all + end);
+      const Affine map = blended(pose.joints, all + begin, all + end);
       positions[i] = map.point(positions[i]);
       if (i < normals.size()) normals[i] = map.normal(normals[i]);
       mirrored += map.determinant() < 0 ? 1 : 0;

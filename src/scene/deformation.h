@@ -25,7 +25,7 @@ struct Influence {
 };
 
 struct Deformation {
-  std::vector<Vec3f> positions, normals;  // as they were modelled; normals may be none
+  std::vector<Vec3f> positions, normals;  // as they were modelled; of all or none a normal
   std::vector<MorphTarget> targets;
   std::vector<double> weights;          // of targets; those that are missing are zero
   std::optional<Track> movingWeights;   // in place of them
@@ -51,7 +51,16 @@ struct DeformedVertices {
   std::vector<Vec3f> positions, normals;  // rounded once; normals of unit length, or zero
   bool mirrored = false;                  // the skin turns more than half of them inside out
 };
-// Morph targets first, then joints.
-DeformedVertices deform(const Deformation& deformation, double seconds);
+
+// What a mesh is bent by at a time.
+struct DeformationPose {
+  std::vector<double> weights;  // of targets
+  std::vector<Affine> joints;   // from the mesh as it was modelled
+};
+DeformationPose poseAt(const Deformation& deformation, double seconds);
+
+// Morph targets first, then joints. The scalar twin of simd/deform_vertices.h.
+DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose);
+using DeformVertices = DeformedVertices (*)(const Deformation&, const DeformationPose&);
 
 }  // namespace whit

@@ -84,12 +84,12 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
     scene.flush = findFlushTriangles(scene, usableThreads());
     scene.flush.rankBy(scene, order);
   }
-  moveScene(scene, 0);
+  moveScene(scene, 0, deformVertices);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
                                                      : scene.cameraPath.front().camera);
   }
-  if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds);
+  if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds, deformVertices);
   return scene;
 }
 

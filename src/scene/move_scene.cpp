@@ -52,9 +52,10 @@ void setNormals(const std::vector<Vec3f>& normals, const std::array<std::uint32_
   }
 }
 
-void bend(Scene& scene, const BentVertices& bent, double seconds) {
+void bend(Scene& scene, const BentVertices& bent, double seconds, DeformVertices deformVertices) {
   Geometry& geometry = scene.geometries[bent.geometry];
-  const DeformedVertices vertices = deform(*bent.deformation, seconds);
+  const DeformedVertices vertices =
+      deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
   std::copy(vertices.positions.begin(), vertices.positions.end(),
             geometry.position.begin() + bent.firstVertex);
   const std::size_t count = vertices.positions.size();
@@ -123,14 +124,14 @@ void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
   }
 }
 
-void moveScene(Scene& scene, double seconds) {
+void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
   BakedMotion& motion = scene.motion;
   if (motion.empty()) return;
   const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
   moveView(scene, poses, seconds);
   if (!motion.ofGeometry) return;
   for (const BentVertices& bent : motion.bent) {
-    bend(scene, bent, seconds);
+    bend(scene, bent, seconds, deformVertices);
     motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
   }
   scene.instances = motion.instances;

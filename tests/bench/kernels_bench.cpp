@@ -12,6 +12,7 @@
 
 #include "bench/bench_tile.h"
 #include "render/stage_comparison.h"
+#include "simd/deform_vertices.h"
 
 namespace whit::bench {
 namespace {
@@ -138,6 +139,50 @@ void registerAll(Subject& subject, std::vector<std::string>& known) {
   });
 }
 
+// Vertices that two joints hold each.
+Deformation makeSkin() {
+  constexpr std::uint32_t kVertices = 50'000, kJoints = 20;
+  Deformation skin;
+  skin.skeleton = std::make_shared<const Rig>(Rig(1));
+  skin.joints.resize(kJoints);
+  skin.firstInfluence = {0};
+  for (std::uint32_t i = 0; i < kVertices; ++i) {
+    const auto x = static_cast<float>(i) / kVertices;
+    skin.positions.emplace_back(x, 1 - x, 2 * x);
+    skin.normals.emplace_back(0.0f, 1.0f, x);
+    skin.influences.push_back({i % kJoints, 0.25});
+    skin.influences.push_back({(i + 1) % kJoints, 0.75});
+    skin.firstInfluence.push_back(2 * (i + 1));
+  }
+  return skin;
+}
+
+// The twin, and each target's kernels.
+void registerSkin() {
+  const auto skin = std::make_shared<const Deformation>(makeSkin());
+  const auto pose = std::make_shared<DeformationPose>();
+  for (std::size_t i = 0; i < skin->joints.size(); ++i) {
+    pose->joints.push_back(Affine::rotation({1, 2, 3}, static_cast<double>(i)));
+  }
+  const auto add = [=](const std::string& name, DeformVertices deform, const std::string& target) {
+    benchmark::RegisterBenchmark(("deformVertices/" + name).c_str(), [=](benchmark::State& state) {
+      simd::chooseTarget(target);
+      for (auto _ : state) benchmark::DoNotOptimize(deform(*skin, *pose));
+      const DeformedVertices twin = deformVertices(*skin, *pose), bent = deform(*skin, *pose);
+      if (bent.positions != twin.positions || bent.normals != twin.normals) {
+        state.SkipWithError("differs from its twin");
+      }
+      state.counters["per_vertex"] = benchmark::Counter(
+          static_cast<double>(skin->positions.size()),
+          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    });
+  };
+  add("twin", deformVertices, "auto");
+  for (const std::string& target : simd::availableTargets()) {
+    add(target, simd::deformVertices, target);
+  }
+}
+
 int runAll() {
   std::vector<std::unique_ptr<Subject>> subjects;
   std::vector<std::unique_ptr<PacketBench>> packets;
@@ -153,6 +198,7 @@ int runAll() {
                               std::size_t rays) { registerOne(name, subject, run, rays); });
     }
   }
+  registerSkin();
   benchmark::RunSpecifiedBenchmarks();
   for (const auto& subject : subjects) {
     if (!subject->verdict.empty()) return 1;

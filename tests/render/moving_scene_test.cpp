@@ -11,6 +11,7 @@
 
 #include "render/film.h"
 #include "shipped_scene.h"
+#include "simd/deform_vertices.h"
 
 namespace whit {
 namespace {
@@ -42,7 +43,7 @@ TEST(MovingScene, PicturesFollowFromTheTimeAlone) {
   Renderer renderer(scene, options);
   const Image first = pictureOf(renderer, scene, options);
   for (const double seconds : {7.25, 2.4, 0.0, 2.4}) {
-    moveScene(scene, seconds);
+    moveScene(scene, seconds, simd::deformVertices);
     renderer.sceneMoved();
     const Image moved = pictureOf(renderer, scene, options);
     EXPECT_EQ(firstDifference(moved, pictureOf(orreryAt(seconds), options)), "") << seconds;
@@ -67,7 +68,7 @@ TEST(MovingScene, PicturesDoNotDependOnThreadsOrPackets) {
 TEST(MovingScene, LightsAndCamerasOfFilesKeepWhatWasEdited) {
   Scene scene = orreryAt(0);
   scene.lights.at(1).intensity = Rgb(7.0f);
-  moveScene(scene, 2.5);
+  moveScene(scene, 2.5, simd::deformVertices);
   EXPECT_EQ(scene.lights[1].intensity, Rgb(7.0f));
   const double turn = -std::numbers::pi / 2;  // the lamp goes once around in ten seconds
   const Vec3d expected{4.5 * std::cos(turn) + 3 * std::sin(turn), 8,
@@ -131,7 +132,7 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   const RenderOptions options;
   Renderer renderer(scene, options);
   for (const double seconds : {3.0, 1.0, 4.0}) {
-    moveScene(scene, seconds);
+    moveScene(scene, seconds, simd::deformVertices);
     renderer.sceneMoved();
     const Seen seen = seenIn(pictureOf(renderer, scene, options));
     const double t = seconds / 4, radius = (1 + t) * kPixels;
@@ -168,11 +169,11 @@ TEST_F(MovingFile, WhatSlidesOverASurfaceCoversIt) {
     return count;
   };
   EXPECT_EQ(white(), 0);
-  moveScene(scene, 1);
+  moveScene(scene, 1, simd::deformVertices);
   renderer.sceneMoved();
   EXPECT_FALSE(scene.flush.empty());
   EXPECT_EQ(white(), 16 * 16);  // two by two units
-  moveScene(scene, 0);
+  moveScene(scene, 0, simd::deformVertices);
   renderer.sceneMoved();
   EXPECT_TRUE(scene.flush.empty());
   EXPECT_EQ(white(), 0);

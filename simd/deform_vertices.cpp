@@ -1,0 +1,244 @@
+#include "simd/deform_vertices.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/deform_vertices.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+
+#ifndef WHIT_DEFORM_KERNELS
+#define WHIT_DEFORM_KERNELS
+namespace whit::simd {
+
+// Vertices are worked on so many at a time; columns of them have room for that.
+inline constexpr size_t kVertices = 8;
+
+// Components of vertices lie one after the other: x, y, z.
+struct DeformKernels {
+  // Adds what a target moves, `count` components, times its weight.
+  void (*addTarget)(const float* moved, double weight, size_t count, double* to);
+  // Vertices by their joints. `normals` may be null. Returns how many are turned inside out.
+  size_t (*skin)(const Deformation& deformation, const Affine* joints, size_t count,
+                 double* positions, double* normals);
+  // To unit length, or zero where there is no direction.
+  void (*normalize)(size_t count, double* normals);
+};
+
+}  // namespace whit::simd
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<double, kVertices>;
+using VD = hn::Vec<Lanes>;
+
+struct Triple {
+  VD x, y, z;
+};
+
+HWY_INLINE Triple Loaded(const double* from) {
+  Triple v;
+  hn::LoadInterleaved3(Lanes(), from, v.x, v.y, v.z);
+  return v;
+}
+HWY_INLINE void Stored(const Triple& v, double* to) {
+  hn::StoreInterleaved3(v.x, v.y, v.z, Lanes(), to);
+}
+HWY_INLINE Triple Sum(const Triple& a, const Triple& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Triple Times(const Triple& a, VD b) {
+  return {hn::Mul(a.x, b), hn::Mul(a.y, b), hn::Mul(a.z, b)};
+}
+HWY_INLINE VD Dot(const Triple& a, const Triple& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Triple Cross(const Triple& a, const Triple& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+// x * v.x + y * v.y + z * v.z
+HWY_INLINE Triple Combined(const Triple& x, const Triple& y, const Triple& z, const Triple& v) {
+  return Sum(Sum(Times(x, v.x), Times(y, v.y)), Times(z, v.z));
+}
+
+void AddTarget(const float* moved, double weight, size_t count, double* to) {
+  const Lanes d;
+  const hn::Rebind<float, Lanes> floats;
+  const size_t lanes = hn::Lanes(d);
+  const VD w = hn::Set(d, weight);
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const VD by = hn::PromoteTo(d, hn::LoadU(floats, moved + i));
+    hn::StoreU(hn::Add(hn::LoadU(d, to + i), hn::Mul(by, w)), d, to + i);
+  }
+  for (; i < count; ++i) to[i] += static_cast<double>(moved[i]) * weight;
+}
+
+// The maps of eight vertices: component by component, and whether joints hold them.
+struct alignas(64) Maps {
+  static constexpr size_t kComponents = 12;  // of an Affine: x, y, z, p
+  double of[kComponents][kVertices];
+  double held[kVertices];
+
+  HWY_INLINE Triple Column(size_t column, size_t i) const {
+    const Lanes d;
+    return {hn::Load(d, of[3 * column] + i), hn::Load(d, of[3 * column + 1] + i),
+            hn::Load(d, of[3 * column + 2] + i)};
+  }
+};
+static_assert(sizeof(Affine) == Maps::kComponents * sizeof(double));
+
+HWY_INLINE void Blend(const Affine* joints, const Influence* begin, const Influence* end,
+                      size_t vertex, Maps& maps) {
+  const hn::CappedTag<double, 4> d;
+  const size_t lanes = hn::Lanes(d);
+  alignas(64) double map[Maps::kComponents];
+  double sum = 0;
+  for (const Influence* i = begin; i != end; ++i) sum += i->weight;
+  const auto scale = hn::Set(d, 1 / sum);
+  for (size_t k = 0; k < Maps::kComponents; k += lanes) {
+    auto blended = hn::Zero(d);
+    for (const Influence* i = begin; i != end; ++i) {
+      const double* joint = &joints[i->joint].x.x + k;
+      blended = hn::Add(blended, hn::Mul(hn::LoadU(d, joint), hn::Set(d, i->weight)));
+    }
+    hn::Store(hn::Mul(blended, scale), d, map + k);
+  }
+  for (size_t k = 0; k < Maps::kComponents; ++k) maps.of[k][vertex] = map[k];
+  maps.held[vertex] = 1;
+}
+
+// Affine::point and Affine::normal. Returns how many maps turn their vertices inside out.
+HWY_INLINE size_t Apply(const Maps& maps, size_t i, double* positions, double* normals) {
+  const Lanes d;
+  const VD zero = hn::Zero(d);
+  const auto held = hn::Ne(hn::Load(d, maps.held + i), zero);
+  const Triple x = maps.Column(0, i), y = maps.Column(1, i), z = maps.Column(2, i);
+  const auto kept = [&](const Triple& moved, const Triple& before) HWY_ATTR {
+    return Triple{hn::IfThenElse(held, moved.x, before.x), hn::IfThenElse(held, moved.y, before.y),
+                  hn::IfThenElse(held, moved.z, before.z)};
+  };
+  const Triple position = Loaded(positions);
+  Stored(kept(Sum(Combined(x, y, z, position), maps.Column(3, i)), position), positions);
+  const Triple yz = Cross(y, z);
+  const auto mirrored = hn::And(held, hn::Lt(Dot(x, yz), zero));
+  if (normals) {
+    const VD sign = hn::IfThenElse(mirrored, hn::Set(d, -1.0), hn::Set(d, 1.0));
+    const Triple normal = Loaded(normals);
+    const Triple moved = Times(Combined(yz, Cross(z, x), Cross(x, y), normal), sign);
+    Stored(kept(moved, normal), normals);
+  }
+  return hn::CountTrue(d, mirrored);
+}
+
+size_t Skin(const Deformation& deformation, const Affine* joints, size_t count, double* positions,
+            double* normals) {
+  const size_t lanes = hn::Lanes(Lanes());
+  const Influence* all = deformation.influences.data();
+  size_t mirrored = 0;
+  for (size_t first = 0; first < count; first += kVertices) {
+    Maps maps = {};
+    for (size_t k = 0; k < kVertices && first + k < count; ++k) {
+      const uint32_t begin = deformation.firstInfluence[first + k];
+      const uint32_t end = deformation.firstInfluence[first + k + 1];
+      if (begin != end) Blend(joints, all + begin, all + end, k, maps);
+    }
+    for (size_t i = 0; i < kVertices; i += lanes) {
+      const size_t at = 3 * (first + i);
+      mirrored += Apply(maps, i, positions + at, normals ? normals + at : nullptr);
+    }
+  }
+  return mirrored;
+}
+
+// Squares of lengths. Scaled by a power of two first, as whit::normalized does, a vector within
+// these has the same direction to the last bit.
+constexpr double kLeastSquare = 1e-200, kLargestSquare = 1e200;
+
+void Normalize(size_t count, double* normals) {
+  const Lanes d;
+  const size_t lanes = hn::Lanes(d);
+  for (size_t i = 0; i < count; i += lanes) {
+    double* at = normals + 3 * i;
+    const Triple n = Loaded(at);
+    const VD square = Dot(n, n), zero = hn::Zero(d);
+    const auto ordinary = hn::And(hn::Gt(square, hn::Set(d, kLeastSquare)),
+                                  hn::Lt(square, hn::Set(d, kLargestSquare)));
+    const auto none = hn::And(hn::Eq(n.x, zero), hn::And(hn::Eq(n.y, zero), hn::Eq(n.z, zero)));
+    if (!hn::AllTrue(d, hn::Or(ordinary, none))) {
+      for (size_t k = 0; k < lanes; ++k) {
+        const Vec3d unit = normalized(Vec3d{at[3 * k], at[3 * k + 1], at[3 * k + 2]}, Vec3d());
+        at[3 * k] = unit.x, at[3 * k + 1] = unit.y, at[3 * k + 2] = unit.z;
+      }
+      continue;
+    }
+    const VD length = hn::IfThenElse(ordinary, hn::Sqrt(square), hn::Set(d, 1.0));
+    Stored({hn::Div(n.x, length), hn::Div(n.y, length), hn::Div(n.z, length)}, at);
+  }
+}
+
+DeformKernels FindDeformKernels() { return {AddTarget, Skin, Normalize}; }
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+
+HWY_EXPORT(FindDeformKernels);
+
+namespace {
+
+std::vector<double> widened(const std::vector<Vec3f>& all) {
+  std::vector<double> wide(3 * (all.size() + kVertices));
+  if (!all.empty()) std::copy_n(&all.front().x, 3 * all.size(), wide.begin());
+  return wide;
+}
+
+std::vector<Vec3f> rounded(const std::vector<double>& wide, std::size_t count) {
+  std::vector<Vec3f> all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    all[i] = Vec3f(Vec3d{wide[3 * i], wide[3 * i + 1], wide[3 * i + 2]});
+  }
+  return all;
+}
+
+}  // namespace
+
+DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose) {
+  const DeformKernels kernels = HWY_DYNAMIC_DISPATCH(FindDeformKernels)();
+  const std::size_t count = deformation.positions.size();
+  const std::size_t withNormals = std::min(deformation.normals.size(), count);
+  std::vector<double> positions = widened(deformation.positions);
+  std::vector<double> normals = widened(deformation.normals);
+  const auto add = [&](const std::vector<Vec3f>& moved, double weight, std::size_t most,
+                       std::vector<double>& to) {
+    const std::size_t moves = std::min(moved.size(), most);
+    if (moves > 0) kernels.addTarget(&moved.front().x, weight, 3 * moves, to.data());
+  };
+  for (std::size_t i = 0; i < std::min(pose.weights.size(), deformation.targets.size()); ++i) {
+    if (pose.weights[i] == 0) continue;
+    add(deformation.targets[i].positions, pose.weights[i], count, positions);
+    add(deformation.targets[i].normals, pose.weights[i], withNormals, normals);
+  }
+  DeformedVertices bent;
+  if (deformation.hasSkin()) {
+    const std::size_t mirrored =
+        kernels.skin(deformation, pose.joints.data(), count, positions.data(),
+                     withNormals == count ? normals.data() : nullptr);
+    bent.mirrored = 2 * mirrored > count;
+  }
+  kernels.normalize(withNormals, normals.data());
+  bent.positions = rounded(positions, count);
+  bent.normals = rounded(normals, withNormals);
+  return bent;
+}
+
+}  // namespace whit::simd
+#endif

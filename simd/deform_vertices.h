@@ -1,0 +1,12 @@
+// Morph targets and skins in double, operation for operation as deformVertices() in
+// scene/deformation.h computes them: the same bits.
+#pragma once
+
+#include "scene/deformation.h"
+
+namespace whit::simd {
+
+// With the kernels of the chosen target.
+DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose);
+
+}  // namespace whit::simd
