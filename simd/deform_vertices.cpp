@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "simd/deform_vertices.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "simd/double3-inl.h"
 
 #ifndef WHIT_DEFORM_KERNELS
 #define WHIT_DEFORM_KERNELS
@@ -33,43 +34,22 @@ namespace whit::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<double, kVertices>;
-using VD = hn::Vec<Lanes>;
-
-struct Triple {
-  VD x, y, z;
-};
-
-HWY_INLINE Triple Loaded(const double* from) {
-  Triple v;
-  hn::LoadInterleaved3(Lanes(), from, v.x, v.y, v.z);
+HWY_INLINE D3 Loaded(const double* from) {
+  D3 v;
+  hn::LoadInterleaved3(Doubles(), from, v.x, v.y, v.z);
   return v;
 }
-HWY_INLINE void Stored(const Triple& v, double* to) {
-  hn::StoreInterleaved3(v.x, v.y, v.z, Lanes(), to);
-}
-HWY_INLINE Triple Sum(const Triple& a, const Triple& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Triple Times(const Triple& a, VD b) {
-  return {hn::Mul(a.x, b), hn::Mul(a.y, b), hn::Mul(a.z, b)};
-}
-HWY_INLINE VD Dot(const Triple& a, const Triple& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Triple Cross(const Triple& a, const Triple& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+HWY_INLINE void Stored(const D3& v, double* to) {
+  hn::StoreInterleaved3(v.x, v.y, v.z, Doubles(), to);
 }
 // x * v.x + y * v.y + z * v.z
-HWY_INLINE Triple Combined(const Triple& x, const Triple& y, const Triple& z, const Triple& v) {
-  return Sum(Sum(Times(x, v.x), Times(y, v.y)), Times(z, v.z));
+HWY_INLINE D3 Combined(const D3& x, const D3& y, const D3& z, const D3& v) {
+  return Add3(Add3(Scale3(x, v.x), Scale3(y, v.y)), Scale3(z, v.z));
 }
 
 void AddTarget(const float* moved, double weight, size_t count, double* to) {
-  const Lanes d;
-  const hn::Rebind<float, Lanes> floats;
+  const Doubles d;
+  const hn::Rebind<float, Doubles> floats;
   const size_t lanes = hn::Lanes(d);
   const VD w = hn::Set(d, weight);
   size_t i = 0;
@@ -86,8 +66,8 @@ struct alignas(64) Maps {
   double of[kComponents][kVertices];
   double held[kVertices];
 
-  HWY_INLINE Triple Column(size_t column, size_t i) const {
-    const Lanes d;
+  HWY_INLINE D3 Column(size_t column, size_t i) const {
+    const Doubles d;
     return {hn::Load(d, of[3 * column] + i), hn::Load(d, of[3 * column + 1] + i),
             hn::Load(d, of[3 * column + 2] + i)};
   }
@@ -116,22 +96,22 @@ HWY_INLINE void Blend(const Affine* joints, const Influence* begin, const Influe
 
 // Affine::point and Affine::normal. Returns how many maps turn their vertices inside out.
 HWY_INLINE size_t Apply(const Maps& maps, size_t i, double* positions, double* normals) {
-  const Lanes d;
+  const Doubles d;
   const VD zero = hn::Zero(d);
   const auto held = hn::Ne(hn::Load(d, maps.held + i), zero);
-  const Triple x = maps.Column(0, i), y = maps.Column(1, i), z = maps.Column(2, i);
-  const auto kept = [&](const Triple& moved, const Triple& before) HWY_ATTR {
-    return Triple{hn::IfThenElse(held, moved.x, before.x), hn::IfThenElse(held, moved.y, before.y),
-                  hn::IfThenElse(held, moved.z, before.z)};
+  const D3 x = maps.Column(0, i), y = maps.Column(1, i), z = maps.Column(2, i);
+  const auto kept = [&](const D3& moved, const D3& before) HWY_ATTR {
+    return D3{hn::IfThenElse(held, moved.x, before.x), hn::IfThenElse(held, moved.y, before.y),
+              hn::IfThenElse(held, moved.z, before.z)};
   };
-  const Triple position = Loaded(positions);
-  Stored(kept(Sum(Combined(x, y, z, position), maps.Column(3, i)), position), positions);
-  const Triple yz = Cross(y, z);
-  const auto mirrored = hn::And(held, hn::Lt(Dot(x, yz), zero));
+  const D3 position = Loaded(positions);
+  Stored(kept(Add3(Combined(x, y, z, position), maps.Column(3, i)), position), positions);
+  const D3 yz = Cross3(y, z);
+  const auto mirrored = hn::And(held, hn::Lt(Dot3(x, yz), zero));
   if (normals) {
     const VD sign = hn::IfThenElse(mirrored, hn::Set(d, -1.0), hn::Set(d, 1.0));
-    const Triple normal = Loaded(normals);
-    const Triple moved = Times(Combined(yz, Cross(z, x), Cross(x, y), normal), sign);
+    const D3 normal = Loaded(normals);
+    const D3 moved = Scale3(Combined(yz, Cross3(z, x), Cross3(x, y), normal), sign);
     Stored(kept(moved, normal), normals);
   }
   return hn::CountTrue(d, mirrored);
@@ -139,7 +119,7 @@ HWY_INLINE size_t Apply(const Maps& maps, size_t i, double* positions, double* n
 
 size_t Skin(const Deformation& deformation, const Affine* joints, size_t count, double* positions,
             double* normals) {
-  const size_t lanes = hn::Lanes(Lanes());
+  const size_t lanes = hn::Lanes(Doubles());
   const Influence* all = deformation.influences.data();
   size_t mirrored = 0;
   for (size_t first = 0; first < count; first += kVertices) {
@@ -162,12 +142,12 @@ size_t Skin(const Deformation& deformation, const Affine* joints, size_t count, 
 constexpr double kLeastSquare = 1e-200, kLargestSquare = 1e200;
 
 void Normalize(size_t count, double* normals) {
-  const Lanes d;
+  const Doubles d;
   const size_t lanes = hn::Lanes(d);
   for (size_t i = 0; i < count; i += lanes) {
     double* at = normals + 3 * i;
-    const Triple n = Loaded(at);
-    const VD square = Dot(n, n), zero = hn::Zero(d);
+    const D3 n = Loaded(at);
+    const VD square = Dot3(n, n), zero = hn::Zero(d);
     const auto ordinary = hn::And(hn::Gt(square, hn::Set(d, kLeastSquare)),
                                   hn::Lt(square, hn::Set(d, kLargestSquare)));
     const auto none = hn::And(hn::Eq(n.x, zero), hn::And(hn::Eq(n.y, zero), hn::Eq(n.z, zero)));

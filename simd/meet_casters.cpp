@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "simd/meet_casters.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "simd/double3-inl.h"
 #include "stages/caster_rounding.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,13 +13,8 @@ namespace whit::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, CasterBlock::kCasters>;
-using VD = hn::Vec<Doubles>;
 using MD = hn::Mask<Doubles>;
-
-struct D3 {
-  VD x, y, z;
-};
+static_assert(CasterBlock::kCasters == 8);
 
 HWY_INLINE VD All(double x) { return hn::Set(Doubles(), x); }
 HWY_INLINE D3 All3(const Vec3d& v) { return {All(v.x), All(v.y), All(v.z)}; }
@@ -31,17 +27,6 @@ HWY_INLINE void Store3(const D3& v, CasterBlock::Row (&rows)[3], size_t i) {
   hn::Store(v.x, d, rows[0] + i);
   hn::Store(v.y, d, rows[1] + i);
   hn::Store(v.z, d, rows[2] + i);
-}
-HWY_INLINE D3 Sub3(const D3& a, const D3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE VD Dot3(const D3& a, const D3& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE D3 Cross3(const D3& a, const D3& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 HWY_INLINE VD Length3(const D3& v) { return hn::Sqrt(Dot3(v, v)); }
 
