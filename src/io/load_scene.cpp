@@ -72,14 +72,16 @@ void addPathCamera(SceneDescription& scene) {
   Camera camera = scene.cameraPath.front().camera;
   camera.name = "path";
   const auto taken = [](const Camera& other) { return other.name == "path"; };
-  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken)) camera.name += " at --time";
+  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken))
+    camera.name += " of the scene";
   scene.cameras.insert(scene.cameras.begin(), camera);
   for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
   scene.motion.cameras.push_back({0, kNoNode, camera});
 }
 
 bool has(const Rig& rig, const std::string& name) {
-  return std::any_of(rig.begin(), rig.end(), [&](const RigNode& n) { return n.name == name; });
+  return std::any_of(rig.begin(), rig.end(),
+                     [&](const RigNode& n) { return !n.name.empty() && n.name == name; });
 }
 
 void requireMovable(const std::string& pointer, const SceneDescription& scene) {

@@ -213,8 +213,9 @@ void Renderer::Data::setTime(double seconds) {
 }
 
 void Renderer::Data::setTransform(const std::string& pointer, std::span<const double, 12> rows) {
-  if (!std::all_of(rows.begin(), rows.end(), [](double x) { return std::isfinite(x); })) {
-    throwUsage("setTransform: expected finite numbers");
+  const auto fits = [](double x) { return std::abs(x) <= kLargestCoordinate; };
+  if (!std::all_of(rows.begin(), rows.end(), fits)) {
+    throwUsage("setTransform: expected numbers up to 1.844e18");
   }
   const auto column = [&](std::size_t i) { return Vec3d{rows[i], rows[i + 4], rows[i + 8]}; };
   ownScene();

@@ -152,10 +152,10 @@ class Renderer {
   Renderer& setTime(double seconds);
 
   // Moves a thing of the scene of this renderer alone, for frames to come, whatever the time:
-  // `rows` is a matrix of three rows and four columns, the last of which is a translation, row by
-  // row, and stands in place of the item's, camera's or light's "motion" or of what the node says
-  // of itself. What it flattens is left out. Status 2 for what was not among LoadOptions::movable
-  // and numbers that are not finite.
+  // `rows` is a matrix of three rows and four columns, row by row, whose last column is the
+  // translation. It stands in place of the item's, camera's or light's "motion", or of what the
+  // node says of itself. What it flattens is left out. Status 2 for what was not among
+  // LoadOptions::movable, and for numbers that are not finite or beyond 1.844e18.
   Renderer& setTransform(const std::string& pointer, std::span<const double, 12> rows);
 
   // A frame from the camera that the options name. The second form reuses the image's memory.

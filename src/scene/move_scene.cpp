@@ -87,7 +87,7 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
 bool setMotion(const std::string& name, const std::shared_ptr<const Motion>& motion, Rig& rig) {
   bool found = false;
   for (RigNode& node : rig) {
-    if (node.name != name) continue;
+    if (node.name.empty() || node.name != name) continue;  // most have none
     node.motion = motion;
     found = true;
   }

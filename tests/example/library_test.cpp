@@ -267,14 +267,21 @@ TEST(Library, ThingsAreMovedByHand) {
   }
   EXPECT_TRUE(same(rest, renderer.render()));
   EXPECT_EQ(statusOf([&] { renderer.setTransform("/scene/0", kRest); }), 2);
-  EXPECT_EQ(statusOf([&] {
-              std::array<double, 12> wrong = kRest;
-              wrong[7] = NAN;
-              renderer.setTransform("/lights/0", wrong);
+  EXPECT_EQ(statusOf([&] { renderer.setTransform("", kRest); }), 2);
+  for (const double bad : {double{NAN}, 1e300}) {
+    std::array<double, 12> wrong = kRest;
+    wrong[7] = bad;
+    EXPECT_EQ(statusOf([&] { renderer.setTransform("/lights/0", wrong); }), 2) << bad;
+  }
+  EXPECT_EQ(statusOf([&] {  // whose lights and spheres have no names
+              Scene keyed = loadScene(placed, moving);
+              Renderer(keyed).setTransform("", kRest);
             }),
             2);
-  moving.movable = {"/scene/7"};
-  EXPECT_EQ(statusOf([&] { loadScene(loose, moving); }), 2);
+  for (const char* wrong : {"/scene/7", ""}) {
+    moving.movable = {wrong};
+    EXPECT_EQ(statusOf([&] { loadScene(placed, moving); }), 2) << wrong;
+  }
   std::filesystem::remove(loose);
   std::filesystem::remove(placed);
 }
