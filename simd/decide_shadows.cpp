@@ -1,6 +1,7 @@
 // Shadow rays whose verdict is known (stages/verdict_view.h) need not be traced.
 #include <atomic>
 
+#include "core/pixel.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -15,6 +16,12 @@ namespace whit::simd::HWY_NAMESPACE {
 
 HWY_INLINE VI GatherWord(const uint32_t* words, VI at) {
   return hn::GatherIndex(IntTag(), reinterpret_cast<const int32_t*>(words), at);
+}
+
+// first, first + 1 ...: the part that is constant stays in a register.
+HWY_INLINE VI RowFrom(uint32_t first) {
+  const IntTag di;
+  return hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<int32_t>(first)));
 }
 
 // 2^(power), of whole numbers.
@@ -38,7 +45,7 @@ HWY_INLINE HitWords LoadHitWords(const Chunk& c, MF live, VI slot, uint32_t firs
   const FloatTag d;
   const IntTag di;
   const bool instances = c.has(Feature::instances);
-  const VI row = hn::Iota(di, static_cast<int32_t>(first));
+  const VI row = RowFrom(first);
   const MF apart = hn::AndNot(hn::RebindMask(d, hn::Eq(slot, row)), live);
   if (HWY_LIKELY(hn::AllFalse(d, apart))) {
     const auto load = [&](const uint32_t* words) HWY_ATTR {
@@ -95,55 +102,94 @@ HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   return s;
 }
 
-// Rays that are looked up together. A look-up is a chain of three loads that mostly miss the
-// nearest cache: a link is followed for all rays before the next one, so that they wait together.
+// Rays that are looked up together. A look-up is a chain of loads that mostly miss the nearest
+// cache: a link is followed for all rays before the next one, so that they wait together.
 struct LookUps {
   static constexpr size_t kRays = 256;
-  HWY_ALIGN int32_t part[kRays];  // of a ray without parts, or in the rim: -1
+  HWY_ALIGN int32_t part[kRays];  // of a ray without parts, in the rim or decided: -1
   HWY_ALIGN int32_t row[kRays], cell[kRays];
-  // One after the other: VerdictView::first, ::parts, a Verdict.
+  // One after the other: of VerdictView::triangles, ::parts, a Verdict.
   HWY_ALIGN int32_t word[kRays];
 };
 
-HWY_INLINE void LookUpTriangles(const Chunk& c, const VerdictView& view, size_t begin, size_t end,
+constexpr auto kUnknown = static_cast<int32_t>(Verdict::unknown);
+constexpr auto kMixed = static_cast<int32_t>(Verdict::mixed);
+
+// Of whole triangles. In the rim of one it takes a look at its parts, whose rims are narrower.
+// Returns whether any ray has more to ask for than to be traced.
+HWY_INLINE bool LookUpTriangles(const Chunk& c, const VerdictView& view, size_t begin, size_t end,
                                 LookUps& looked) {
+  const FloatTag d;
   const IntTag di;
-  const VI none = hn::Set(di, static_cast<int32_t>(kNoParts));
+  const UintTag du;
+  const VF rim = hn::Set(d, kVerdictRim), one = hn::Set(d, 1.0f);
+  const VI mixed = hn::Set(di, kMixed);
+  VI any = hn::Zero(di);
   for (size_t i = begin; i < end; i += hn::Lanes(di)) {
     const RayLanes rays = LoadRays(c, i, end);
     const auto world =
         hn::And(hn::RebindMask(di, rays.live), hn::Eq(rays.hits.instance, hn::Set(di, -1)));
-    const VI word = GatherWord(view.first, hn::IfThenElseZero(world, rays.hits.triangle));
-    hn::Store(hn::IfThenElse(world, word, none), di, looked.word + (i - begin));
+    const VI triangle = hn::IfThenElseZero(world, rays.hits.triangle);
+    const VU bits = hn::BitCast(du, GatherWord(view.triangles, hn::ShiftRight<4>(triangle)));
+    const VU shift =
+        hn::BitCast(du, hn::ShiftLeft<1>(hn::And(triangle, hn::Set(di, kTrianglesAWord - 1))));
+    VI word = hn::And(hn::BitCast(di, hn::Shr(bits, shift)), mixed);
+    const VF u = rays.hits.u, v = rays.hits.v;
+    const MF inside = hn::Ge(hn::Min(hn::Min(u, v), hn::Sub(hn::Sub(one, u), v)), rim);
+    const auto known = hn::Ne(word, hn::Zero(di));
+    word = hn::IfThenElse(hn::AndNot(hn::RebindMask(di, inside), known), mixed, word);
+    word = hn::IfThenElseZero(world, word);
+    any = hn::Or(any, word);
+    hn::Store(word, di, looked.word + (i - begin));
   }
+  return !hn::AllTrue(di, hn::Eq(any, hn::Zero(di)));
 }
 
-HWY_INLINE void FindParts(const Chunk& c, size_t begin, size_t end, LookUps& looked) {
+// Of the rays that whole triangles do not decide. Those whose triangles have no verdict look for
+// their parts only to note them.
+HWY_INLINE void FindParts(const Chunk& c, const VerdictView& view, bool asks, size_t begin,
+                          size_t end, LookUps& looked) {
   const IntTag di;
+  const VI none = hn::Set(di, -1), least = hn::Set(di, asks ? kUnknown : kMixed);
+  const VI noParts = hn::Set(di, static_cast<int32_t>(kNoParts));
   for (size_t i = begin; i < end; i += hn::Lanes(di)) {
     const size_t at = i - begin;
-    const StartLanes s = FindStarts(hn::Load(di, looked.word + at), LoadRays(c, i, end).hits);
+    const VI word = hn::Load(di, looked.word + at);
+    auto further = hn::Or(hn::Eq(word, hn::Set(di, kMixed)), hn::Eq(word, least));
+    if (hn::AllFalse(di, further)) {
+      hn::Store(none, di, looked.part + at);
+      continue;
+    }
+    const RayLanes rays = LoadRays(c, i, end);
+    further = hn::And(further, hn::RebindMask(di, rays.live));
+    further = hn::And(further, hn::Eq(rays.hits.instance, none));
+    const VI first = GatherWord(view.first, hn::IfThenElseZero(further, rays.hits.triangle));
+    const StartLanes s = FindStarts(hn::IfThenElse(further, first, noParts), rays.hits);
     const auto live = hn::RebindMask(di, s.live);
-    hn::Store(hn::IfThenElse(live, s.part, hn::Set(di, -1)), di, looked.part + at);
+    hn::Store(hn::IfThenElse(live, s.part, none), di, looked.part + at);
     hn::Store(hn::IfThenElseZero(live, s.row), di, looked.row + at);
     hn::Store(hn::IfThenElseZero(live, s.cell), di, looked.cell + at);
+    // In the rim, or without parts: traced, and nothing to note.
+    hn::Store(hn::IfThenElse(further, hn::Set(di, kMixed), word), di, looked.word + at);
   }
 }
 
 HWY_INLINE void LookUpParts(const VerdictView& view, size_t count, LookUps& looked) {
   const IntTag di;
-  const VI zero = hn::Zero(di), mixed = hn::Set(di, static_cast<int32_t>(Verdict::mixed));
+  const VI zero = hn::Zero(di);
   for (size_t at = 0; at < count; at += hn::Lanes(di)) {
     const VI part = hn::Load(di, looked.part + at);
+    const auto without = hn::Lt(part, zero);
+    if (hn::AllTrue(di, without)) continue;
     const VI word = GatherWord(view.parts, hn::Max(part, zero));
-    hn::Store(hn::IfThenElse(hn::Lt(part, zero), mixed, word), di, looked.word + at);
+    hn::Store(hn::IfThenElse(without, hn::Load(di, looked.word + at), word), di, looked.word + at);
   }
 }
 
 HWY_INLINE void LookUpCells(const VerdictView& view, size_t count, LookUps& looked) {
   const IntTag di;
   const UintTag du;
-  const VI three = hn::Set(di, 3);
+  const VI three = hn::Set(di, kMixed);
   for (size_t at = 0; at < count; at += hn::Lanes(di)) {
     const VI word = hn::Load(di, looked.word + at);
     const auto divided = hn::Gt(word, three);
@@ -173,16 +219,15 @@ HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3
   return hn::Le(away, hn::Mul(size, hn::Set(d, kVerdictReach)));
 }
 
-// Parts that rays have missed: all, or those that are unknown. Mostly neighbors miss the same.
+// Parts whose verdicts rays have missed.
 HWY_INLINE void NoteWanted(const VerdictView& view, const LookUps& looked, size_t count) {
-  constexpr auto kUnknown = static_cast<int32_t>(Verdict::unknown);
-  uint8_t* const wanted = view.wanted;
-  int32_t last = -1;
   for (size_t i = 0; i < count; ++i) {
-    const int32_t part = looked.part[i];
-    if (part < 0 || part == last || !(view.empty || looked.word[i] == kUnknown)) continue;
-    last = part;
-    std::atomic_ref<uint8_t>(wanted[part]).store(1, std::memory_order_relaxed);
+    if (looked.part[i] < 0 || looked.word[i] != kUnknown) continue;
+    const std::atomic_ref<uint8_t> wanted(view.wanted[looked.part[i]]);
+    const uint8_t rays = wanted.load(std::memory_order_relaxed);
+    if (rays < UINT8_MAX) {
+      wanted.store(static_cast<uint8_t>(rays + 1), std::memory_order_relaxed);
+    }
   }
 }
 
@@ -190,7 +235,7 @@ HWY_INLINE void NoteWanted(const VerdictView& view, const LookUps& looked, size_
 HWY_INLINE void ShowLit(float* visible, MF lit, VI slot, uint32_t first) {
   const FloatTag d;
   const IntTag di;
-  const VI row = hn::Iota(di, static_cast<int32_t>(first));
+  const VI row = RowFrom(first);
   if (HWY_LIKELY(hn::AllFalse(d, hn::AndNot(hn::RebindMask(d, hn::Eq(slot, row)), lit)))) {
     hn::BlendedStore(hn::Set(d, 1.0f), lit, d, visible + first);
     return;
@@ -221,18 +266,16 @@ HWY_INLINE void KeepRest(const ShadowColumns& rays, MF kept, size_t i, size_t& c
 }
 
 // What is decided, of the rays [begin, end); the others are written from `count` on.
-HWY_INLINE void TakeDecided(Chunk& c, const VerdictView& view, size_t begin, size_t end,
-                            const LookUps& looked, size_t& count) {
+HWY_INLINE void TakeDecided(Chunk& c, size_t begin, size_t end, const LookUps& looked,
+                            size_t& count) {
   const FloatTag d;
   const IntTag di;
   const ShadowColumns& columns = c.shadows;
-  bool missed = false;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const VI verdict = hn::Load(di, looked.word + (i - begin));
     const auto is = [&](Verdict which) HWY_ATTR {
       return hn::RebindMask(d, hn::Eq(verdict, hn::Set(di, static_cast<int32_t>(which))));
     };
-    missed = missed || !hn::AllFalse(d, is(Verdict::unknown));
     MF lit = is(Verdict::lit), dark = is(Verdict::dark), live = hn::FirstN(d, end - i);
     if (!hn::AllFalse(d, hn::Or(lit, dark))) {
       const RayLanes rays = LoadRays(c, i, end);
@@ -251,28 +294,37 @@ HWY_INLINE void TakeDecided(Chunk& c, const VerdictView& view, size_t begin, siz
       count += hn::CountTrue(d, live);  // all of them stay, where they are
     }
   }
-  if (HWY_UNLIKELY(missed)) NoteWanted(view, looked, end - begin);
+}
+
+// Tiles take turns (AskingTurn).
+bool Asks(const Chunk& c) {
+  const AskingTurn& asking = c.frame->asking;
+  if (asking.turns <= 1 || c.pixels.empty()) return true;
+  const auto side = static_cast<uint32_t>(c.options().tile);
+  const uint32_t x = static_cast<uint32_t>(pixelX(c.pixels[0])) / side;
+  const uint32_t y = static_cast<uint32_t>(pixelY(c.pixels[0])) / side;
+  return (x + 3 * y + asking.turn) % asking.turns == 0;
 }
 
 void DecideShadows(Chunk& c) noexcept {
   if (!c.frame->verdicts) return;
   const VerdictView& view = c.frame->verdicts[c.lightNumber];
   if (!view.serves()) return;
+  const bool asks = Asks(c);
+  if (view.empty && !asks) return;
   LookUps looked;
   const size_t n = c.shadowCount;
   size_t count = 0;
   for (size_t begin = 0; begin < n; begin += LookUps::kRays) {
     const size_t end = begin + LookUps::kRays < n ? begin + LookUps::kRays : n;
-    LookUpTriangles(c, view, begin, end, looked);
-    FindParts(c, begin, end, looked);
-    if (view.empty) {
-      NoteWanted(view, looked, end - begin);
-      count = end;
-      continue;
+    const bool known = LookUpTriangles(c, view, begin, end, looked);
+    if (known || asks) {
+      FindParts(c, view, asks, begin, end, looked);
+      LookUpParts(view, end - begin, looked);
+      LookUpCells(view, end - begin, looked);
+      if (asks) NoteWanted(view, looked, end - begin);
     }
-    LookUpParts(view, end - begin, looked);
-    LookUpCells(view, end - begin, looked);
-    TakeDecided(c, view, begin, end, looked, count);
+    TakeDecided(c, begin, end, looked, count);
   }
   c.shadowCount = count;
 }

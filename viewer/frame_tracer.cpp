@@ -11,6 +11,7 @@
 #include "io/named_sky.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
+#include "render/verdict_schedule.h"
 #include "scene/edit_shading.h"
 #include "scene/move_scene.h"
 #include "simd/deform_vertices.h"
@@ -67,10 +68,24 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
     : common_(common),
       scene_(std::move(scene)),
       options_(common.render),
-      renderer_(std::make_unique<Renderer>(scene_->scene, options_)),
       sky_(skyOf(*scene_)),
       seconds_(scene_->scene.motion.given.seconds),
-      animation_(common.load.instant.animation) {}
+      animation_(common.load.instant.animation) {
+  use(std::make_unique<Renderer>(scene_->scene, options_));
+}
+
+// From its first picture on it looks for verdicts of shadow, for more will follow.
+void FrameTracer::use(std::unique_ptr<Renderer> renderer) {
+  renderer_ = std::move(renderer);
+  const std::uint64_t most = common_.load.maxMemoryBytes;
+  renderer_->expectFrames(cli::memoryLeft(renderer_->scene(), *renderer_, most),
+                          VerdictSchedule::kTurns);
+}
+
+bool FrameTracer::proveSome() {
+  constexpr std::size_t kParts = 256;  // of each light: some 10 us a part and thread
+  return renderer_->fillVerdicts({.mostParts = kParts}).parts > 0;
+}
 
 void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
@@ -78,7 +93,7 @@ void FrameTracer::load(const SceneChoice& choice) {
   common.load.instant.animation = choice.animation;
   std::shared_ptr<cli::OpenScene> scene = cli::openScene(choice.name, common, nullptr);
   auto renderer = std::make_unique<Renderer>(scene->scene, options_);
-  renderer_ = std::move(renderer);  // before the scene that the old one reads goes
+  use(std::move(renderer));  // before the scene that the old one reads goes
   scene_ = std::move(scene);
   editSettings_.clear();
   sky_ = skyOf(*scene_);
@@ -130,7 +145,7 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
   if (renderer_->canSetOptions(next)) {
     renderer_->setOptions(next);
   } else {
-    renderer_ = std::make_unique<Renderer>(scene_->scene, next);
+    use(std::make_unique<Renderer>(scene_->scene, next));
   }
   settleExposure(*renderer_, chooseCamera(scene_->scene, next), next);
   options_ = next;
@@ -194,6 +209,10 @@ double FrameTracer::probe(const Camera& camera, const ImageSize& whole) {
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
   const ImageSize whole = request.options.size.value();
+  // Of each choice, what it takes where nothing is known beforehand.
+  RenderOptions traced = options_;
+  traced.verdicts = Verdicts::off;
+  const OptionsInUse used(*renderer_, traced);
   const double msPerPixel = probe(request.camera, whole);
   const ImageSize size = measuredSize(whole, msPerPixel);
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
@@ -204,7 +223,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
     calls.showUnfinished({request, {}, done, sofar});
   };
   frame.costs =
-      measureKnobs(*renderer_, options_, request.camera, band_, scale, {calls.superseded, show});
+      measureKnobs(*renderer_, traced, request.camera, band_, scale, {calls.superseded, show});
   return !calls.superseded();
 }
 

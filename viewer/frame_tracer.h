@@ -46,11 +46,16 @@ class FrameTracer {
   // options what they were.
   RayPick explain(const RayQuery& query);
 
+  // Looks for some of the verdicts of shadow that the last pictures asked for, for about kBlockMs.
+  // False: there is nothing left to look at.
+  bool proveSome();
+
   // False: given up, and `frame` is not to be shown. Throws when the options ask for what the
   // machine does not have; the old ones then stay.
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
+  void use(std::unique_ptr<Renderer> renderer);
   void editSurroundings(const ShadingEdit& edit, Sky opened);
   void moveTo(double seconds);
   void applyOptions(const FrameRequest& request);

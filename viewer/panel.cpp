@@ -137,6 +137,13 @@ void drawRays(const FrameStats& stats) {
     drawCell("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
     drawCell("%.1f", 100 * cli::lanesFilled(tally));
   }
+  const auto& [lit, dark] = stats.meter.shadows;
+  if (lit + dark > 0) {
+    drawCell("shadow, proved");
+    drawCell("%.1f", static_cast<double>(lit + dark) / 1e3);
+    drawCell("-");
+    drawCell("-");
+  }
   ImGui::EndTable();
 }
 

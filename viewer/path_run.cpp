@@ -11,6 +11,7 @@
 #include "core/stopwatch.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
+#include "render/verdict_schedule.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -101,12 +102,16 @@ void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window
   Renderer renderer(open.scene, settled);
   settleExposure(renderer, chooseCamera(open.scene, settled), settled);
   Film film = cli::openFilm(open.scene, options.common);
+  const std::uint64_t most = options.common.load.maxMemoryBytes;
+  VerdictSchedule schedule(renderer, {kBenchmarkFrames, film.image.pixels.size(),
+                                      cli::memoryLeft(open.scene, renderer, most)});
   std::vector<double> traced, displayed;
   for (int frame = 0; frame < kBenchmarkFrames && !window.closing(); ++frame) {
     window.poll(0);
     const double share = static_cast<double>(frame) / kBenchmarkFrames;
     const Camera camera = cameraOf(open.scene, options.common.render, share);
     traced.push_back(renderer.render(camera, film).frameMs);
+    schedule.frameDone();
     const Stopwatch stopwatch;
     show(window, film.display);
     displayed.push_back(stopwatch.ms());

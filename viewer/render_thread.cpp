@@ -1,9 +1,13 @@
 #include "viewer/render_thread.h"
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace whit::view {
+
+// The view is at rest when nothing has been asked for so long.
+constexpr std::chrono::milliseconds kRest{200};
 
 RenderThread::RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
                            std::function<void()> onChange)
@@ -91,7 +95,7 @@ void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
     busy_ = exchange_.hasWork();
-    wake_.wait(lock, [this] { return exchange_.hasWork() || quit_; });
+    waitForWork(lock);
     if (quit_) return;
     try {
       serve(lock);
@@ -103,6 +107,20 @@ void RenderThread::loop() {
     lock.unlock();
     onChange_();
     lock.lock();
+  }
+}
+
+// At rest the time goes into what makes the next pictures quicker.
+void RenderThread::waitForWork(std::unique_lock<std::mutex>& lock) {
+  const auto wanted = [this] { return exchange_.hasWork() || quit_; };
+  while (!wake_.wait_for(lock, kRest, wanted)) {
+    bool more = true;
+    while (more && !wanted()) {
+      lock.unlock();
+      more = tracer_.proveSome();
+      lock.lock();
+    }
+    if (!more) return wake_.wait(lock, wanted);
   }
 }
 

@@ -48,6 +48,7 @@ class RenderThread {
   void publish(const TracedFrame& frame);
   void publish(UnfinishedFrame frame);
   void answerQuery();
+  void waitForWork(std::unique_lock<std::mutex>& lock);
   bool superseded() const;
   bool leaving() const;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/verdict_schedule.h"
+
 namespace whit::cli {
 
 RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
@@ -113,12 +115,13 @@ std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint
 }
 
 VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options) {
-  if (options.verdicts == Verdicts::off) return {0, 0, "off by --verdicts"};
+  if (options.verdicts == Verdicts::off) return {0, 0, 0, "off by --verdicts"};
   const std::size_t lights = lightsWithVerdicts(makePlan(scene, options, true)).size();
-  if (lights == 0) return {0, 0, "no shadow that could be proved"};
+  if (lights == 0) return {0, 0, 0, "no shadow that could be proved"};
   const std::size_t parts = VerdictParts::of(scene).count();
-  if (parts == 0) return {0, 0, "no triangles of the world, or too many or too far out for tables"};
-  return {lights, parts, ""};
+  if (parts == 0)
+    return {0, 0, 0, "no triangles of the world, or too many or too far out for tables"};
+  return {lights, parts, samplesThatPay(scene), ""};
 }
 
 double memoryMb(const Scene& scene, const Renderer& renderer) {

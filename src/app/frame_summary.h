@@ -94,9 +94,11 @@ std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);
 std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most);
 
 // What frames that follow one another could prove of the scene's shadows: of so many lights, in so
-// many parts of triangles; and why there are none.
+// many parts of triangles, which pays where they trace so many samples of pixels; and why there are
+// none.
 struct VerdictOutlook {
   std::size_t lights = 0, parts = 0;
+  double samples = 0;
   std::string because;
 };
 VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options);

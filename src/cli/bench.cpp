@@ -10,6 +10,7 @@
 #include "cli/json_report.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
+#include "render/verdict_schedule.h"
 
 namespace whit::cli {
 
@@ -33,8 +34,8 @@ struct BenchJob {
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
-    // After the frame that fills queues, an odd number that verdicts of shadow know nothing of.
-    if (abVerdicts) turns.warmUp = 6;
+    // After the frame that fills queues, those that verdicts of shadow know nothing of.
+    if (abVerdicts) turns.warmUp = 1 + VerdictSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;

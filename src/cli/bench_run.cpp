@@ -3,6 +3,7 @@
 #include "accuracy/digest.h"
 #include "render/auto_exposure.h"
 #include "render/floor.h"
+#include "render/verdict_schedule.h"
 
 namespace whit::cli {
 
@@ -27,7 +28,10 @@ FrameStats BenchRun::frame() {
 void BenchRun::warmUp() {
   const bool shared = farm_ && farm_->ranks() > 1;
   const bool proves = proves_ && begun_ && !shared && options_.mode != Mode::reference;
-  if (proves) renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_));
+  if (proves && coldMs_.empty()) {
+    renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
+                           options_.verdicts == Verdicts::audit ? 1 : VerdictSchedule::kTurns);
+  }
   const FrameStats stats = frame();
   if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
   begun_ = true;

@@ -31,8 +31,11 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
   const VerdictOutlook verdicts = verdictOutlook(s, renderer.options());
   if (verdicts.lights > 0) {
-    std::printf("  %-12sshadows of %zu light%s can be proved, on %zu parts of triangles\n",
-                "verdicts", verdicts.lights, verdicts.lights == 1 ? "" : "s", verdicts.parts);
+    std::printf(
+        "  %-12sshadows of %zu light%s can be proved, on %zu parts of triangles, which pays "
+        "from %.3g samples of pixels on\n",
+        "verdicts", verdicts.lights, verdicts.lights == 1 ? "" : "s", verdicts.parts,
+        verdicts.samples);
   } else {
     std::printf("  %-12snone: %s\n", "verdicts", verdicts.because.c_str());
   }

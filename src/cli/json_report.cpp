@@ -181,7 +181,8 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
   const VerdictOutlook verdicts = verdictOutlook(scene, options);
-  json["verdicts"] = {{"lights", verdicts.lights}, {"parts", verdicts.parts}};
+  json["verdicts"] = {
+      {"lights", verdicts.lights}, {"parts", verdicts.parts}, {"samples", verdicts.samples}};
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) {
     json["animations"].push_back(

@@ -26,6 +26,7 @@
 #include "io/paths.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
+#include "render/verdict_schedule.h"
 #include "scene/move_scene.h"
 #include "simd/deform_vertices.h"
 
@@ -149,6 +150,16 @@ class ImageWriter {
         options_(optionsFor(open.scene, job.common)),
         films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
+    if (farm.ranks() == 1) {
+      std::size_t frames = 1;
+      if (!job.frames.empty()) {
+        const FrameRange range = parseFrameRange(job.frames);
+        frames = static_cast<std::size_t>(range.last - range.first) + 1;
+      }
+      const std::uint64_t most = job.common.load.maxMemoryBytes;
+      schedule_.emplace(*renderer_, VerdictRun{frames, films_[0].image.pixels.size(),
+                                               memoryLeft(open.scene, *renderer_, most)});
+    }
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera(), options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
@@ -183,6 +194,7 @@ class ImageWriter {
       return;
     }
     prepareAudit(camera, film);
+    if (schedule_) schedule_->prepare(camera, film);
     run_.frames.push_back(renderShared(farm_, *renderer_, options_, camera, film, progress));
     if (!farm_.leads()) return;
     if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
@@ -226,9 +238,14 @@ class ImageWriter {
   }
 
   void lookForVerdicts() {
-    if (!run_.verdicts) return;
-    run_.verdicts->fillMs += renderer_->fillVerdicts().ms;
-    run_.verdicts->bytes = renderer_->verdictBytes();
+    if (options_.verdicts == Verdicts::audit && run_.verdicts) {
+      run_.verdicts->fillMs += renderer_->fillVerdicts().ms;
+    } else if (schedule_ && schedule_->used()) {
+      schedule_->frameDone();
+      if (!run_.verdicts) run_.verdicts.emplace();
+      run_.verdicts->fillMs = schedule_->fillMs();
+    }
+    if (run_.verdicts) run_.verdicts->bytes = renderer_->verdictBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -257,6 +274,7 @@ class ImageWriter {
   OpenScene* open_;
   RenderOptions options_;  // with an automatic exposure settled
   std::optional<Renderer> renderer_;
+  std::optional<VerdictSchedule> schedule_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;

@@ -26,8 +26,8 @@ enum class FilmPrecision { single, half, eightBit };
 enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
-// Of shadows, proved beforehand (verdicts/verdict_tables.h): where a run asks for them; never; or
-// traced all the same, and the frame fails where one is wrong.
+// Of shadows, proved beforehand (verdicts/verdict_tables.h): where that pays; never; or traced all
+// the same, and the frame fails where one is wrong.
 enum class Verdicts { automatic, off, audit };
 
 inline constexpr Need kNeedsSoftShadows{EffectSet().with(Effect::softShadows),
@@ -288,9 +288,10 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .values = "low medium high", .spare = "low high"}},
              o.bvh},
       Option{{.name = "verdicts", .words = "auto|off|audit",
-              .help = "shadows proved beforehand, whose rays are not traced: auto: in bench "
-                      "--ab-verdicts; audit: in bench and render, but traced all the same, and a "
-                      "wrong one ends the run",
+              .help = "shadows proved beforehand, whose rays are not traced: auto: in films and "
+                      "pictures of so many samples that it pays, while the viewer rests, and in "
+                      "bench --ab-verdicts; audit: in bench and render, but traced all the same, "
+                      "and a wrong one ends the run",
               .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
              o.verdicts},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,

@@ -109,8 +109,8 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
-  return {&scene_,       &tables_,       &*accel_, verdicts,
-          plan_.effects, plan_.features, options_, cameraRays(camera)};
+  return {&scene_,        &tables_, &*accel_,           verdicts, plan_.effects,
+          plan_.features, options_, cameraRays(camera), asking_};
 }
 
 Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
@@ -132,6 +132,7 @@ FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::W
                                 : scheduler_.trace(frame, scheduler_.allPixels(), watch);
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
+  ++asking_.turn;
   requireRightVerdicts(stats, scene_);
   return stats;
 }

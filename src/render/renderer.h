@@ -71,10 +71,13 @@ class Renderer {
   void sceneMoved();
 
   // More frames of this scene are to come: shadows may have verdicts from now on (--verdicts), in
-  // tables of no more than so many bytes. Not while rendering.
-  void expectFrames(std::uint64_t mostBytes);
+  // tables of no more than so many bytes. Of so many tiles one asks for them in each frame, which
+  // takes time, and all have asked after as many frames. Not while rendering.
+  void expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns = 1);
   // Looks at parts of triangles where shadow rays found no verdict. Not while rendering.
-  FillReport fillVerdicts();
+  FillReport fillVerdicts(const FillLimits& limits = {});
+  // What rays asked for until now, and was not looked at. Not while rendering.
+  void forgetAskedVerdicts();
   bool decidesShadows() const { return verdicts_ && !lightsWithVerdicts(plan_).empty(); }
   std::uint64_t verdictBytes() const { return verdicts_ ? verdicts_->bytes() : 0; }
 
@@ -111,6 +114,7 @@ class Renderer {
   std::optional<Accel> accel_;
   std::uint64_t verdictBytes_ = 0;  // that tables may take; 0: no more frames are expected
   std::optional<VerdictTables> verdicts_;
+  AskingTurn asking_;
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;

@@ -31,8 +31,9 @@ bool Renderer::wantsVerdicts(const RenderOptions& options) const {
   return standsStill && verdictBytes_ > 0 && options.verdicts != Verdicts::off;
 }
 
-void Renderer::expectFrames(std::uint64_t mostBytes) {
+void Renderer::expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns) {
   verdictBytes_ = mostBytes;
+  asking_ = {0, askingTurns};
   replan(makePlan(scene_, options_, wantsVerdicts(options_)));
   renewVerdicts();
 }
@@ -49,8 +50,12 @@ void Renderer::renewVerdicts() {
   }
 }
 
-FillReport Renderer::fillVerdicts() {
-  return decidesShadows() ? verdicts_->fill(scheduler_.pool()) : FillReport();
+FillReport Renderer::fillVerdicts(const FillLimits& limits) {
+  return decidesShadows() ? verdicts_->fill(scheduler_.pool(), limits) : FillReport();
+}
+
+void Renderer::forgetAskedVerdicts() {
+  if (verdicts_) verdicts_->forgetAsked();
 }
 
 void Renderer::shadingChanged() {

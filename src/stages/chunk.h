@@ -32,6 +32,11 @@ struct CameraRays {
   float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
 };
 
+// Asking for verdicts of shadow takes time: of so many tiles one asks, another one in each frame.
+struct AskingTurn {
+  std::uint32_t turn = 0, turns = 1;
+};
+
 // The same for all chunks of a frame, and read-only while it is rendered.
 struct FrameConstants {
   const Scene* scene = nullptr;
@@ -42,6 +47,7 @@ struct FrameConstants {
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;
+  AskingTurn asking;
 };
 
 // Rays of one kind that lie together in a queue: they go to Embree in packets of their own.

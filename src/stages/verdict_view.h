@@ -29,7 +29,13 @@ inline constexpr float kVerdictRim = 0x1p-8f;
 // lifted by is less, but on slivers.
 inline constexpr float kVerdictReach = 0x1p-20f;
 
+// Of all parts of a triangle: unknown where none is decided, lit or dark where all are so, mixed
+// where it takes a look at the parts. Two bits each.
+inline constexpr int kTrianglesAWord = 16;
+
 struct VerdictView {
+  // So many triangles a word.
+  const std::uint32_t* triangles = nullptr;
   // A word a triangle: the number of its first part, shifted by kPartBits; kNoParts.
   const std::uint32_t* first = nullptr;
   // A word a part, row by row of the second weight: a Verdict, or from 4 on the place of its cells,
@@ -37,11 +43,10 @@ struct VerdictView {
   const std::uint32_t* parts = nullptr;
   // kCellsASide words a place, a row of cells each, two bits a Verdict.
   const std::uint32_t* cells = nullptr;
-  // A byte a part: 1 where rays have missed its verdict. Written while frames are traced, by any
-  // worker.
+  // A byte a part: how many rays have missed its verdict, 255 and more alike, and less where
+  // workers count at once. Written while frames are traced, by any worker.
   std::uint8_t* wanted = nullptr;
-  // Nothing is known yet: parts are noted, and all rays traced.
-  bool empty = true;
+  bool empty = true;  // nothing is known yet
   bool serves() const { return first != nullptr; }
 };
 

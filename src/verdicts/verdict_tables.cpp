@@ -97,24 +97,35 @@ VerdictParts VerdictParts::of(const Scene& scene) {
 
 // The table of one light.
 struct VerdictTables::OfLight {
-  OfLight(const Light& light, std::size_t n, std::size_t partCount, std::size_t most)
-      : number(n), point(LightPoint::of(light)), parts(partCount), wanted(partCount) {
+  OfLight(const Light& light, std::size_t n, std::size_t triangleCount, std::size_t partCount,
+          std::size_t most)
+      : number(n),
+        point(LightPoint::of(light)),
+        triangles(wordsFor(triangleCount)),
+        parts(partCount),
+        wanted(partCount) {
     // Kernels may look up where nothing is yet.
     cells.resize(kCellsASide);
     mostCells = most;
   }
 
+  static std::size_t wordsFor(std::size_t triangleCount) {
+    return triangleCount / kTrianglesAWord + 1;
+  }
   // What it takes but for the cells.
-  static std::uint64_t fixedBytes(std::size_t partCount, std::size_t casters) {
-    return partCount * (sizeof(std::uint32_t) + 1) + CasterTree::bytesFor(casters);
+  static std::uint64_t fixedBytes(std::size_t triangleCount, std::size_t partCount,
+                                  std::size_t casters) {
+    return wordsFor(triangleCount) * sizeof(std::uint32_t) +
+           partCount * (sizeof(std::uint32_t) + 1) + CasterTree::bytesFor(casters);
   }
   std::uint64_t bytes() const {
-    return parts.size() * sizeof(std::uint32_t) + wanted.size() +
-           cells.capacity() * sizeof(std::uint32_t) + (tree ? tree->bytes() : 0);
+    return (triangles.size() + parts.size() + cells.capacity()) * sizeof(std::uint32_t) +
+           wanted.size() + (tree ? tree->bytes() : 0);
   }
   void forget() {
     tree.reset();
     cells.resize(kCellsASide);
+    std::fill(triangles.begin(), triangles.end(), 0);
     std::fill(parts.begin(), parts.end(), 0);
     std::fill(wanted.begin(), wanted.end(), std::uint8_t{0});
     seen = mixed = 0;
@@ -133,14 +144,31 @@ struct VerdictTables::OfLight {
     if (whole == Verdict::mixed) ++mixed;
     parts[part] = static_cast<std::uint32_t>(whole);
   }
+  // Of a triangle's parts, that are the `count` from `begin` on (VerdictView::triangles).
+  void sumUp(std::uint32_t triangle, std::size_t begin, std::size_t count) {
+    const std::uint32_t first = parts[begin];
+    bool alike = true, any = false;
+    for (std::size_t i = begin; i < begin + count; ++i) {
+      alike = alike && parts[i] == first;
+      any = any || (parts[i] != kUnknownWord && parts[i] != kMixedWord);
+    }
+    const std::uint32_t sum = !any                          ? kUnknownWord
+                              : alike && first < kMixedWord ? first
+                                                            : kMixedWord;
+    const unsigned shift = 2 * (triangle % kTrianglesAWord);
+    std::uint32_t& word = triangles[triangle / kTrianglesAWord];
+    word = (word & ~(3u << shift)) | sum << shift;
+  }
   // Whether next to nothing is decided, so that looking for verdicts costs more than they save.
   bool idle() const { return seen >= kTried && mixed > seen - seen / kLeastUse; }
 
+  static constexpr auto kUnknownWord = static_cast<std::uint32_t>(Verdict::unknown);
+  static constexpr auto kMixedWord = static_cast<std::uint32_t>(Verdict::mixed);
   static constexpr std::size_t kTried = 4096, kLeastUse = 8;
   std::size_t number;
   LightPoint point;
   std::unique_ptr<CasterTree> tree;  // from the first filling on
-  HugeVector<std::uint32_t> parts, cells;
+  HugeVector<std::uint32_t> triangles, parts, cells;
   std::vector<std::uint8_t> wanted;
   std::size_t mostCells;  // places of cells
   std::size_t seen = 0, mixed = 0;
@@ -157,12 +185,13 @@ VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>&
   const std::uint64_t shared = bytes();
   if (shared > mostBytes) return;
   const std::uint64_t each = std::min((mostBytes - shared) / lights.size(), kMostBytesALight);
-  const std::uint64_t fixed = OfLight::fixedBytes(parts_.count(), casters_->casters.size());
+  const std::uint64_t fixed =
+      OfLight::fixedBytes(scene.triangles.size(), parts_.count(), casters_->casters.size());
   if (fixed > each) return;
   const std::size_t mostCells = (each - fixed) / (kCellsASide * sizeof(std::uint32_t));
   for (const std::size_t number : lights) {
-    lights_.push_back(
-        std::make_unique<OfLight>(scene.lights[number], number, parts_.count(), mostCells));
+    lights_.push_back(std::make_unique<OfLight>(scene.lights[number], number,
+                                                scene.triangles.size(), parts_.count(), mostCells));
     serve(*lights_.back());
   }
 }
@@ -173,8 +202,8 @@ void VerdictTables::serve(OfLight& light) {
   VerdictView& view = views_[light.number];
   view = VerdictView();
   if (!inRange(light.point) || light.idle()) return;
-  view = {parts_.first.data(), light.parts.data(), light.cells.data(), light.wanted.data(),
-          light.seen == 0};
+  view = {light.triangles.data(), parts_.first.data(), light.parts.data(),
+          light.cells.data(),     light.wanted.data(), light.seen == 0};
 }
 
 void VerdictTables::forgetMovedLights() {
@@ -187,23 +216,29 @@ void VerdictTables::forgetMovedLights() {
   }
 }
 
-FillReport VerdictTables::fill(WorkerPool& pool) {
+FillReport VerdictTables::fill(WorkerPool& pool, const FillLimits& limits) {
   const Stopwatch stopwatch;
   FillReport report;
   for (auto& light : lights_) {
     if (!views_[light->number].serves()) continue;
-    report.parts += fillLight(*light, pool);
+    report.parts += fillLight(*light, pool, limits);
     serve(*light);
   }
   report.ms = stopwatch.ms();
   return report;
 }
 
+void VerdictTables::forgetAsked() {
+  for (auto& light : lights_)
+    std::fill(light->wanted.begin(), light->wanted.end(), std::uint8_t{0});
+}
+
 // Returns how many parts it looked at.
-std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool) const {
+std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool,
+                                       const FillLimits& limits) const {
   std::vector<std::uint32_t> asked;
-  for (std::size_t i = 0; i < light.wanted.size(); ++i) {
-    if (light.wanted[i] != 0) asked.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < light.wanted.size() && asked.size() < limits.mostParts; ++i) {
+    if (light.wanted[i] >= limits.leastRays) asked.push_back(static_cast<std::uint32_t>(i));
   }
   if (asked.empty()) return 0;
   if (!light.tree) light.tree = std::make_unique<CasterTree>(scene_, *casters_, light.point);
@@ -217,7 +252,18 @@ std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool) const {
     }
   });
   for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], verdicts[i]);
+  sumUp(light, asked);
   return asked.size();
+}
+
+// Of the triangles of these parts, which are in order.
+void VerdictTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::uint32_t triangle = parts_.owner[parts[i]], word = parts_.first[triangle];
+    if (i > 0 && triangle == parts_.owner[parts[i - 1]]) continue;
+    const unsigned power = word & ((1u << kPartBits) - 1);
+    light.sumUp(triangle, word >> kPartBits, std::size_t{1} << (2 * power));
+  }
 }
 
 PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,

@@ -6,6 +6,7 @@
 // that stand still, and lights taken as points.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -29,6 +30,12 @@ struct VerdictParts {
   // None where the scene has too many triangles, or coordinates that proofs do not reach: its own,
   // or those of its rays in the space of an instance.
   static VerdictParts of(const Scene& scene);
+};
+
+// Which parts are looked at.
+struct FillLimits {
+  unsigned leastRays = 1;            // that asked for a part, up to 255
+  std::size_t mostParts = SIZE_MAX;  // of each light
 };
 
 // What filling has brought.
@@ -55,7 +62,9 @@ class VerdictTables {
   const std::vector<VerdictView>& views() const { return views_; }
 
   // Looks at the parts that rays have missed. Not while a frame is traced.
-  FillReport fill(WorkerPool& pool);
+  FillReport fill(WorkerPool& pool, const FillLimits& limits = {});
+  // What was asked for, and has not been looked at. Not while a frame is traced.
+  void forgetAsked();
   // What is known of lights that are not where they were any more. Not while a frame is traced.
   void forgetMovedLights();
 
@@ -64,7 +73,8 @@ class VerdictTables {
  private:
   struct OfLight;
 
-  std::uint64_t fillLight(OfLight& light, WorkerPool& pool) const;
+  std::uint64_t fillLight(OfLight& light, WorkerPool& pool, const FillLimits& limits) const;
+  void sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const;
   void serve(OfLight& light);
   PartVerdict decide(const OfLight& light, std::uint32_t part, const simd::CasterKernels& kernels,
                      PartScratch& scratch) const;

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "render/audit_shadows.h"
 #include "render/shipped_scene.h"
+#include "render/verdict_schedule.h"
 #include "scene/edit_shading.h"
 #include "simd/kernels.h"
 #include "verdicts/caster.h"
@@ -301,6 +302,88 @@ TEST(Verdicts, TablesMayBeFilledInPartsAndBeTooSmall) {
   EXPECT_EQ(renderer.verdictBytes() > kPlenty, false);
   renderer.render(camera, film);
   EXPECT_EQ(firstDifference(film.image, plain), "");
+}
+
+// ---- when to look for them
+
+// So many frames of one view, each with the bits of `plain`. Returns how many rays the last one did
+// not trace.
+std::uint64_t decidedInRun(const Scene& scene, RenderOptions options, std::size_t frames) {
+  const Image plain = render(scene, options).image;
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  VerdictSchedule schedule(renderer, {frames, film.image.pixels.size(), kPlenty});
+  FrameStats last;
+  for (std::size_t i = 0; i < frames; ++i) {
+    schedule.prepare(camera, film);
+    last = renderer.render(camera, film);
+    schedule.frameDone();
+    EXPECT_EQ(firstDifference(film.image, plain), "") << i;
+  }
+  EXPECT_EQ(schedule.used(), decided(last) > 0);
+  return decided(last);
+}
+
+TEST(VerdictSchedule, LooksForThemWhereManySamplesFollow) {
+  const Scene& scene = load("matte");
+  RenderOptions options = smallOptions();
+  const double pixels = static_cast<double>(makeFilm(scene, options).image.pixels.size());
+  const auto enough = static_cast<std::size_t>(samplesThatPay(scene) / pixels) + 32;
+  EXPECT_GT(decidedInRun(scene, options, enough), 0u);
+  EXPECT_EQ(decidedInRun(scene, options, 2), 0u);
+  RenderOptions off = options;
+  off.verdicts = Verdicts::off;
+  EXPECT_EQ(decidedInRun(scene, off, enough), 0u);
+  // One frame alone, of many samples.
+  options.spp = static_cast<int>(enough);
+  EXPECT_GT(decidedInRun(scene, options, 1), 0u);
+  options.adaptive = true;
+  EXPECT_EQ(decidedInRun(scene, options, 1), 0u);
+}
+
+// Each tile has asked after as many frames as there are turns, and only once.
+TEST(VerdictSchedule, TilesTakeTurnsInAsking) {
+  const Scene& scene = load("matte");
+  RenderOptions options = smallOptions();
+  options.size = ImageSize{130, 70};
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  constexpr std::uint32_t kTurns = VerdictSchedule::kTurns;
+  renderer.expectFrames(kPlenty, kTurns);
+  std::uint64_t parts = 0;
+  for (std::uint32_t i = 0; i < kTurns; ++i) {
+    renderer.render(camera, film);
+    const std::uint64_t found = renderer.fillVerdicts().parts;
+    EXPECT_LT(found, 2000u);
+    parts += found;
+  }
+  Renderer all(scene, options);
+  all.expectFrames(kPlenty);
+  all.render(camera, film);
+  EXPECT_EQ(all.fillVerdicts().parts, parts);
+  for (std::uint32_t i = 0; i < kTurns; ++i) {
+    renderer.render(camera, film);
+    EXPECT_EQ(renderer.fillVerdicts().parts, 0u);
+  }
+}
+
+TEST(VerdictTables, LookAtWhatManyAskForAndAtSomeAtATime) {
+  const Scene& scene = load("matte");
+  const RenderOptions options = smallOptions();
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  renderer.expectFrames(kPlenty);
+  renderer.render(camera, film);
+  const std::uint64_t many = renderer.fillVerdicts({.leastRays = 3}).parts;
+  EXPECT_GT(many, 0u);
+  EXPECT_LE(renderer.fillVerdicts({.mostParts = 5}).parts, 5 * scene.lights.size());
+  EXPECT_GT(renderer.fillVerdicts({.mostParts = 5}).parts, 0u);
+  renderer.forgetAskedVerdicts();
+  EXPECT_EQ(renderer.fillVerdicts().parts, 0u);
+  EXPECT_EQ(firstDifference(film.image, render(scene, options).image), "");
 }
 
 // ---- the audit itself

@@ -1,0 +1,75 @@
+#include "render/verdict_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whit {
+
+namespace {
+
+// Proving a part takes about as long as tracing so many shadow rays (whit bench --ab-verdicts).
+constexpr double kRaysAProof = 400;
+// Of cameras that move: for so many frames at the most a part is counted on to stay in view.
+constexpr std::size_t kFramesInView = 96;
+// Building what proofs search takes as long as tracing so many samples of pixels for each triangle.
+constexpr double kSamplesATriangle = 250;
+// Of many samples of one view, one is spent on asking.
+constexpr std::size_t kFewestFrames = 2 * VerdictSchedule::kTurns, kFewestSamples = 32;
+constexpr double kMostCounted = 255;
+
+std::size_t samplesOf(const RenderOptions& options) {
+  return options.adaptive ? 1 : static_cast<std::size_t>(options.spp);
+}
+
+bool pays(const Scene& scene, const RenderOptions& options, const VerdictRun& run) {
+  const std::size_t samples = samplesOf(options);
+  if (run.frames < kFewestFrames && samples < kFewestSamples) return false;
+  const double traced = static_cast<double>(run.frames) * static_cast<double>(run.pixels) *
+                        static_cast<double>(samples);
+  return traced >= samplesThatPay(scene);
+}
+
+}  // namespace
+
+double samplesThatPay(const Scene& scene) {
+  return kSamplesATriangle * static_cast<double>(scene.triangles.size());
+}
+
+VerdictSchedule::VerdictSchedule(Renderer& renderer, const VerdictRun& run)
+    : renderer_(renderer), run_(run) {
+  const RenderOptions& options = renderer.options();
+  if (options.verdicts != Verdicts::automatic || options.mode == Mode::reference) return;
+  if (!pays(renderer.scene(), options, run)) return;
+  renderer_.expectFrames(run.mostBytes, kTurns);
+  used_ = renderer_.decidesShadows();
+}
+
+void VerdictSchedule::prepare(const Camera& camera, Film& film) {
+  const std::size_t samples = samplesOf(renderer_.options());
+  if (!used_ || done_ > 0 || samples < kFewestSamples) return;
+  const RenderOptions all = renderer_.options();
+  RenderOptions one = all;
+  one.spp = 1;
+  renderer_.expectFrames(run_.mostBytes, 1);
+  renderer_.setOptions(one);
+  renderer_.render(camera, film);
+  renderer_.setOptions(all);
+  fill(static_cast<double>(samples * std::min(run_.frames, kFramesInView)));
+  renderer_.expectFrames(run_.mostBytes, kTurns);
+}
+
+void VerdictSchedule::frameDone() {
+  if (!used_ || ++done_ % kTurns != 0 || done_ >= run_.frames) return;
+  fill(static_cast<double>(std::min(run_.frames - done_, kFramesInView)));
+}
+
+// What was asked for is expected so many times more.
+void VerdictSchedule::fill(double repeats) {
+  const double least = std::ceil(kRaysAProof / repeats);
+  if (least <= kMostCounted) {
+    fillMs_ += renderer_.fillVerdicts({.leastRays = static_cast<unsigned>(least)}).ms;
+  }
+  renderer_.forgetAskedVerdicts();
+}
+
+}  // namespace whit
