@@ -196,7 +196,8 @@ std::string completionClosing(Shell shell, const std::string& program) {
   const std::string function = functionName(program, "");
   switch (shell) {
     case Shell::bash:
-      return "  esac\n  local done=${list:+${current%\"${current##*,}\"}}\n  COMPREPLY=($(compgen -P "
+      return "  esac\n  local done=${list:+${current%\"${current##*,}\"}}\n  COMPREPLY=($(compgen "
+             "-P "
              "\"$done\" -W \"$words\" -- \"${current#\"$done\"}\"))\n}\ncomplete -o default -F " +
              function + " " + program + "\n";
     case Shell::zsh:

@@ -26,9 +26,12 @@ std::string rateText(double fps) { return formatValue(OptionSpec{}, fps); }
 
 std::vector<std::string> argumentsFor(const std::string& program, const std::string& to, int width,
                                       int height, double fps) {
-  std::vector<std::string> words{program,    "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb0",
-                                 "-s",       std::to_string(width) + "x" + std::to_string(height),
-                                 "-r",       rateText(fps), "-i", "-"};
+  std::vector<std::string> words{
+      program, "-v",          "error",
+      "-f",    "rawvideo",    "-pix_fmt",
+      "rgb0",  "-s",          std::to_string(width) + "x" + std::to_string(height),
+      "-r",    rateText(fps), "-i",
+      "-"};
   words.insert(words.end(), std::begin(kFilmCodec), std::end(kFilmCodec));
   words.insert(words.end(), {"-f", "mp4", "-y", to});
   return words;

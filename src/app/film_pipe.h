@@ -36,8 +36,8 @@ class FilmPipe {
   FilmPipe(const FilmPipe&) = delete;
   FilmPipe& operator=(const FilmPipe&) = delete;
 
-  // A picture: r, g, b, 255 of each pixel, rows from the top. Throws Error(io) with what the program
-  // has said if it has ended.
+  // A picture: r, g, b, 255 of each pixel, rows from the top. Throws Error(io) with what the
+  // program has said if it has ended.
   void add(std::span<const std::uint8_t> rgba);
   void finish();
 

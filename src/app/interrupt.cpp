@@ -52,7 +52,8 @@ WriteScope::~WriteScope() {
 }
 
 ChildScope::ChildScope(const std::string& file) {
-  if (file.size() >= sizeof childsFile) throwIo("cannot write '" + file + "': its name is too long");
+  if (file.size() >= sizeof childsFile)
+    throwIo("cannot write '" + file + "': its name is too long");
   std::memcpy(childsFile, file.c_str(), file.size() + 1);
   hasFile = true;
 }

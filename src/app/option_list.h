@@ -47,9 +47,8 @@ class OptionList {
   Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
     const std::string known = formatValue(spec, field);
     const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
-    Entry& entry =
-        push(spec, tell ? help + " (default: " + known + ")" : help,
-             [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+    Entry& entry = push(spec, tell ? help + " (default: " + known + ")" : help,
+                        [spec, &field](const std::string& text) { parseValue(spec, text, field); });
     entry.names = namesIn(field);
     return entry;
   }

@@ -51,8 +51,7 @@ TEST(Channels, AreBesideThePicture) {
   EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "plain.png"));
   EXPECT_NE(readFile(folder / "a.depth.png"), readFile(folder / "plain.png"));
   EXPECT_EQ(textOf(exr, "channels"), kAll);
-  EXPECT_EQ(Json::parse(textOf(exr, "whit:objects")),
-            (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
+  EXPECT_EQ(Json::parse(textOf(exr, "whit:objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
   const Json materials = Json::parse(textOf(exr, "whit:materials"));
   const Outcome info = runWhit({"info", scene, "--json", "-"});
   const Json said = Json::parse(info.out);
@@ -69,10 +68,10 @@ TEST(Channels, WhatCannotBeIsSaid) {
   const std::string scene = writeTinyScene(folder);
   const auto refuse = [&](int status, const std::string& why, const std::string& output,
                           const std::string& channels, const std::string& exr = "zip") {
-    expectRefused(status, why,
-                  {"render", scene, "-o", folder / output, "--channels", channels, "--exr", exr,
-                   "--quiet"},
-                  folder);
+    expectRefused(
+        status, why,
+        {"render", scene, "-o", folder / output, "--channels", channels, "--exr", exr, "--quiet"},
+        folder);
   };
   refuse(2, "nearest: 'depth'", "a.exr", "deth");
   refuse(2, "expected an EXR to keep them in", "a.png", "depth");
@@ -90,8 +89,8 @@ TEST(Channels, OfCropsAreMerged) {
   const TemporaryFolder folder;
   const std::string scene = writeTinyScene(folder);
   const auto part = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", scene, "-o", folder / name, "--channels", kAll,
-                                   "--spp",  "2",   "--quiet"};
+    std::vector<std::string> words{"render", scene,   "-o", folder / name, "--channels",
+                                   kAll,     "--spp", "2",  "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     expectDone(words);
   };
@@ -116,8 +115,8 @@ TEST(Channels, AreComparedExactly) {
   const TemporaryFolder folder;
   const std::string scene = writeTinyScene(folder);
   expectDone({"render", scene, "-o", folder / "a.exr", "--channels", "depth,object", "--quiet"});
-  expectDone({"render", scene, "-o", folder / "b.exr", "--channels", "depth,object,normal",
-              "--set", "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
+  expectDone({"render", scene, "-o", folder / "b.exr", "--channels", "depth,object,normal", "--set",
+              "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
   const Outcome outcome =
       runWhit({"compare", folder / "a.exr", folder / "b.exr", "--json", folder / "c.json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -61,9 +61,9 @@ TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
 // A cube looks the same after a quarter of a turn, but for the light.
 TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
   const TemporaryFolder folder;
-  ASSERT_EQ(turn(cubeObj(folder), {"-o", folder / "f#.exr", "--frames", "4", "--size", "48x48"})
-                .status,
-            0);
+  ASSERT_EQ(
+      turn(cubeObj(folder), {"-o", folder / "f#.exr", "--frames", "4", "--size", "48x48"}).status,
+      0);
   const auto eye = [&](int k) {
     const std::string file = folder / ("f" + std::to_string(k) + ".exr");
     for (const auto& [name, text] : readExrMetadata(file)) {
@@ -84,14 +84,13 @@ TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
 
 TEST(TurntableCommand, WithoutFfmpegThereArePicturesAndTheCommand) {
   const TemporaryFolder folder;
-  const Outcome outcome = turn(cubeObj(folder),
-                               {"-o", folder / "film.mp4", "--frames", "3", "--size", "32x20",
-                                "--fps", "12"},
-                               "/nonexistent");
+  const Outcome outcome =
+      turn(cubeObj(folder),
+           {"-o", folder / "film.mp4", "--frames", "3", "--size", "32x20", "--fps", "12"},
+           "/nonexistent");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("ffmpeg is not in $PATH"), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.out,
-            filmCommand(folder / "film-%04d.png", 12, folder / "film.mp4") + "\n");
+  EXPECT_EQ(outcome.out, filmCommand(folder / "film-%04d.png", 12, folder / "film.mp4") + "\n");
   EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj", "film-0000.png", "film-0001.png",
                                                        "film-0002.png"}));
 }
@@ -117,11 +116,10 @@ TEST(TurntableCommand, AnInterruptionLeavesNothing) {
   const TemporaryFolder folder, programs, output;
   writeProgram(programs, "cat >/dev/null");
   const std::string cube = cubeObj(folder);
-  const pid_t child = startWhit({"turntable", cube, "-o", folder / "film.mp4", "--frames", "100000",
-                                 "--size", "64x40", "--quiet"},
-                                output, [&] {
-                                  setenv("PATH", (programs.path().string() + ":/bin").c_str(), 1);
-                                });
+  const pid_t child =
+      startWhit({"turntable", cube, "-o", folder / "film.mp4", "--frames", "100000", "--size",
+                 "64x40", "--quiet"},
+                output, [&] { setenv("PATH", (programs.path().string() + ":/bin").c_str(), 1); });
   ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));  // the temporary file
   kill(child, SIGTERM);
   EXPECT_EQ(waitFor(child), 130);
@@ -150,9 +148,9 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
 
 TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   const TemporaryFolder folder;
-  const Outcome outcome = turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2",
-                                                        "--seconds", "0.5", "--fps", "4",
-                                                        "--camera", "side", "--json", "-"});
+  const Outcome outcome =
+      turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2", "--seconds", "0.5",
+                                    "--fps", "4", "--camera", "side", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["frames"], 2);
@@ -170,8 +168,7 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
 // With ffmpeg, and a model of the real world.
 TEST(TurntableCommand, TheHelmetIsAFilm) {
   const char* const data = std::getenv("WHIT_DATA");
-  const std::string helmet =
-      std::string(data ? data : "") + "/gltf/FlightHelmet/FlightHelmet.gltf";
+  const std::string helmet = std::string(data ? data : "") + "/gltf/FlightHelmet/FlightHelmet.gltf";
   if (!fs::exists(helmet)) GTEST_SKIP() << "no FlightHelmet in $WHIT_DATA: NOT checked";
   if (!findProgram("ffmpeg") || !findProgram("ffprobe")) {
     GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";
@@ -181,8 +178,10 @@ TEST(TurntableCommand, TheHelmetIsAFilm) {
   const Outcome outcome = turn(helmet, {"-o", film, "--size", "160x120"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string said = folder / "said";
-  const std::string probe = "ffprobe -v error -show_entries stream=width,height,nb_frames,duration "
-                            "-of json '" + film + "' > '" + said + "'";
+  const std::string probe =
+      "ffprobe -v error -show_entries stream=width,height,nb_frames,duration "
+      "-of json '" +
+      film + "' > '" + said + "'";
   ASSERT_EQ(std::system(probe.c_str()), 0);
   const Json stream = Json::parse(readFile(said))["streams"][0];
   EXPECT_EQ(stream["width"], 160);

@@ -48,7 +48,8 @@ std::uint32_t numberAt(const Film& film, Channel channel, int x, int y) {
   return film.channels.numbers(channel)[film.image.index(x, y)];
 }
 
-// The ray through a place of the picture, in closed form: of a camera at the eye that looks along -z.
+// The ray through a place of the picture, in closed form: of a camera at the eye that looks along
+// -z.
 struct ViewRay {
   Vec3d origin, direction;
   ViewRay(const Camera& camera, const Image& image, double x, double y) : origin(camera.eye) {
@@ -234,11 +235,10 @@ INSTANTIATE_TEST_SUITE_P(Modes, Channels, testing::Values(Mode::packets, Mode::r
 void expectSame(const ChannelLayers& a, const ChannelLayers& b, const std::string& what) {
   ASSERT_EQ(a.channels(), b.channels());
   a.channels().forEach([&](Channel c) {
-    const bool same = infoOf(c).countsThings
-                          ? std::equal(a.numbers(c).begin(), a.numbers(c).end(),
-                                       b.numbers(c).begin(), b.numbers(c).end())
-                          : std::memcmp(a.floats(c).data(), b.floats(c).data(),
-                                        a.floats(c).size_bytes()) == 0;
+    const bool same = infoOf(c).countsThings ? std::equal(a.numbers(c).begin(), a.numbers(c).end(),
+                                                          b.numbers(c).begin(), b.numbers(c).end())
+                                             : std::memcmp(a.floats(c).data(), b.floats(c).data(),
+                                                           a.floats(c).size_bytes()) == 0;
     EXPECT_TRUE(same) << infoOf(c).name << ": " << what;
   });
 }

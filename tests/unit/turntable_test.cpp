@@ -65,11 +65,10 @@ TEST(Turntable, AllOfTheModelStaysInThePicture) {
         const double depth = dot(p, frame.forward) / dot(frame.forward, frame.forward);
         ASSERT_GT(depth, 0);
         const Vec3d across = p / depth;
-        widest = std::max({widest,
-                           std::abs(dot(across, frame.right)) / dot(frame.right, frame.right) /
-                               (width / 2.0),
-                           std::abs(dot(across, frame.up)) / dot(frame.up, frame.up) /
-                               (height / 2.0)});
+        widest = std::max(
+            {widest,
+             std::abs(dot(across, frame.right)) / dot(frame.right, frame.right) / (width / 2.0),
+             std::abs(dot(across, frame.up)) / dot(frame.up, frame.up) / (height / 2.0)});
       }
     }
     EXPECT_LT(widest, 1) << width;
