@@ -40,7 +40,8 @@ chroot "$@"
 END
 
 system= user=root folder=/
-declare -A stages
+declare -A stages=()
+count=0
 
 # within WORD...: in the stage at hand, as the file has it by now.
 within() {
@@ -67,7 +68,7 @@ said() {
 # begin IMAGE [AS NAME]
 begin() {
   [ "$1" = debian:bookworm-slim ] || { echo "container: FROM $1 is not known" >&2; exit 1; }
-  system=$work/stage${#stages[@]} user=root folder=/
+  system=$work/stage$((count += 1)) user=root folder=/
   stages[${3:-last}]=$system
   cp -a "$base" "$system"
   if [ -n "$objects" ] && [ -n "${3:-}" ]; then
