@@ -43,6 +43,7 @@ std::string asFile(const std::string& path) { return path[0] == '-' ? "./" + pat
 // With its standard input at `in` and what it says in `said`. An error number.
 int start(std::vector<std::string> words, int in, int said, int& process) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

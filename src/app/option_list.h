@@ -16,11 +16,13 @@ std::vector<std::string> namesIn(const T&) {
 }
 inline std::vector<std::string> namesIn(const EffectSet&) {
   std::vector<std::string> names;
+  names.reserve(kEffectNames.size());
   for (const EffectName& effect : kEffectNames) names.emplace_back(effect.name);
   return names;
 }
 inline std::vector<std::string> namesIn(const ChannelSet&) {
   std::vector<std::string> names;
+  names.reserve(kChannels.size());
   for (const ChannelInfo& channel : kChannels) names.emplace_back(channel.name);
   return names;
 }

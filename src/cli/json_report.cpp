@@ -104,6 +104,14 @@ void addFrames(const RunSummary& run, Json& json) {
   if (!run.shares.empty()) json["farm"] = farmJson(run.shares[medianFrameIndex(run)]);
 }
 
+// By their numbers in the channel of that name, as objects are.
+std::vector<std::string> materialNames(const Scene& scene) {
+  std::vector<std::string> names;
+  names.reserve(scene.materials.size());
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
 }  // namespace
 
 Json runJson(const RunSummary& run) {
@@ -174,13 +182,6 @@ Json compareJson(const Comparison& comparison) {
                               {"depth", row.depth}});
   }
   return json;
-}
-
-// By their numbers in the channel of that name, as objects are.
-static std::vector<std::string> materialNames(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Material& material : scene.materials) names.push_back(material.name);
-  return names;
 }
 
 Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,

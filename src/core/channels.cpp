@@ -34,6 +34,7 @@ ChannelSet parseChannels(const std::string& commaSeparated) {
                                     [&](const ChannelInfo& c) { return c.name == word; });
     if (found == kChannels.end()) {
       std::vector<std::string> names;
+      names.reserve(kChannels.size());
       for (const ChannelInfo& c : kChannels) names.emplace_back(c.name);
       throwUsage("no channel is called '" + word + "'; nearest: '" + nearestName(word, names) +
                  "'");

@@ -17,6 +17,7 @@ std::string manifest(std::size_t count, NameOf&& nameOf) {
 
 std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers) {
   std::vector<LayerView> views;
+  views.reserve(layers.size());
   for (const ImageLayer& layer : layers) {
     views.push_back({layer.name, layer.countsThings ? nullptr : layer.floats.data(),
                      layer.countsThings ? layer.numbers.data() : nullptr, 1});
