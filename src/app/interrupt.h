@@ -1,6 +1,8 @@
 // Control-C and SIGTERM: the program ends at once with status 130, and leaves no half-written file.
 #pragma once
 
+#include <string>
+
 namespace whit::cli {
 
 inline constexpr int kInterruptedStatus = 130;
@@ -16,6 +18,18 @@ class WriteScope {
   ~WriteScope();
   WriteScope(const WriteScope&) = delete;
   WriteScope& operator=(const WriteScope&) = delete;
+};
+
+// While it is alive an interruption removes the file, and ends the process that writes it, too. One
+// at a time.
+class ChildScope {
+ public:
+  explicit ChildScope(const std::string& file);
+  ~ChildScope();
+  static void begun(int process);
+  static void ended();
+  ChildScope(const ChildScope&) = delete;
+  ChildScope& operator=(const ChildScope&) = delete;
 };
 
 }  // namespace whit::cli

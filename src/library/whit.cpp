@@ -10,6 +10,7 @@
 #include "core/option_table.h"
 #include "core/version.h"
 #include "io/image_file.h"
+#include "io/image_layers.h"
 #include "io/load_scene.h"
 #include "io/paths.h"
 #include "render/auto_exposure.h"
@@ -103,6 +104,14 @@ std::vector<Animation> Scene::animations() const {
   return all;
 }
 
+std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
+
+std::vector<std::string> Scene::materials() const {
+  std::vector<std::string> names;
+  for (const Material& material : data_->scene.materials) names.push_back(material.name);
+  return names;
+}
+
 std::vector<std::string> Scene::warnings() const {
   std::vector<std::string> all;
   for (const auto& [kind, entry] : data_->warnings.entries()) {
@@ -114,7 +123,7 @@ std::vector<std::string> Scene::warnings() const {
 
 struct Image::Data {
   Film film;
-  ImageMetadata metadata;
+  ImageMetadata metadata, aboutChannels;
 };
 
 Image::Image() : data_(std::make_unique<Data>()) {}
@@ -140,12 +149,41 @@ std::span<const float> Image::rgb() const {
 
 std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.rgba; }
 
+std::vector<Image::Channel> Image::channels() const {
+  const ChannelLayers& layers = data_->film.channels;
+  std::vector<Channel> all;
+  layers.channels().forEach([&](whit::Channel c) {
+    const ChannelInfo& info = infoOf(c);
+    Channel channel{info.name, {}, {}, {}};
+    channel.components.assign(info.suffixes.begin(),
+                              info.suffixes.begin() + static_cast<std::ptrdiff_t>(info.components));
+    if (info.countsThings) {
+      channel.numbers = layers.numbers(c);
+    } else {
+      channel.values = layers.floats(c);
+    }
+    all.push_back(std::move(channel));
+  });
+  return all;
+}
+
+Image::Channel Image::channel(std::string_view name) const {
+  return guarded([&] {
+    for (const Channel& channel : channels()) {
+      if (channel.name == name) return channel;
+    }
+    throwUsage("the image has no channel '" + std::string(name) + "': set(\"channels\", ...)");
+  });
+}
+
 void Image::write(const std::string& path) const {
   guarded([&] {
     const std::string extension = extensionOf(path);
     if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
     if (extension == ".exr") {
-      writeExr(path, data_->film.image, data_->metadata);
+      ImageMetadata said = data_->metadata;
+      said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
+      writeExr(path, data_->film.image, said, ExrStorage::zip, 1, viewsOf(data_->film.channels));
     } else if (extension == ".png") {
       writePng(path, data_->film.display, data_->metadata);
     } else {
@@ -251,6 +289,7 @@ void Renderer::Data::render(const Camera& camera, Image& image) {
                                                            : renderer->render(camera, film);
   refuseNonFinite(internal(), settled, frame);
   image.data_->metadata = describeImage(internal(), camera, *renderer, film, settled);
+  image.data_->aboutChannels = describeChannels(internal(), settled.channels);
   statistics = statisticsOf(frame, settled.mode);
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/channels.h"
 #include "core/options.h"
 #include "stages/columns.h"
 #include "stages/features.h"
@@ -37,6 +38,14 @@ struct AskingTurn {
   std::uint32_t turn = 0, turns = 1;
 };
 
+// Where the channels of a picture's pixels go, and of which sample. Each pixel is written by one
+// worker. Null: none are kept.
+struct ChannelTarget {
+  ChannelLayers* layers = nullptr;
+  Crop window;  // pixels beside it are left out
+  std::uint32_t sample = 0;
+};
+
 // The same for all chunks of a frame, and read-only while it is rendered.
 struct FrameConstants {
   const Scene* scene = nullptr;
@@ -48,6 +57,7 @@ struct FrameConstants {
   RenderOptions options;
   CameraRays camera;
   AskingTurn asking;
+  ChannelTarget channels;
 };
 
 // Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
@@ -112,6 +122,9 @@ struct Chunk {
   std::size_t childSegmentCount = 0;
   // Of the chunk whose children these rays are.
   RadianceColumns parentRadiance;
+
+  // A number a ray where rays are counted, and those of the chunk whose children these rays are.
+  std::uint32_t *rayCounts = nullptr, *parentRayCounts = nullptr;
 
   std::uint32_t* codes = nullptr;  // display codes, a pixel each
   Film* film = nullptr;            // where the pixels go

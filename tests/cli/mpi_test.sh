@@ -29,6 +29,7 @@ same whitted whitted --size 200x120
 same crop mirrors --size 200x120 --crop 13,7,190,111 --tile 16
 same reference glass --size 72x48 --mode reference --tile 8
 same samples matte --size 100x80 --adaptive on --spp 4 --exposure 1
+same channels whitted --size 200x120 --channels depth,normal,object,triangle,rays
 
 # Fewer blocks than ranks, and a path of frames of which one is there.
 ranks 3 "$whit" render matte --size 8x8 -o small-3.exr --quiet

@@ -11,12 +11,15 @@
 #include <functional>
 
 #include "io/image_file.h"
+#include "io/image_layers.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
 #include "render/renderer.h"
 
 namespace whit::api {
 namespace {
+
+constexpr std::uint32_t kNothing = 0xffffffffu;
 
 const Scene& whittedScene() {
   static const Scene scene = loadScene("whitted");
@@ -133,6 +136,37 @@ TEST(Library, TellsWhatAFrameCost) {
   EXPECT_LE(sum, cost.frameMs * 1.0001);  // one worker: its stages are within the frame
   ASSERT_EQ(cost.rays.size(), kRayKindCount);
   EXPECT_EQ(cost.rays[0].count, 40u * 24u);
+}
+
+TEST(Library, ChannelsAreThoseThatFilesHave) {
+  Renderer renderer = smallRenderer();
+  Image image = renderer.render();
+  EXPECT_TRUE(image.channels().empty());
+  EXPECT_EQ(statusOf([&] { (void)image.channel("depth"); }), 2);
+  renderer.set("channels", "depth,object");
+  renderer.render(image);
+  ASSERT_EQ(image.channels().size(), 2u);
+  const Image::Channel depth = image.channel("depth"), object = image.channel("object");
+  EXPECT_EQ(depth.components, (std::vector<std::string_view>{"Z", "distance"}));
+  EXPECT_EQ(depth.values.size(), 2 * 40 * 24u);
+  EXPECT_TRUE(depth.numbers.empty());
+  EXPECT_TRUE(object.values.empty());
+  EXPECT_EQ(object.components, (std::vector<std::string_view>{"id"}));
+  for (std::size_t i = 0; i < object.numbers.size(); ++i) {
+    EXPECT_EQ(object.numbers[i] == kNothing, std::isinf(depth.values[2 * i]));
+    if (object.numbers[i] != kNothing) {
+      EXPECT_LT(object.numbers[i], whittedScene().objects().size());
+    }
+  }
+  EXPECT_GT(whittedScene().materials().size(), 0u);
+  const std::string path = testing::TempDir() + "whit-library-channels.exr";
+  image.write(path);
+  const std::vector<ImageLayer> layers = readLayers(path, ImageLimits());
+  std::filesystem::remove(path);
+  ASSERT_EQ(layers.size(), 3u);
+  EXPECT_EQ(layers[0].name, "depth.Z");
+  EXPECT_EQ(layers[0].floats[7], depth.values[14]);
+  EXPECT_TRUE(std::equal(object.numbers.begin(), object.numbers.end(), layers[2].numbers.begin()));
 }
 
 TEST(Library, ImagesAreValues) {
