@@ -1,0 +1,49 @@
+#include "core/error.h"
+#include "io/paths.h"
+#include "library/guarded.h"
+#include "library/image_data.h"
+
+namespace whit::api {
+
+Image::Image() : data_(std::make_unique<Data>()) {}
+Image::Image(const Image& other) : data_(std::make_unique<Data>(*other.data_)) {}
+// NOLINTNEXTLINE(performance-noexcept-move-constructor): what it leaves behind takes memory
+Image::Image(Image&& other) : Image() { data_.swap(other.data_); }
+Image& Image::operator=(Image other) noexcept {
+  data_.swap(other.data_);
+  return *this;
+}
+Image::~Image() = default;
+
+int Image::width() const { return data_->film.image.windowWidth(); }
+int Image::height() const { return data_->film.image.windowHeight(); }
+int Image::left() const { return data_->film.image.window.x0; }
+int Image::top() const { return data_->film.image.window.y0; }
+
+std::span<const float> Image::rgb() const {
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  const std::vector<Rgb>& pixels = data_->film.image.pixels;
+  return {pixels.empty() ? nullptr : &pixels.front().x, 3 * pixels.size()};
+}
+
+std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.rgba; }
+
+void Image::write(const std::string& path) const {
+  guarded([&] {
+    const std::string extension = extensionOf(path);
+    if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
+    if (extension == ".exr") {
+      writeExr(path, data_->film.image, data_->metadata);
+    } else if (extension == ".png") {
+      writePng(path, data_->film.display, data_->metadata);
+    } else {
+      throwUsage("'" + path + "': expected a name that ends in .exr or .png");
+    }
+  });
+}
+
+std::string Image::png() const {
+  return guarded([&] { return encodePng(data_->film.display, data_->metadata); });
+}
+
+}  // namespace whit::api
