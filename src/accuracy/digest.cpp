@@ -66,6 +66,8 @@ template <>
 constexpr bool kPlain<Crop> = sizeof(Crop) == 4 * sizeof(int);
 template <>
 constexpr bool kPlain<EffectSet> = sizeof(EffectSet) == sizeof(std::uint32_t);
+template <>
+constexpr bool kPlain<ChannelSet> = sizeof(ChannelSet) == sizeof(std::uint32_t);
 template <typename T, std::size_t n>
 constexpr bool kPlain<std::array<T, n>> = kPlain<T>;
 
@@ -98,7 +100,7 @@ void add(Digester& d, const Medium& medium) {
   add(d, ior), add(d, absorption), add(d, priority);
 }
 void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, written, toWorld, mover, toMover, moves] = instance;
+  const auto& [geometry, written, toWorld, mover, toMover, moves, firstItem] = instance;
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
@@ -155,7 +157,7 @@ std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
                materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
-               instancedSpheres, flush, motion, effects, reasons] = scene;
+               instancedSpheres, items, flush, motion, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

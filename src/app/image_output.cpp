@@ -81,19 +81,41 @@ void addSettings(const std::vector<std::string>& settings, const std::string& sk
   if (!sky.empty()) metadata.emplace_back("sky", sky);
 }
 
-ImageMetadata storageMetadata(const std::string& path, ExrStorage storage) {
-  if (extensionOf(path) != ".exr" || storage == ExrStorage::zip) return {};
-  return {{std::string(kExrOption.name), formatValue(kExrOption, storage)}};
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
+  if (kept.empty() || extensionOf(path) != ".png") return std::nullopt;
+  std::string name = std::filesystem::path(path).stem().string();
+  if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
+  while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+  const std::string last = name.substr(name.rfind('.') + 1);
+  std::optional<Channel> channel;
+  kept.forEach([&](Channel c) {
+    if (infoOf(c).name == last) channel = c;
+  });
+  return channel;
+}
+
+ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
+  if (format.channel) return {{"channel", std::string(infoOf(*format.channel).name)}};
+  if (extensionOf(path) != ".exr") return {};
+  ImageMetadata own = format.aboutChannels;
+  if (format.exr != ExrStorage::zip) {
+    own.emplace_back(kExrOption.name, formatValue(kExrOption, format.exr));
+  }
+  return own;
 }
 
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata, const ImageFormat& format) {
   const WriteScope scope;
+  ImageMetadata said = metadata;
+  const ImageMetadata own = ownMetadata(path, format);
+  said.insert(said.end(), own.begin(), own.end());
   if (extensionOf(path) == ".exr") {
-    ImageMetadata said = metadata;
-    const ImageMetadata stored = storageMetadata(path, format.exr);
-    said.insert(said.end(), stored.begin(), stored.end());
-    writeExr(path, film.image, said, format.exr, format.threads);
+    writeExr(path, film.image, said, format.exr, format.threads, viewsOf(film.channels));
+  } else if (format.channel) {
+    writeChannelPng(path, film.image, film.channels, *format.channel, said);
   } else if (options.mode == Mode::packets && film.wantDisplay) {
     writeDisplay(path, film.display, metadata);
   } else {

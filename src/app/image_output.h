@@ -1,11 +1,13 @@
 // Images as results: checked names, what they say about themselves, frame numbers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/options.h"
 #include "io/image_file.h"
+#include "io/image_layers.h"
 #include "io/paths.h"
 #include "render/renderer.h"
 
@@ -31,15 +33,22 @@ inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dw
 // How an image is to be written, apart from what is in it.
 struct ImageFormat {
   ExrStorage exr = ExrStorage::zip;
-  int threads = 1;  // that compress it
+  int threads = 1;                      // that compress it
+  std::optional<Channel> channel = {};  // that a PNG shows in place of the picture
+  ImageMetadata aboutChannels = {};     // of describeChannels()
 };
 
-// Writes .exr (linear) or .png (display) by the name's extension; a PNG to standard output. Says in
-// an EXR's metadata how it is stored, unless as usual. Throws Error(io).
+// Which of the channels that are kept a PNG of this name shows, by the part of the name before its
+// end or before the frame's number: "out.depth.png", "normal-####.png". None: the picture.
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
+
+// Writes .exr (linear, with the film's channels) or .png (display, or a channel) by the name's
+// extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata, const ImageFormat& format = {});
-// Of an EXR, what writeImage() adds to its metadata.
-ImageMetadata storageMetadata(const std::string& path, ExrStorage storage);
+// What writeImage() adds to the metadata of that file: of an EXR its channels, and how it is
+// stored, unless as usual; of a channel which it is.
+ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
 
 // Frames a to b, both included.
 struct FrameRange {

@@ -37,7 +37,8 @@ constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [opti
 constexpr const char* kRenderSummary =
     "Renders one image, or with --frames those of the scene's animation and camera path. To "
     "standard\n"
-    "output (-o -) frames follow each other, as ffmpeg -f image2pipe reads them.";
+    "output (-o -) frames follow each other, as ffmpeg -f image2pipe reads them. An EXR has all\n"
+    "of --channels, a PNG whose name says so (out.depth.png) is one of them, of 16 bits.";
 
 struct RenderJob {
   CommonOptions common;
@@ -90,9 +91,32 @@ void checkStandardOutput(const RenderJob& job) {
   if (isatty(STDOUT_FILENO)) throwUsage("-o -: standard output is a terminal: send it elsewhere");
 }
 
+// Channels are asked for to be written, and each PNG of one can be.
+void checkChannels(const RenderJob& job) {
+  const ChannelSet kept = job.common.render.channels;
+  if (kept.empty()) return;
+  bool written = false;
+  for (const std::string& output : job.outputs) {
+    const std::optional<Channel> channel = channelNamedBy(output, kept);
+    written |= channel || extensionOf(output) == ".exr";
+    if (channel == Channel::position) {
+      throwUsage("'" + output + "': positions do not fit into a PNG: write an EXR");
+    }
+  }
+  if (!written) {
+    throwUsage(
+        "--channels: expected an EXR to keep them in, or a PNG named by one, as "
+        "out.depth.png");
+  }
+  if (job.exr == ExrStorage::dwaa) {
+    throwUsage("--exr dwaa is lossy for channels as well: give --exr zip, none or half");
+  }
+}
+
 void checkJob(const RenderJob& job, const Farm& farm) {
   if (job.outputs.empty()) throwUsage("expected an image to write: -o OUT.exr or -o OUT.png");
   checkShared(farm, job.common);
+  checkChannels(job);
   if (farm.leads()) {
     checkStandardOutput(job);
     for (const std::string& output : job.outputs) {
@@ -153,6 +177,7 @@ class ImageWriter {
     settleExposure(*renderer_, camera(), options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
+    aboutChannels_ = describeChannels(open.scene, options_.channels);
   }
 
   // Frames to come are those of another instant. Where cameras alone move, that is for nothing.
@@ -235,17 +260,25 @@ class ImageWriter {
                 const ImageMetadata& metadata) const {
     return std::all_of(files.begin(), files.end(), [&](const std::string& file) {
       ImageMetadata expected = metadata;
-      const ImageMetadata stored = storageMetadata(file, job_.exr);
-      expected.insert(expected.end(), stored.begin(), stored.end());
+      const auto number = static_cast<std::size_t>(&file - files.data());
+      const ImageMetadata own = ownMetadata(file, formatOf(number));
+      expected.insert(expected.end(), own.begin(), own.end());
       return isWhole(file, image, expected, options_);
     });
   }
 
+  // Of the output of this number.
+  ImageFormat formatOf(std::size_t output) const {
+    return {job_.exr, renderer_->machine().threads,
+            channelNamedBy(job_.outputs[output], options_.channels), aboutChannels_};
+  }
+
   void startWriting(const Film& film, const std::vector<std::string>& files,
                     ImageMetadata metadata) {
-    const ImageFormat format{job_.exr, renderer_->machine().threads};
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
-      for (const std::string& file : files) writeImage(file, film, options_, metadata, format);
+      for (std::size_t i = 0; i < files.size(); ++i) {
+        writeImage(files[i], film, options_, metadata, formatOf(i));
+      }
     });
     written_.insert(written_.end(), files.begin(), files.end());
     if (films_.size() == 1) writer_.finish();
@@ -261,6 +294,7 @@ class ImageWriter {
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;
   std::string sceneDigest_;
+  ImageMetadata aboutChannels_;
   std::vector<std::string> written_;
   BackgroundWriter writer_;  // last: what it writes must outlive it
 };

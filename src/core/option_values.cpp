@@ -160,6 +160,10 @@ void parseValue(const OptionSpec&, const std::string& text, EffectSet& value) {
   value = parseEffects(text);
 }
 
+void parseValue(const OptionSpec&, const std::string& text, ChannelSet& value) {
+  value = parseChannels(text);
+}
+
 std::string formatValue(const OptionSpec&, const std::string& value) { return value; }
 std::string formatValue(const OptionSpec&, bool value) { return value ? "on" : "off"; }
 std::string formatValue(const OptionSpec& spec, int value) {
@@ -178,6 +182,8 @@ std::string formatValue(const OptionSpec&, const Crop& c) {
          std::to_string(c.y1);
 }
 std::string formatValue(const OptionSpec&, const Vec3f& value) { return joined(value); }
+
+std::string formatValue(const OptionSpec&, const ChannelSet& value) { return namesOf(value); }
 
 std::string formatValue(const OptionSpec&, const EffectSet& value) {
   std::string names;

@@ -20,6 +20,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, ImageSize& valu
 void parseValue(const OptionSpec& spec, const std::string& text, Crop& value);
 void parseValue(const OptionSpec& spec, const std::string& text, Vec3f& value);
 void parseValue(const OptionSpec& spec, const std::string& text, EffectSet& value);
+void parseValue(const OptionSpec& spec, const std::string& text, ChannelSet& value);
 
 // The words that an option takes; none if it takes others than those.
 std::vector<std::string> choicesOf(const OptionSpec& spec);
@@ -38,6 +39,7 @@ std::string formatValue(const OptionSpec& spec, const ImageSize& value);
 std::string formatValue(const OptionSpec& spec, const Crop& value);
 std::string formatValue(const OptionSpec& spec, const Vec3f& value);
 std::string formatValue(const OptionSpec& spec, const EffectSet& value);
+std::string formatValue(const OptionSpec& spec, const ChannelSet& value);
 
 template <typename Enum>
 requires std::is_enum_v<Enum>

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/channels.h"
 #include "core/effects.h"
 #include "core/option_spec.h"
 #include "core/shading_choices.h"
@@ -86,6 +87,7 @@ struct RenderOptions {
   SrgbEncoding srgb = SrgbEncoding::exact;
   int tile = 32;  // pixels a side
   int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
+  ChannelSet channels;
   bool strict = false;
 
   bool operator==(const RenderOptions&) const = default;
@@ -343,6 +345,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "rays a queue holds before the deeper one is drained (0: one tile)",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.queue},
+      Option{{.name = "channels", .words = "a,b",
+              .help = "kept beside the picture, of the surface that the sample nearest to each "
+                      "pixel's center meets first: depth, position, normal, albedo, uv, object, "
+                      "material, triangle, rays",
+              .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
+              .everyday = true},
+             o.channels},
       Option{{.name = "strict",
               .help = "anything that would be repaired and counted is an error",
               .rebuilds = Rebuild::nothing, .tab = Tab::none},

@@ -24,6 +24,7 @@ Film blockFilm(const Film& whole, const Crop& block) {
   Film film;
   film.image = Image(whole.image.width, whole.image.height, block);
   film.wantDisplay = whole.wantDisplay;
+  film.channels.resize(whole.channels.channels(), film.image.pixels.size());
   return film;
 }
 
@@ -31,6 +32,15 @@ void place(const Film& block, Film& whole) {
   const bool display = block.display.rgba.size() == 4 * block.image.pixels.size();
   place(block.image.window, block.image.pixels.data(),
         display ? block.display.rgba.data() : nullptr, whole);
+  place(block.image.window, block.channels, whole);
+}
+
+void place(const Crop& block, const ChannelLayers& channels, Film& whole) {
+  const auto width = static_cast<std::size_t>(block.x1 - block.x0);
+  for (int y = block.y0; y < block.y1; ++y) {
+    const std::size_t from = static_cast<std::size_t>(y - block.y0) * width;
+    whole.channels.copy(channels, from, width, whole.image.index(block.x0, y));
+  }
 }
 
 void place(const Crop& block, const Rgb* pixels, const std::uint8_t* rgba, Film& whole) {

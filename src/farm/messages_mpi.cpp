@@ -19,6 +19,18 @@ constexpr std::chrono::microseconds kNap{50};
 
 static_assert(std::is_trivially_copyable_v<TracedBlock> && std::is_trivially_copyable_v<Rgb>);
 
+// use(values) for each channel that is there.
+template <typename Layers, typename Use>
+void forEachLayer(Layers& layers, Use&& use) {
+  layers.channels().forEach([&](Channel c) {
+    if (infoOf(c).countsThings) {
+      use(layers.numbers(c));
+    } else {
+      use(layers.floats(c));
+    }
+  });
+}
+
 }  // namespace
 
 bool lookForLetter(Letter& letter) {
@@ -61,9 +73,14 @@ std::vector<char> packBlock(const TracedBlock& block, const Film& film) {
   const std::size_t linear = film.image.pixels.size() * sizeof(Rgb);
   const std::vector<std::uint8_t>& rgba = film.display.rgba;
   std::vector<char> bytes(sizeof block + linear + rgba.size());
+  bytes.reserve(bytes.size() + film.channels.bytes());
   std::memcpy(bytes.data(), &block, sizeof block);
   std::memcpy(bytes.data() + sizeof block, film.image.pixels.data(), linear);
   if (!rgba.empty()) std::memcpy(bytes.data() + sizeof block + linear, rgba.data(), rgba.size());
+  forEachLayer(film.channels, [&](const auto& values) {
+    const auto* const first = reinterpret_cast<const char*>(values.data());
+    bytes.insert(bytes.end(), first, first + values.size_bytes());
+  });
   return bytes;
 }
 
@@ -79,12 +96,22 @@ TracedBlock unpackBlock(const std::vector<char>& bytes, const std::vector<Crop>&
   const Crop& crop = blocks[static_cast<std::size_t>(block.index)];
   const auto count =
       static_cast<std::size_t>(crop.x1 - crop.x0) * static_cast<std::size_t>(crop.y1 - crop.y0);
-  const std::size_t linear = count * sizeof(Rgb), rest = bytes.size() - sizeof block;
+  ChannelLayers channels;
+  channels.resize(whole.channels.channels(), count);
+  const std::size_t linear = count * sizeof(Rgb);
+  if (bytes.size() < sizeof block + linear + channels.bytes()) wrong();
+  const std::size_t rest = bytes.size() - sizeof block - channels.bytes();
   if (rest != linear && rest != linear + 4 * count) wrong();
   std::vector<Rgb> pixels(count);
   std::memcpy(pixels.data(), bytes.data() + sizeof block, linear);
   const auto* rgba = reinterpret_cast<const std::uint8_t*>(bytes.data() + sizeof block + linear);
   place(crop, pixels.data(), rest == linear ? nullptr : rgba, whole);
+  const char* next = bytes.data() + sizeof block + rest;
+  forEachLayer(channels, [&](auto values) {
+    std::memcpy(values.data(), next, values.size_bytes());
+    next += values.size_bytes();
+  });
+  place(crop, channels, whole);
   return block;
 }
 

@@ -36,6 +36,7 @@ class GltfModel : public Model {
  private:
   std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                         const std::vector<std::uint32_t>& materials) const;
+  std::string nameOf(const GltfPlacedMesh& placed) const;
 
   GltfDocument document_;
   std::vector<GltfMaterial> sources_;
@@ -128,6 +129,14 @@ std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layo
   return body;
 }
 
+// The node's, or its mesh's.
+std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
+  const std::string& node = document_.model().nodes[placed.node].name;
+  const std::string& mesh = document_.model().meshes[placed.mesh].name;
+  if (!node.empty()) return node;
+  return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
+}
+
 Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) {
   std::map<std::size_t, std::uint32_t> bodies;
   bool empty = true;
@@ -139,7 +148,13 @@ Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& m
     const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
     if (placed.deformation.none()) bodies.emplace(placed.mesh, body);
     empty = empty && layout.body(body).parts.empty();
-    movers.of(placed.mover).children.push_back({body, placed.toMover, 0, nullptr});
+    movers.of(placed.mover)
+        .children.push_back({body,
+                             placed.toMover,
+                             0,
+                             nullptr,
+                             {},
+                             std::make_shared<const std::string>(nameOf(placed))});
   }
   if (empty) {
     warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"

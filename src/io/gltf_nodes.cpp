@@ -303,14 +303,14 @@ class TreeReader {
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const GltfDeformation deformation = deformationOf(index);
     if (deformation.skeleton) {
-      return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation});
+      return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
     }
     const tinygltf::Value* copies = findExtension(node.extensions, kInstancesExtension);
-    if (!copies) return stage_.meshes.push_back({mesh, map, mover, deformation});
+    if (!copies) return stage_.meshes.push_back({mesh, map, mover, deformation, index});
     for (const Affine& copy : readCopies(copies->Get("attributes"), index)) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
-        stage_.meshes.push_back({mesh, toMover, mover, deformation});
+        stage_.meshes.push_back({mesh, toMover, mover, deformation, index});
       } else {
         warn("copy of a mesh that is flattened left out", index);
       }

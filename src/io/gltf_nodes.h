@@ -32,6 +32,7 @@ struct GltfPlacedMesh {
   Affine toMover;  // of a skinned mesh the identity: its joints place it
   std::uint32_t mover = kNoNode;
   GltfDeformation deformation;
+  std::size_t node = 0;  // that shows it
 };
 
 struct GltfStage {

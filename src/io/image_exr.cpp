@@ -15,6 +15,8 @@
 #include "core/error.h"
 #include "io/image_decoders.h"
 #include "io/image_exr.h"
+#include "io/image_layers.h"
+#include "io/read_file.h"
 
 namespace whit {
 
@@ -132,10 +134,11 @@ std::vector<float> readLumaChroma(const std::string& path, const Box2i& data, st
 }
 
 // Leaves of `values`, which fill `data`, those inside `kept`.
-std::vector<float> cropped(const std::vector<float>& values, const Box2i& data, const Box2i& kept,
+template <typename Value>
+std::vector<Value> cropped(const std::vector<Value>& values, const Box2i& data, const Box2i& kept,
                            std::size_t channels) {
   const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
-  std::vector<float> inside;
+  std::vector<Value> inside;
   for (int y = kept.min.y; y <= kept.max.y; ++y) {
     const std::size_t row = static_cast<std::size_t>(std::int64_t{y} - data.min.y) * width;
     const auto at = [&](std::int64_t x) {
@@ -147,7 +150,80 @@ std::vector<float> cropped(const std::vector<float>& values, const Box2i& data, 
   return inside;
 }
 
+// The part of the data window that the display window has.
+Box2i keptBox(const std::string& path, const Imf::Header& header) {
+  const Box2i &display = header.displayWindow(), &data = header.dataWindow();
+  const Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
+                   {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
+  if (kept.isEmpty()) throwBadScene(path, "its data window lies outside its display window");
+  return kept;
+}
+
+bool isColor(const std::string& name) {
+  constexpr const char* kColors[] = {"R", "G", "B", "A", "Y", "RY", "BY"};
+  return std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors);
+}
+
+std::vector<ImageLayer> layersOf(const std::string& path, const Imf::Header& header) {
+  std::vector<ImageLayer> layers;
+  const Imf::ChannelList& list = header.channels();
+  for (auto it = list.begin(); it != list.end(); ++it) {
+    if (isColor(it.name())) continue;
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+      throwBadScene(
+          path, std::string("expected a value a pixel of channel ") + it.name() + ", found fewer");
+    }
+    layers.push_back({it.name(), it.channel().type == Imf::UINT, {}, {}});
+  }
+  return layers;
+}
+
+// The values of the whole data window.
+void readLayerValues(const std::string& path, const Box2i& data, std::vector<ImageLayer>& layers) {
+  const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
+  const auto height = static_cast<std::size_t>(sideOf(data.min.y, data.max.y));
+  Imf::FrameBuffer frame;
+  const auto insert = [&](const ImageLayer& layer, Imf::PixelType type, auto& values) {
+    values.resize(width * height);
+    frame.insert(layer.name,
+                 Imf::Slice::Make(type, values.data(), data, sizeof(float), width * sizeof(float)));
+  };
+  for (ImageLayer& layer : layers) {
+    if (layer.countsThings) {
+      insert(layer, Imf::UINT, layer.numbers);
+    } else {
+      insert(layer, Imf::FLOAT, layer.floats);
+    }
+  }
+  Imf::MultiPartInputFile file(path.c_str());
+  Imf::InputPart part(file, 0);
+  part.setFrameBuffer(frame);
+  part.readPixels(data.min.y, data.max.y);
+}
+
 }  // namespace
+
+std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
+  if (!isExr(asBytes(readBeginning(path, 4)))) return {};
+  return translating(path, [&] {
+    const Imf::Header header = readExrHeaders(path).front();
+    requireFlat(path, header);
+    std::vector<ImageLayer> layers = layersOf(path, header);
+    if (layers.empty()) return layers;
+    checkSizes(path, header, layers.size(), limits);
+    const Box2i kept = keptBox(path, header), &data = header.dataWindow();
+    readLayerValues(path, data, layers);
+    if (kept == data) return layers;
+    for (ImageLayer& layer : layers) {
+      if (layer.countsThings) {
+        layer.numbers = cropped(layer.numbers, data, kept, 1);
+      } else {
+        layer.floats = cropped(layer.floats, data, kept, 1);
+      }
+    }
+    return layers;
+  });
+}
 
 bool isExr(std::span<const std::uint8_t> beginning) {
   constexpr std::uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
@@ -162,9 +238,7 @@ ExrPixels decodeExr(const std::string& path, const ImageLimits& limits) {
     const std::size_t channels = layout.channels.size();
     checkSizes(path, header, channels, limits);
     const Box2i &display = header.displayWindow(), &data = header.dataWindow();
-    const Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
-                     {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
-    if (kept.isEmpty()) throwBadScene(path, "its data window lies outside its display window");
+    const Box2i kept = keptBox(path, header);
 
     ExrPixels pixels;
     pixels.width = static_cast<int>(sideOf(display.min.x, display.max.x));

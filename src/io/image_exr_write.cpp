@@ -27,7 +27,7 @@ namespace {
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 
 const std::string kPrefix = "whit.";
-constexpr std::array<const char*, 3> kChannels = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
 
 // Attributes that mean something to OpenEXR itself, and so cannot carry our text.
 bool isReserved(const std::string& name) {
@@ -77,27 +77,47 @@ void letCompress(int threads) {
   }
 }
 
-Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrStorage storage) {
+Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrStorage storage,
+                       const std::vector<LayerView>& layers) {
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
   header.compression() = compressionOf(storage);
   const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
-  for (const char* name : kChannels) header.channels().insert(name, channel);
+  for (const char* name : kColors) header.channels().insert(name, channel);
+  for (const LayerView& layer : layers) {
+    header.channels().insert(layer.name, Imf::Channel(layer.numbers ? Imf::UINT : Imf::FLOAT));
+  }
   for (const auto& [name, text] : metadata)
     header.insert(attributeName(header, name), Imf::StringAttribute(text));
   return header;
 }
 
+void insertLayers(const std::vector<LayerView>& layers, const Imf::OutputFile& exr,
+                  const Image& image, Imf::FrameBuffer& frame) {
+  static_assert(sizeof(float) == sizeof(std::uint32_t));
+  for (const LayerView& layer : layers) {
+    const void* const first =
+        layer.numbers ? static_cast<const void*>(layer.numbers) : layer.floats;
+    const std::size_t stride = layer.stride * sizeof(float);
+    frame.insert(
+        layer.name,
+        Imf::Slice::Make(layer.numbers ? Imf::UINT : Imf::FLOAT, first, exr.header().dataWindow(),
+                         stride, stride * static_cast<std::size_t>(image.windowWidth())));
+  }
+}
+
 // `first` is the first value of the first pixel of the window.
 template <typename Value>
-void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, Value* first) {
+void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, Value* first,
+                 const std::vector<LayerView>& layers) {
   const auto width = static_cast<std::size_t>(image.windowWidth());
   Imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < kChannels.size(); ++c) {
-    frame.insert(kChannels[c], Imf::Slice::Make(type, first + c, exr.header().dataWindow(),
-                                                3 * sizeof(Value), width * 3 * sizeof(Value)));
+  for (std::size_t c = 0; c < kColors.size(); ++c) {
+    frame.insert(kColors[c], Imf::Slice::Make(type, first + c, exr.header().dataWindow(),
+                                              3 * sizeof(Value), width * 3 * sizeof(Value)));
   }
+  insertLayers(layers, exr, image, frame);
   exr.setFrameBuffer(frame);
   exr.writePixels(image.windowHeight());
 }
@@ -105,8 +125,12 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
 }  // namespace
 
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
-              ExrStorage storage, int threads) {
+              ExrStorage storage, int threads, const std::vector<LayerView>& layers) {
   if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
+  if (!layers.empty() && storage == ExrStorage::dwaa) {
+    throwUsage("cannot write '" + path +
+               "': DWAA is lossy for channels as well (position.Y): zip, none and half are not");
+  }
   AtomicFile file(path);
   letCompress(threads);
   try {
@@ -114,20 +138,20 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
     std::ofstream stream(file.temporaryPath(), std::ios::binary | std::ios::trunc);
     {
       Imf::StdOFStream out(stream, path.c_str());
-      Imf::OutputFile exr(out, makeHeader(image, metadata, storage), threads);
+      Imf::OutputFile exr(out, makeHeader(image, metadata, storage, layers), threads);
       if (inHalf(storage)) {
         const std::vector<half> values = inHalf(image);
-        writePixels(exr, Imf::HALF, image, values.data());
+        writePixels(exr, Imf::HALF, image, values.data(), layers);
       } else {
-        writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0]);
+        writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0], layers);
       }
     }
     stream.close();
-    if (!stream) throwIo(path, "cannot write \'" + path + "': no space left, or the device failed");
+    if (!stream) throwIo(path, "cannot write '" + path + "': no space left, or the device failed");
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
-    throwIo(path, "cannot write \'" + path + "': " + e.what());
+    throwIo(path, "cannot write '" + path + "': " + e.what());
   }
   file.commit();
 }

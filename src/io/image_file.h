@@ -56,15 +56,35 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings& wa
 // DWAA.
 enum class ExrStorage { zip, none, half, dwaa };
 
-// Linear RGB with metadata as string attributes; data window = image.window. Up to `threads`
-// compress it. The same arguments give the same bytes, whatever `threads`.
+// Where the values of a channel beside the colors lie: one a pixel of the window, row by row from
+// the top, so many values apart. One of the two pointers is not null.
+struct LayerView {
+  std::string name;
+  const float* floats = nullptr;
+  const std::uint32_t* numbers = nullptr;
+  std::size_t stride = 1;
+};
+
+// Linear RGB with metadata as string attributes; data window = image.window. `layers` keep all
+// their bits: Error(usage) for dwaa. Up to `threads` compress it. The same arguments give the same
+// bytes, whatever `threads`.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
-              ExrStorage storage = ExrStorage::zip, int threads = 1);
+              ExrStorage storage = ExrStorage::zip, int threads = 1,
+              const std::vector<LayerView>& layers = {});
 // The string attributes of an EXR's first part that are not OpenEXR's own. Throws as readImage
 // does.
 ImageMetadata readExrMetadata(const std::string& path);
 // sRGB PNG with the metadata as text chunks; alpha is left out. Keywords are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
+
+// Values of 16 bits, rows from the top: one a pixel, or three.
+struct DeepImage {
+  int width = 0, height = 0, channels = 1;
+  std::vector<std::uint16_t> values;
+};
+// The same of 16 bits; `isSrgb`: three values are sRGB colors.
+void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+              const ImageMetadata& metadata);
 // The text chunks of a PNG that has been decoded to its end. Throws Error(io) if it cannot be read,
 // badScene if it is damaged or cut off.
 ImageMetadata readPngMetadata(const std::string& path);

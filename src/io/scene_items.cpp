@@ -112,6 +112,16 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
+// What a shape or a model has not named itself is one item, or one each where it is placed often.
+void nameItem(Body& content, const std::string& pointer) {
+  if (content.parts.empty() && content.children.empty()) return;
+  const ItemName name = std::make_shared<const std::string>(pointer);
+  if (!content.parts.empty() && content.items.empty()) content.items = {name};
+  for (Placement& child : content.children) {
+    if (!child.item) child.item = name;
+  }
+}
+
 // The member of "materials" that has to do with `name` is read; the rest must be names as well.
 [[noreturn]] void failSlot(const JsonValue& slot, const std::string& key,
                            const std::vector<std::string>& names, const std::string& kind) {
@@ -153,7 +163,9 @@ void ItemReader::read(JsonObject& file) {
 void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
   Model& model = context_.model(path);
   const std::vector<std::uint32_t> materials = modelMaterials(model, file);
-  layout_.append(contentOf(model, path, materials), {Affine()}, layout_.body(0));
+  Body content = contentOf(model, path, materials);
+  nameItem(content, path.stem().string());
+  layout_.append(content, {Affine()}, layout_.body(0));
   layout_.moveTo(context_.scene);
   model.addView(context_.scene);
 }
@@ -201,6 +213,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     item.finish();
     value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
   }
+  nameItem(content, value.pointer());
   std::vector<Affine> placements = readPlacements(item);
   const std::shared_ptr<const Motion> motion = readMotion(item, context_.instant, context_.scene);
   item.finish();

@@ -58,21 +58,24 @@ std::uint64_t bytesOf(const Mesh& mesh) {
 }
 
 std::uint32_t SceneLayout::add(const std::string& name) {
-  bodies_.push_back({name, {}, {}});
+  bodies_.push_back({name, {}, {}, {}});
   return static_cast<std::uint32_t>(bodies_.size() - 1);
 }
 
 void SceneLayout::append(const Body& from, const std::vector<Affine>& placements, Body& to) {
-  budget_.charge(from.parts.size() * sizeof(BodyPart) + from.children.size() * sizeof(Placement),
+  budget_.charge(from.parts.size() * sizeof(BodyPart) + from.children.size() * sizeof(Placement) +
+                     from.items.size() * sizeof(ItemName),
                  placements.size(), "repeated items");
   for (const Affine& placement : placements) {
     const std::size_t before = to.parts.size();
+    const auto items = static_cast<std::uint32_t>(to.items.size());
     for (const BodyPart& part : from.parts) {
-      to.parts.push_back({part.mesh, placement * part.toBody, part.mingles});
+      to.parts.push_back({part.mesh, placement * part.toBody, part.mingles, items + part.item});
     }
+    to.items.insert(to.items.end(), from.items.begin(), from.items.end());
     for (const Placement& child : from.children) {
       to.children.push_back({child.body, placement * child.toParent, before + child.partsBefore,
-                             child.motion, child.mover});
+                             child.motion, child.mover, child.item});
     }
   }
 }
@@ -91,11 +94,18 @@ void SceneLayout::moveTo(SceneDescription& scene) {
   }
   budget_.charge(instances, sizeof(Instance), "instances");
   sizes_.assign(bodies_.size(), 0);
+  items_.assign(bodies_.size(), 0);
   for (const std::uint32_t body : order) {
     sizes_[body] = bodies_[body].parts.size();
-    for (const Placement& child : bodies_[body].children) sizes_[body] += sizes_[child.body];
+    items_[body] = bodies_[body].itemCount();
+    for (const Placement& child : bodies_[body].children) {
+      sizes_[body] += sizes_[child.body];
+      items_[body] = saturatingSum(items_[body], items_[child.body]);
+    }
   }
-  place(0, Affine(), kNoNode, 0, scene);
+  scene.items = items_[0];
+  scene.itemNames.resize(std::min<std::uint64_t>(items_[0], kNamedItems));
+  place({0, Affine()}, Affine(), kNoNode, {}, scene);
 }
 
 // Counted from the body's own; one that mingles with the part before shares its rank.
@@ -112,6 +122,33 @@ std::vector<std::uint64_t> SceneLayout::ranksOfParts(const Body& body) const {
   return ranks;
 }
 
+// Counted from the body's first, what its children hold included.
+std::vector<std::uint64_t> SceneLayout::itemsOfParts(const Body& body) const {
+  std::vector<std::uint64_t> items(body.parts.size());
+  std::uint64_t withinChildren = 0;
+  auto child = body.children.begin();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    for (; child != body.children.end() && child->partsBefore <= i; ++child) {
+      withinChildren = saturatingSum(withinChildren, items_[child->body]);
+    }
+    items[i] = saturatingSum(withinChildren, body.parts[i].item);
+  }
+  return items;
+}
+
+// Of its own items; `first` is the number of the first of all that it holds.
+void SceneLayout::nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
+                            SceneDescription& scene) const {
+  if (first >= scene.itemNames.size()) return;
+  const std::vector<std::uint64_t> items = itemsOfParts(body);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::uint64_t number = saturatingSum(first, items[i]);
+    if (number >= scene.itemNames.size()) continue;
+    const ItemName& own = body.items.empty() ? placed : body.items[body.parts[i].item];
+    scene.itemNames[number] = own ? *own : body.name;
+  }
+}
+
 // The last user of a mesh gets it, others a copy.
 Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
   const std::shared_ptr<Mesh> mesh = std::move(part.mesh);
@@ -120,15 +157,16 @@ Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
   return *mesh;
 }
 
-void SceneLayout::placeOnce(Body& body, const Affine& toWorld, std::uint64_t rank,
+void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
                             SceneDescription& scene) {
-  const std::vector<std::uint64_t> ranks = ranksOfParts(body);
+  const std::vector<std::uint64_t> ranks = ranksOfParts(body), items = itemsOfParts(body);
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     BodyPart& part = body.parts[i];
     Mesh mesh = take(part, body.name);
     if (!part.mingles) {
       scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                                 toWorld * part.toBody, rank + ranks[i], kNoNode});
+                                 toWorld * part.toBody, at.rank + ranks[i], kNoNode,
+                                 saturatingSum(at.item, items[i])});
       scene.objects.push_back({mesh.name, {}});
     }
     scene.objects.back().meshes.push_back(std::move(mesh));
@@ -138,38 +176,44 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, std::uint64_t ran
 void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
   Body& body = bodies_[index];
   objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
-  const std::vector<std::uint64_t> ranks = ranksOfParts(body);
+  const std::vector<std::uint64_t> ranks = ranksOfParts(body), items = itemsOfParts(body);
   Object object{body.name, {}};
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     Mesh mesh = take(body.parts[i], body.name);
     if (!(body.parts[i].toBody == Affine())) transform(mesh, body.parts[i].toBody);
     mesh.rank = ranks[i];
+    mesh.item = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(items[i], std::numeric_limits<std::uint32_t>::max()));
     object.meshes.push_back(std::move(mesh));
   }
   scene.objects.push_back(std::move(object));
 }
 
-void SceneLayout::place(std::uint32_t index, const Affine& toMover, std::uint32_t mover,
-                        std::uint64_t rank, SceneDescription& scene) {
+void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uint32_t mover,
+                        Standing at, SceneDescription& scene) {
+  const std::uint32_t index = placed.body;
   Body& body = bodies_[index];
+  nameItems(body, placed.item, at.item, scene);
   if (counts_[index] == 1 && mover == kNoNode) {
-    placeOnce(body, toMover, rank, scene);
+    placeOnce(body, toMover, at, scene);
   } else if (!body.parts.empty()) {
     if (objects_[index] == kNoObject) addObject(index, scene);
-    scene.instances.push_back({objects_[index], toMover, rank, mover});
+    scene.instances.push_back({objects_[index], toMover, at.rank, mover, at.item});
   }
   for (const Placement& child : body.children) {
     const Affine toChild = toMover * child.toParent;
-    const std::uint64_t childRank = rank + child.partsBefore;
+    const Standing ofChild{at.rank + child.partsBefore,
+                           saturatingSum(at.item, body.itemsBefore(child.partsBefore))};
     if (child.motion) {
       const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
       budget_.charge(1, sizeof(RigNode), "what moves");
       scene.motion.rig.push_back({mover, toChild, child.motion, child.mover});
-      place(child.body, Affine(), node, childRank, scene);
+      place(child, Affine(), node, ofChild, scene);
     } else {
-      place(child.body, toChild, mover, childRank, scene);
+      place(child, toChild, mover, ofChild, scene);
     }
-    rank += sizes_[child.body];
+    at.rank += sizes_[child.body];
+    at.item = saturatingSum(at.item, items_[child.body]);
   }
 }
 

@@ -1,4 +1,7 @@
+#include <utility>
+
 #include "core/error.h"
+#include "io/image_layers.h"
 #include "io/paths.h"
 #include "library/guarded.h"
 #include "library/image_data.h"
@@ -28,12 +31,41 @@ std::span<const float> Image::rgb() const {
 
 std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.rgba; }
 
+std::vector<Image::Channel> Image::channels() const {
+  const ChannelLayers& layers = data_->film.channels;
+  std::vector<Channel> all;
+  layers.channels().forEach([&](whit::Channel c) {
+    const ChannelInfo& info = infoOf(c);
+    Channel channel{info.name, {}, {}, {}};
+    channel.components.assign(info.suffixes.begin(),
+                              info.suffixes.begin() + static_cast<std::ptrdiff_t>(info.components));
+    if (info.countsThings) {
+      channel.numbers = layers.numbers(c);
+    } else {
+      channel.values = layers.floats(c);
+    }
+    all.push_back(std::move(channel));
+  });
+  return all;
+}
+
+Image::Channel Image::channel(std::string_view name) const {
+  return guarded([&] {
+    for (const Channel& channel : channels()) {
+      if (channel.name == name) return channel;
+    }
+    throwUsage("the image has no channel '" + std::string(name) + "': set(\"channels\", ...)");
+  });
+}
+
 void Image::write(const std::string& path) const {
   guarded([&] {
     const std::string extension = extensionOf(path);
     if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
     if (extension == ".exr") {
-      writeExr(path, data_->film.image, data_->metadata);
+      ImageMetadata said = data_->metadata;
+      said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
+      writeExr(path, data_->film.image, said, ExrStorage::zip, 1, viewsOf(data_->film.channels));
     } else if (extension == ".png") {
       writePng(path, data_->film.display, data_->metadata);
     } else {

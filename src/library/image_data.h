@@ -9,7 +9,7 @@ namespace whit::api {
 
 struct Image::Data {
   Film film;
-  ImageMetadata metadata;
+  ImageMetadata metadata, aboutChannels;
 };
 
 }  // namespace whit::api

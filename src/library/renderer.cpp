@@ -7,6 +7,7 @@
 #include "core/option_table.h"
 #include "core/option_values.h"
 #include "io/edit_scene.h"
+#include "io/image_layers.h"
 #include "library/guarded.h"
 #include "library/image_data.h"
 #include "library/scene_data.h"
@@ -183,6 +184,7 @@ void Renderer::Data::render(const whit::Camera& camera, Image& image, whit::Prog
   }
   refuseNonFinite(internal(), settled, frame);
   image.data_->metadata = describeImage(internal(), camera, *renderer, film, settled);
+  image.data_->aboutChannels = describeChannels(internal(), settled.channels);
   statistics = statisticsOf(frame, settled.mode);
 }
 

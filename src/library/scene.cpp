@@ -86,6 +86,14 @@ std::vector<std::string> Scene::cameras() const {
   return names;
 }
 
+std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
+
+std::vector<std::string> Scene::materials() const {
+  std::vector<std::string> names;
+  for (const whit::Material& material : data_->scene.materials) names.push_back(material.name);
+  return names;
+}
+
 double Scene::pathSeconds() const {
   const std::vector<Keyframe>& path = data_->scene.cameraPath;
   return path.empty() ? 0 : static_cast<double>(path.back().time);

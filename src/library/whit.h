@@ -100,6 +100,8 @@ class Scene {
   std::vector<Animation> animations() const;  // those to choose from
   std::uint64_t triangles() const;            // as seen, instances multiplied out
   std::vector<std::string> warnings() const;  // what was repaired while loading
+  // Names by the numbers in the channels "object" (of the first 65,536) and "material".
+  std::vector<std::string> objects() const, materials() const;
 
  private:
   friend class Renderer;
@@ -216,8 +218,21 @@ class Image {
   std::span<const float> rgb() const;
   // 8-bit sRGB after exposure and tone curve: r, g, b, 255 of each pixel, in the same order.
   std::span<const std::uint8_t> srgb() const;
-  // .exr (linear) or .png (sRGB), with the options that make the image again. Replaces the file
-  // when complete.
+  // What set("channels", "depth,object") has kept beside them, of the surface that the sample
+  // nearest to a pixel's center meets first; scenes/README.md says what each is, its unit and its
+  // value where nothing is met. Views of the image's own memory: one value after the other of each
+  // pixel, in the same order.
+  struct Channel {
+    std::string_view name;                     // "depth"
+    std::vector<std::string_view> components;  // "Z", "distance"; so many values a pixel
+    std::span<const float> values;             // empty of numbers
+    std::span<const std::uint32_t> numbers;    // of object, material, triangle, rays
+  };
+  std::vector<Channel> channels() const;
+  // Status 2 if it was not kept.
+  Channel channel(std::string_view name) const;
+  // .exr (linear, with the channels) or .png (sRGB), with the options that make the image again.
+  // Replaces the file when complete.
   void write(const std::string& path) const;
   std::string png() const;  // the bytes of such a file
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/channels.h"
 #include "core/image.h"
 #include "core/options.h"
 #include "core/progress.h"
@@ -34,6 +35,7 @@ struct RayCounts {
 
 struct Impulse;
 struct Surfel;
+struct TriangleHit;
 struct Crossing;
 struct Settled;
 
@@ -56,11 +58,15 @@ class Tracer {
   // Through the pixel's center alone, and what that ray meets.
   RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;
+  // Through any place in the pixel, from the top left, whose rays are those of this sample.
+  RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
+               RayCounts& counts) const;
+  // What the ray through a place in the pixel meets; not how many rays follow.
+  ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const;
 
  private:
   std::optional<Settled> nearest(Ray ray, int depth) const;
-  RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
-               RayCounts& counts) const;
+  Surfel surfelAt(const Ray& ray, const Settled& met, const TriangleHit& hit) const;
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,

@@ -47,11 +47,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const Candidate& candidate = met->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  const TextureLookup lookup{options_.shading.textureFilter,
-                             maps_ ? &*maps_ : nullptr,
-                             {ray.cone.widthAt(hit.t), ray.cone.spread}};
-  const Surfel surfel =
-      makeSurfel(scene_, effects_, candidate, hit, ray, lookup, met->alsoCrossed >= kSharesPlace);
+  const Surfel surfel = surfelAt(ray, *met, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
 
@@ -77,6 +73,14 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     radiance += refracted;
   }
   return radiance * arrives;
+}
+
+Surfel Tracer::surfelAt(const Ray& ray, const Settled& met, const TriangleHit& hit) const {
+  const TextureLookup lookup{options_.shading.textureFilter,
+                             maps_ ? &*maps_ : nullptr,
+                             {ray.cone.widthAt(hit.t), ray.cone.spread}};
+  return makeSurfel(scene_, effects_, met.candidate, hit, ray, lookup,
+                    met.alsoCrossed >= kSharesPlace);
 }
 
 // The nearest surface; of the camera's rays, that their start does not lie in.

@@ -61,6 +61,7 @@ FrameStats AdaptiveSampler::render(const Frame& frame, const Scheduler::Watch& w
   stats.nonFinitePixels = 0;  // of pictures that are kept only
   stats.add(keepFirstPicture(frame));
   Frame rest = frame;
+  rest.constants.channels = {};
   if (frame.samples.size() > kProbeSamples) {
     rest.probes = &*probes_;
     rest.firstSample = kProbeSamples;
@@ -88,6 +89,7 @@ FrameStats AdaptiveSampler::traceCenters(const Frame& frame, const Scheduler::Wa
   Frame centers = frame;
   SurfaceRecorder recorder(first_.image, surfaces_);
   centers.samples = samplePattern(1);
+  centers.constants.channels.sample = 0;
   centers.film = &first_;
   centers.observer = &recorder;
   return scheduler_.trace(centers, scheduler_.allPixels(), watch);
@@ -103,6 +105,7 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame, const Scheduler::Wat
     probes_.emplace(scheduler_.window(), edges_, samplePattern(std::max(spp, kProbeSamples)));
   }
   Frame probes = frame;
+  probes.constants.channels = {};
   probes.samples.resize(std::min<std::size_t>(samples_, kProbeSamples));
   probes.film = &first_;
   probes.probes = &*probes_;

@@ -2,6 +2,7 @@
 // first; where that picture has edges, probe samples; and where these differ, all samples
 // (scene/probe_samples.h). What happens to a pixel in the later passes depends on whole pictures of
 // the earlier ones and on nothing else, so that the result is the same for any tiles and threads.
+// Channels are those of the centers.
 #pragma once
 
 #include <cstdint>

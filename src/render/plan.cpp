@@ -6,6 +6,7 @@
 #include "accel/accel.h"
 #include "render/audit_shadows.h"
 #include "render/initial_media.h"
+#include "render/keep_channels.h"
 #include "render/settle_flush.h"
 #include "render/update_image.h"
 #include "simd/kernels.h"
@@ -104,6 +105,7 @@ class Planner {
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects = consistent(called.without(options.disable).without(notAskedFor(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
+    plan_.channels = options.channels;
   }
 
   Plan make() {
@@ -119,6 +121,7 @@ class Planner {
     }
     addImpulses();
     if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye, plan_.effects)};
+    keepChannels();
     plan_.perTile = {updateImageStep()};
     markEndsOfStages();
     return std::move(plan_);
@@ -146,6 +149,33 @@ class Planner {
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
     }
+  }
+
+  bool countsRays() const { return plan_.channels.has(Channel::rays); }
+
+  void keepChannels() {
+    if (plan_.channels.empty()) return;
+    // Behind the other steps of findIntersections.
+    const auto isLater = [](const Step& step) { return step.stage != Stage::findIntersections; };
+    const auto at = std::find_if(plan_.perQueue.begin(), plan_.perQueue.end(), isLater);
+    plan_.perQueue.insert(
+        at, amendingStep("keepChannels", simd::kInterpolateSurfels, whit::keepChannels,
+                         {Part::rays, Part::hits, Part::surfels}, {Part::channels}));
+    if (!countsRays()) return;
+    plan_.perQueue.insert(
+        plan_.perQueue.begin(),
+        amendingStep("countRays", simd::kPackRays, countRays, {Part::rays}, {Part::rayCounts}));
+    for (LightSteps& light : plan_.perLight) {
+      light.steps.insert(light.steps.begin() + 1,
+                         amendingStep("countShadowRays", simd::kFindRadianceAndShadowRays,
+                                      countShadowRays, {Part::shadows}, {Part::rayCounts}));
+    }
+    if (!plan_.impulses.empty()) {
+      plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
+                                            returnRayCounts, {Part::rays, Part::rayCounts}, {}));
+    }
+    plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
+                                       {Part::rayCounts}, {Part::channels}));
   }
 
   void addSamplesOf(std::size_t index) {

@@ -3,7 +3,8 @@
 // times it, looks on, lists it (whit info --kernels), benchmarks or probes it, walks these lists.
 //
 //   perSample   generateRays, findInitialMedia
-//   perQueue    findIntersections, writeEmittedAndReflectiveAmbient
+//   perQueue    findIntersections (with --channels keepChannels, countRays),
+//               writeEmittedAndReflectiveAmbient
 //   perLight    findRadianceAndShadowRays, checkShadows, addShading
 //   impulses    addReflections, addGlossyReflections, addRefractions: the next depth's queue
 //   onReturn    returnImpulses: what that queue has brought
@@ -67,6 +68,7 @@ struct Plan {
   FeatureSet features;    // what whole calls ask for
   int depth = 0;          // deepest impulse that can occur
   int coherentDepth = 0;  // deepest queue whose rays travel close together
+  ChannelSet channels;    // that are kept
 
   std::vector<Step> perSample, perQueue, impulses, onReturn, atEye, perTile;
   std::vector<LightSteps> perLight;

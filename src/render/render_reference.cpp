@@ -1,6 +1,7 @@
 // The reference's pictures, its candidates from Embree.
 #include "core/display.h"
 #include "core/stopwatch.h"
+#include "reference/keep_channels.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/renderer.h"
@@ -31,6 +32,11 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
   const EmbreeIntersector intersector(*accel_);
   const reference::RayCounts counts =
       reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
+  film.channels.resize(plan_.channels, film.image.pixels.size());
+  if (!plan_.channels.empty()) {
+    reference::keepChannels(scene_, intersector, camera, referenceSettings(), film.image,
+                            film.channels);
+  }
   if (film.wantDisplay) {
     film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve, options_.srgb);
   }

@@ -109,8 +109,8 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
-  return {&scene_,       &tables_,       &*accel_, verdicts,
-          plan_.effects, plan_.features, options_, cameraRays(camera)};
+  return {&scene_,        &tables_, &*accel_,           verdicts, plan_.effects,
+          plan_.features, options_, cameraRays(camera), {}};
 }
 
 Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
@@ -119,6 +119,11 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
   Frame frame;
   frame.constants = constantsOf(lookFrom(camera, film));
   frame.samples = samplePattern(options_.spp);
+  film.channels.resize(plan_.channels, film.image.pixels.size());
+  if (!plan_.channels.empty()) {
+    frame.constants.channels = {&film.channels, film.image.window,
+                                static_cast<std::uint32_t>(nearestToCenter(frame.samples))};
+  }
   frame.film = &film;
   return frame;
 }

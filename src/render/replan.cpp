@@ -20,7 +20,7 @@ EffectSet builtIn(const Plan& plan) {
 void Renderer::replan(Plan next) {
   // Tracers follow the plan that is there; only the columns that they hold are made for one.
   if (next.features != plan_.features || next.effects != plan_.effects ||
-      next.depth != plan_.depth) {
+      next.depth != plan_.depth || next.channels != plan_.channels) {
     scheduler_.forgetTracers();
   }
   plan_ = std::move(next);

@@ -22,6 +22,7 @@ void Workspace::reserveRays(int depth, std::size_t rays) {
   if (at.rays.capacity() >= rays) return;
   at.rays.allocate(rays, plan_.features);
   if (at.radiance.capacity() == 0) at.radiance.allocate(capacity_, plan_.features);
+  if (plan_.writes(Part::rayCounts)) at.rayCounts.resize(capacity_);
 }
 
 void Workspace::startQueue(std::size_t rays) {
@@ -60,6 +61,11 @@ void Workspace::returnTo(int depth, Chunk& chunk) const {
   chunk.rays = advanced(*at.rays, at.cursor);
   chunk.radiance = *at.radiance;
   chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
+  const auto countsOf = [](const Level& l) {
+    return const_cast<std::uint32_t*>(l.rayCounts.data());
+  };
+  chunk.rayCounts = countsOf(at);
+  chunk.parentRayCounts = depth > 0 ? countsOf(level(depth - 1)) : nullptr;
   chunk.hits = *hits_;
   chunk.surfels = *surfels_;
   chunk.unshadowed = *unshadowed_;
@@ -103,6 +109,7 @@ BufferBytes Workspace::bufferBytes() const {
   for (const Level& level : levels_) {
     bytes.rays += level.rays.bytes();
     bytes.radiance += level.radiance.bytes();
+    bytes.rayCounts += level.rayCounts.capacity() * sizeof(std::uint32_t);
   }
   bytes.hits = hits_.bytes();
   bytes.surfels = surfels_.bytes();

@@ -15,7 +15,10 @@ namespace whit {
 // Of each set of columns, all depths together; 0 where the plan has no use for it.
 struct BufferBytes {
   std::size_t rays = 0, radiance = 0, hits = 0, surfels = 0, unshadowed = 0, shadows = 0;
-  std::size_t sum() const { return rays + radiance + hits + surfels + unshadowed + shadows; }
+  std::size_t rayCounts = 0;
+  std::size_t sum() const {
+    return rays + radiance + hits + surfels + unshadowed + shadows + rayCounts;
+  }
 };
 
 class Workspace {
@@ -52,6 +55,7 @@ class Workspace {
   struct Level {
     ColumnStore<RayColumns> rays;
     ColumnStore<RadianceColumns> radiance;
+    std::vector<std::uint32_t> rayCounts;
     std::size_t count = 0;                          // rays in the queue
     std::array<Segment, kSegmentLimit> segments{};  // of the queue
     std::size_t segmentCount = 0;

@@ -74,6 +74,15 @@ std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& sa
 
 }  // namespace
 
+std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
+  const auto isNearer = [](const Vec2f& a, const Vec2f& b) {
+    constexpr Vec2f kCenter{0.5f, 0.5f};
+    return squaredDistance(a, kCenter) < squaredDistance(b, kCenter);
+  };
+  return static_cast<std::size_t>(std::min_element(samples.begin(), samples.end(), isNearer) -
+                                  samples.begin());
+}
+
 std::vector<Vec2f> samplePattern(int spp) {
   std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kProbeSamples) return samples;

@@ -2,6 +2,7 @@
 // kernels alike, so that two renderings differ by arithmetic alone.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/vec3.h"
@@ -18,5 +19,8 @@ namespace whit {
 // next to it, so that they stand for the pixel by themselves.
 std::vector<Vec2f> samplePattern(int spp);
 inline constexpr int kProbeSamples = 4;
+
+// The index of the sample that is nearest to the pixel's center; the first of several.
+std::size_t nearestToCenter(const std::vector<Vec2f>& samples);
 
 }  // namespace whit

@@ -21,6 +21,7 @@ struct Source {
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
   SceneOrder::PlacedMesh place;
+  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, as numberOf() has it
   TriangleClassification classified;
 
   // Of a triangle, in the order in which they were written.
@@ -40,6 +41,7 @@ struct PlacedSphere {
   Affine map;
   std::uint32_t material = 0;
   std::uint64_t rank = 0;  // in the order of the scene
+  std::uint32_t item = 0, number = 0;
 };
 
 class Baker {
@@ -74,6 +76,8 @@ class Baker {
 
  private:
   void plan();
+  void nameItems();
+  std::uint32_t firstItemOf(std::size_t instance) const;
   void numberTriangles(std::size_t g);
   void place(std::size_t g);
   std::vector<std::uint32_t> fromTheLast(std::size_t g) const;
@@ -121,10 +125,29 @@ bool bends(const Object& object) {
                      [](const Mesh& mesh) { return mesh.deformation != nullptr; });
 }
 
+void Baker::nameItems() {
+  ItemNumbers& items = scene_.items;
+  items.count = description_.items;
+  items.names = std::move(description_.itemNames);
+  if (items.count > 0) return;
+  items.count = description_.instances.size();
+  for (const Instance& instance : description_.instances) {
+    if (items.names.size() == kNamedItems) break;
+    items.names.push_back(description_.objects[instance.object].name);
+  }
+}
+
+std::uint32_t Baker::firstItemOf(std::size_t instance) const {
+  const std::uint64_t item =
+      description_.items > 0 ? description_.instances[instance].firstItem : instance;
+  return static_cast<std::uint32_t>(std::min(item, kIndexLimit - 1));
+}
+
 // Which mesh goes where: those of objects used once that stand still into geometry 0, others into
 // one of their own.
 void Baker::plan() {
   std::vector<Object>& objects = description_.objects;
+  nameItems();
   std::vector<std::uint64_t> uses(objects.size());
   std::vector<bool> moves(objects.size());
   for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
@@ -148,17 +171,20 @@ void Baker::plan() {
     const bool inWorld = g == 0;
     order_.instances.push_back(instance.rank);
     if (!inWorld) {
-      scene_.instances.push_back({g, i, instance.toWorld, instance.mover, instance.toWorld});
+      scene_.instances.push_back(
+          {g, i, instance.toWorld, instance.mover, instance.toWorld, false, firstItemOf(i)});
     }
     if (!inWorld && !sources_[g].empty()) continue;
     for (Mesh& mesh : objects[instance.object].meshes) {
       Source source;
       source.mesh = &mesh;
       source.place.rank = mesh.rank;
+      source.item = mesh.item;
       if (inWorld) {
         source.toGeometry = instance.toWorld;
         source.place.instance = i;
         source.place.rank += instance.rank;
+        source.item += firstItemOf(i);
       }
       sources_[g].push_back(std::move(source));
       withNormals_ = withNormals_ || !mesh.normals.empty();
@@ -174,6 +200,8 @@ void Baker::numberTriangles(std::size_t g) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const bool mingles = s > 0 && sources[s].mingles(sources[s - 1]);
     sources[s].place.firstTriangle = mingles ? sources[s - 1].place.firstTriangle : end;
+    const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
+    sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
     end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
     order_.meshes[g].push_back(sources[s].place);
   }
@@ -217,16 +245,18 @@ std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
 void Baker::placeSpheres(const Source& source, std::size_t g) {
   const Mesh& mesh = *source.mesh;
   std::uint64_t dropped = 0;
+  std::uint32_t number = 0;
   for (const Affine& map : mesh.spheres) {
     const Box box = sphereBounds(map);
     const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
                       maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
     const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
     if (fits && std::isnormal(volume)) {
-      spheres_[g].push_back({map, mesh.materials[0], source.place.rank});
+      spheres_[g].push_back({map, mesh.materials[0], source.place.rank, source.item, number});
     } else {
       ++dropped;
     }
+    ++number;
   }
   warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
                 dropped);
@@ -351,6 +381,8 @@ void Baker::emitSpheres(std::size_t g) {
   std::stable_sort(spheres_[g].begin(), spheres_[g].end(),
                    [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
   for (const PlacedSphere& sphere : spheres_[g]) {
+    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), sphere.item,
+                     sphere.number);
     scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
     if (withSecondUvs_) scene_.secondUvs.push_back({});
     if (withNormals_) scene_.normals.push_back({});
@@ -374,6 +406,8 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
     }
     geometry.index.push_back(corners);
     if (isSearched_) order_.triangles.push_back(source.numberOf(i));
+    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
+                     source.numberOf(i) - source.firstOfItem);
     std::uint64_t uvs = 0, normals = 0, colors = 0;
     const MaterialUse& use = uses_[mesh.material(i)];
     scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));

@@ -93,10 +93,17 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   return scene;
 }
 
+Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
+  constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max() - 1;
+  const ItemNumbers::Run own = items.find(triangle);
+  const std::uint64_t first = instance == kNoInstance ? 0 : instances[instance].firstItem;
+  return {static_cast<std::uint32_t>(std::min(first + own.item, kLast)), own.number};
+}
+
 std::uint64_t Scene::memoryBytes() const {
   std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colors) +
                         bytesOf(secondUvs) + bytesOf(instances) + bytesOf(sky.image.r) +
-                        bytesOf(sky.image.g) + bytesOf(sky.image.b) + flush.bytes();
+                        bytesOf(sky.image.g) + bytesOf(sky.image.b) + flush.bytes() + items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += bytesOf(t.texels);
   return bytes;

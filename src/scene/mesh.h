@@ -33,6 +33,9 @@ struct Mesh {
   // Empty: its triangles come one after the other. Or a number for each, all different, by which
   // they and those of the neighbors of its rank, in its object, come among each other.
   std::vector<std::uint32_t> order;
+  // The item of the scene that it is part of, counted from Instance::firstItem. Meshes of one item
+  // follow each other.
+  std::uint32_t item = 0;
 
   std::uint32_t material(std::size_t triangle) const {
     return materials.size() == 1 ? materials[0] : materials[triangle];
@@ -54,6 +57,7 @@ struct Instance {
   Affine toWorld;  // where something carries it: to the space of that
   std::uint64_t rank = 0;
   std::uint32_t mover = kNoNode;  // what carries it, a node of SceneMotion::rig
+  std::uint64_t firstItem = 0;    // see SceneDescription::items
 };
 
 // Applies `map` to positions, normals (rounded once) and spheres, flips the winding if it mirrors.

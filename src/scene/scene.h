@@ -15,6 +15,7 @@
 #include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/flush_triangles.h"
+#include "scene/item_numbers.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
@@ -42,6 +43,10 @@ struct SceneDescription {
   std::vector<Object> objects;
   std::vector<Instance> instances;
   SceneMotion motion;  // given where the scene is to move
+  // How many items its author has placed, and the names of the first kNamedItems. 0: each instance
+  // is one, with the name of its object.
+  std::uint64_t items = 0;
+  std::vector<std::string> itemNames;
 };
 
 // Triangles of one class lie together and become one Embree geometry, whose id is the class: bit 0
@@ -141,11 +146,20 @@ class Scene {
   // As seen, instances multiplied out.
   std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
 
+  ItemNumbers items;
   FlushTriangles flush;  // that share their place with others
   BakedMotion motion;    // see scene/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;
+
+  // The number of the item that a triangle (or sphere) belongs to where it stands, `instance` being
+  // kNoInstance in the world; and its own among that item's triangles. What is beyond 2^32 - 2 has
+  // that number.
+  struct MetNumbers {
+    std::uint32_t item = 0, triangle = 0;
+  };
+  MetNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
 
   bool isSphere(std::uint32_t number) const { return number >= firstSphere; }
 

@@ -46,6 +46,7 @@ struct InstanceRecord {
   std::uint32_t mover = kNoNode;  // of the scene's rig
   Affine toMover;
   bool moves = false;  // is carried by something, or bends
+  std::uint32_t firstItem = 0;
 };
 
 // The vertices of a baked geometry that a mesh bends, from `firstVertex` on.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/channels.h"
 #include "core/options.h"
 #include "stages/columns.h"
 #include "stages/features.h"
@@ -32,6 +33,14 @@ struct CameraRays {
   float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
 };
 
+// Where the channels of a picture's pixels go, and of which sample. Each pixel is written by one
+// worker. Null: none are kept.
+struct ChannelTarget {
+  ChannelLayers* layers = nullptr;
+  Crop window;  // pixels beside it are left out
+  std::uint32_t sample = 0;
+};
+
 // The same for all chunks of a frame, and read-only while it is rendered.
 struct FrameConstants {
   const Scene* scene = nullptr;
@@ -42,6 +51,7 @@ struct FrameConstants {
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;
+  ChannelTarget channels;
 };
 
 // Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
@@ -106,6 +116,9 @@ struct Chunk {
   std::size_t childSegmentCount = 0;
   // Of the chunk whose children these rays are.
   RadianceColumns parentRadiance;
+
+  // A number a ray where rays are counted, and those of the chunk whose children these rays are.
+  std::uint32_t *rayCounts = nullptr, *parentRayCounts = nullptr;
 
   std::uint32_t* codes = nullptr;  // display codes, a pixel each
   Film* film = nullptr;            // where the pixels go

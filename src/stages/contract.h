@@ -18,7 +18,9 @@ enum class Part : std::uint8_t {
   children,    // rays of the next depth
   parentRadiance,
   codes,
-  film
+  film,
+  rayCounts,  // of each ray and all that follow from it
+  channels    // of the film
 };
 
 class Parts {

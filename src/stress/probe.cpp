@@ -40,6 +40,7 @@ Probe::Probe(const Scene& scene, const Setup& setup)
                  renderer_.plan().effects,
                  renderer_.plan().features,
                  renderer_.options(),
+                 {},
                  {}} {
   chunk_.frame = &constants_;
   chunk_.meter = &meter_;

@@ -1,0 +1,104 @@
+#include "core/channels.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+
+namespace whit {
+
+namespace {
+
+void keep(std::span<float> layer, std::size_t pixel, std::initializer_list<float> values) {
+  std::copy(values.begin(), values.end(),
+            layer.begin() + static_cast<std::ptrdiff_t>(pixel * values.size()));
+}
+
+template <typename Value>
+void copyPixels(const std::vector<Value>& from, std::size_t first, std::size_t count,
+                std::size_t components, std::size_t to, std::vector<Value>& layer) {
+  const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first * components);
+  std::copy_n(begin, count * components,
+              layer.begin() + static_cast<std::ptrdiff_t>(to * components));
+}
+
+}  // namespace
+
+ChannelSet parseChannels(const std::string& commaSeparated) {
+  ChannelSet set;
+  std::istringstream in(commaSeparated);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word.empty()) continue;
+    const auto found = std::find_if(kChannels.begin(), kChannels.end(),
+                                    [&](const ChannelInfo& c) { return c.name == word; });
+    if (found == kChannels.end()) {
+      std::vector<std::string> names;
+      for (const ChannelInfo& c : kChannels) names.emplace_back(c.name);
+      throwUsage("no channel is called '" + word + "'; nearest: '" + nearestName(word, names) +
+                 "'");
+    }
+    set = set.with(static_cast<Channel>(found - kChannels.begin()));
+  }
+  return set;
+}
+
+std::string namesOf(ChannelSet channels) {
+  std::string names;
+  channels.forEach(
+      [&](Channel c) { names += (names.empty() ? "" : ",") + std::string(infoOf(c).name); });
+  return names;
+}
+
+std::size_t ChannelLayers::bytesPerPixel(ChannelSet channels) {
+  std::size_t bytes = 0;
+  channels.forEach([&](Channel c) { bytes += infoOf(c).components * sizeof(float); });
+  return bytes;
+}
+
+std::size_t ChannelLayers::bytes() const { return pixels_ * bytesPerPixel(channels_); }
+
+void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
+  if (channels == channels_ && pixels == pixels_) return;
+  *this = {};
+  channels_ = channels;
+  pixels_ = pixels;
+  channels.forEach([&](Channel c) {
+    if (infoOf(c).countsThings) {
+      numbers_[index(c)].resize(pixels * infoOf(c).components);
+    } else {
+      floats_[index(c)].resize(pixels * infoOf(c).components);
+    }
+  });
+}
+
+void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
+  const auto keepFloats = [&](Channel c, std::initializer_list<float> values) {
+    if (channels_.has(c)) whit::keep(floats(c), pixel, values);
+  };
+  const auto keepNumber = [&](Channel c, std::uint32_t number) {
+    if (channels_.has(c)) numbers(c)[pixel] = number;
+  };
+  keepFloats(Channel::depth, {v.z, v.distance});
+  keepFloats(Channel::position, {v.position.x, v.position.y, v.position.z});
+  keepFloats(Channel::normal, {v.normal.x, v.normal.y, v.normal.z});
+  keepFloats(Channel::albedo, {v.albedo.x, v.albedo.y, v.albedo.z});
+  keepFloats(Channel::uv, {v.uv.x, v.uv.y});
+  keepNumber(Channel::object, v.object);
+  keepNumber(Channel::material, v.material);
+  keepNumber(Channel::triangle, v.triangle);
+}
+
+void ChannelLayers::copy(const ChannelLayers& from, std::size_t first, std::size_t count,
+                         std::size_t to) {
+  channels_.forEach([&](Channel c) {
+    const std::size_t components = infoOf(c).components;
+    if (infoOf(c).countsThings) {
+      copyPixels(from.numbers_[index(c)], first, count, components, to, numbers_[index(c)]);
+    } else {
+      copyPixels(from.floats_[index(c)], first, count, components, to, floats_[index(c)]);
+    }
+  });
+}
+
+}  // namespace whit

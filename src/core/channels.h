@@ -1,0 +1,129 @@
+// What a picture can keep beside its radiance (--channels): what the ray of a pixel meets first.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace whit {
+
+enum class Channel : std::uint8_t {
+  depth,
+  position,
+  normal,
+  albedo,
+  uv,
+  object,
+  material,
+  triangle,
+  rays
+};
+inline constexpr int kChannelCount = 9;
+
+struct ChannelInfo {
+  std::string_view name;
+  bool countsThings = false;  // values are 32-bit unsigned numbers; else floats
+  std::size_t components = 1;
+  std::array<std::string_view, 3> suffixes;  // of its layers in a file: "depth.Z"
+};
+inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
+    {{"depth", false, 2, {"Z", "distance"}},
+     {"position", false, 3, {"X", "Y", "Z"}},
+     {"normal", false, 3, {"X", "Y", "Z"}},
+     {"albedo", false, 3, {"R", "G", "B"}},
+     {"uv", false, 2, {"U", "V"}},
+     {"object", true, 1, {"id"}},
+     {"material", true, 1, {"id"}},
+     {"triangle", true, 1, {"id"}},
+     {"rays", true, 1, {"count"}}}};
+inline constexpr const ChannelInfo& infoOf(Channel channel) {
+  return kChannels[static_cast<std::size_t>(channel)];
+}
+
+class ChannelSet {
+ public:
+  constexpr ChannelSet() = default;
+
+  constexpr bool has(Channel c) const { return (bits_ & bit(c)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr ChannelSet with(Channel c) const {
+    ChannelSet more;
+    more.bits_ = bits_ | bit(c);
+    return more;
+  }
+  constexpr bool operator==(const ChannelSet&) const = default;
+
+  // visit(channel) for each, in the order above.
+  template <typename Visitor>
+  constexpr void forEach(Visitor&& visit) const {
+    for (int i = 0; i < kChannelCount; ++i) {
+      if (has(static_cast<Channel>(i))) visit(static_cast<Channel>(i));
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t bit(Channel c) { return 1u << static_cast<std::uint32_t>(c); }
+  std::uint32_t bits_ = 0;
+};
+
+// Parses "depth,normal"; throws a usage Error that names the nearest channel for an unknown one.
+ChannelSet parseChannels(const std::string& commaSeparated);
+std::string namesOf(ChannelSet channels);  // joined by commas
+
+// Of what is not there: objects, materials and triangles where nothing was met.
+inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
+
+// All channels of a pixel but the count of its rays. What stands here is that of a pixel whose ray
+// meets nothing.
+struct ChannelValues {
+  // Along the camera's axis, and along the ray.
+  float z = std::numeric_limits<float>::infinity();
+  float distance = std::numeric_limits<float>::infinity();
+  Vec3f position, normal;
+  Rgb albedo;
+  Vec2f uv;
+  std::uint32_t object = kNoNumber, material = kNoNumber, triangle = kNoNumber;
+};
+
+// The channels of a picture's pixels, in the order of those; the components of a pixel's channel
+// lie side by side.
+class ChannelLayers {
+ public:
+  ChannelLayers() = default;
+
+  // Room for these channels of so many pixels. What they held is lost unless nothing changes.
+  void resize(ChannelSet channels, std::size_t pixels);
+  ChannelSet channels() const { return channels_; }
+  std::size_t pixels() const { return pixels_; }
+  std::size_t bytes() const;
+  // What the channels take a pixel.
+  static std::size_t bytesPerPixel(ChannelSet channels);
+
+  // Of a channel that is there and is of that type.
+  std::span<float> floats(Channel channel) { return floats_[index(channel)]; }
+  std::span<const float> floats(Channel channel) const { return floats_[index(channel)]; }
+  std::span<std::uint32_t> numbers(Channel channel) { return numbers_[index(channel)]; }
+  std::span<const std::uint32_t> numbers(Channel channel) const { return numbers_[index(channel)]; }
+
+  // Those that are there, of the pixel of this index.
+  void keep(std::size_t pixel, const ChannelValues& values);
+  // Copies all channels of `count` pixels from others, which have the same channels.
+  void copy(const ChannelLayers& from, std::size_t first, std::size_t count, std::size_t to);
+
+ private:
+  static std::size_t index(Channel channel) { return static_cast<std::size_t>(channel); }
+
+  ChannelSet channels_;
+  std::size_t pixels_ = 0;
+  std::array<std::vector<float>, kChannelCount> floats_;
+  std::array<std::vector<std::uint32_t>, kChannelCount> numbers_;
+};
+
+}  // namespace whit
