@@ -275,7 +275,7 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
 
 // A body of its own, so that one that is placed several times is kept once.
 Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
-  const auto found = findNamed(context_.parts->meshes, name, "mesh");
+  const auto found = findNamed(context_.parts->meshes, name, "a mesh");
   const auto named = item.find("material");
   const std::uint32_t material = named ? materials_.find(*named) : materials_.defaultMaterial();
   const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);

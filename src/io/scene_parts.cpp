@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "scene/texture.h"
 
 namespace whit {
 

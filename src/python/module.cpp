@@ -96,11 +96,27 @@ std::unique_ptr<Session> build(const std::string& name, const std::string& descr
 // A view of the picture's own memory, which it keeps alive. Not to be written to: files are made of
 // it as well.
 template <typename T>
-py::array viewOf(const py::object& picture, std::span<const T> data, int channels) {
+py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t components) {
   const api::Image& image = picture.cast<const Picture&>().image;
-  py::array_t<T> view({image.height(), image.width(), channels}, data.data(), picture);
+  py::array_t<T> view({static_cast<std::size_t>(image.height()),
+                       static_cast<std::size_t>(image.width()), components},
+                      data.data(), picture);
   view.attr("flags").attr("writeable") = false;
   return view;
+}
+
+// By their names: those of their components, and the values.
+py::dict channelsOf(const py::object& picture) {
+  py::dict all;
+  for (const auto& channel : picture.cast<const Picture&>().image.channels()) {
+    py::list components;
+    for (const std::string_view name : channel.components) components.append(std::string(name));
+    const std::size_t count = channel.components.size();
+    const py::array values = channel.numbers.empty() ? viewOf(picture, channel.values, count)
+                                                     : viewOf(picture, channel.numbers, count);
+    all[py::str(std::string(channel.name))] = py::make_tuple(components, values);
+  }
+  return all;
 }
 
 py::dict describe(const api::FrameStatistics& frame) {
@@ -145,6 +161,8 @@ void defineSession(py::module_& module) {
       .def_property_readonly("width", asked(&api::Scene::width))
       .def_property_readonly("height", asked(&api::Scene::height))
       .def_property_readonly("cameras", asked(&api::Scene::cameras))
+      .def_property_readonly("objects", asked(&api::Scene::objects))
+      .def_property_readonly("materials", asked(&api::Scene::materials))
       .def_property_readonly("triangles", asked(&api::Scene::triangles))
       .def_property_readonly("warnings", asked(&api::Scene::warnings))
       .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
@@ -169,6 +187,7 @@ void definePicture(py::module_& module) {
                                return viewOf(picture, picture.cast<const Picture&>().image.srgb(),
                                              4);
                              })
+      .def_property_readonly("channels", &channelsOf)
       .def_property_readonly("statistics", [](const Picture& p) { return describe(p.statistics); })
       .def("write",
            [](const Picture& p, const std::string& path) {

@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 import whit
-from samples import SIZE, temporary_folder
+from samples import SIZE, square_scene, temporary_folder
 from whit import _options
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -115,6 +115,29 @@ class Pictures(unittest.TestCase):
         crop = scene.render(size=SIZE, crop=(8, 4, 20, 16))
         self.assertEqual((crop.left, crop.top, crop.width, crop.height), (8, 4, 12, 12))
         np.testing.assert_array_equal(crop.rgb, whole.rgb[4:16, 8:20])
+
+    def test_channels(self):
+        """Of a square in the plane y = 0, seen from 3 above by parallel rays, 2 high."""
+        camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}
+        scene = whit.Scene(square_scene(cameras={"above": camera}))
+        self.assertEqual(scene.materials, ["red"])
+        picture = scene.render(size=(40, 40), channels=["depth", "normal", "material", "rays"])
+        self.assertEqual(list(picture.channels), ["depth", "normal", "material", "rays"])
+        there = np.zeros((40, 40), bool)
+        there[10:30, 10:30] = True
+        np.testing.assert_array_equal(picture["material"] == 0, there)
+        self.assertEqual(picture["material"].dtype, np.uint32)
+        np.testing.assert_allclose(picture["depth.Z"][there], 3, rtol=1e-6)
+        np.testing.assert_array_equal(picture["depth"][..., 0], picture["depth.Z"])
+        self.assertTrue(np.all(np.isinf(picture["depth.Z"][~there])))
+        np.testing.assert_allclose(picture["normal"][there], np.tile([0, 1, 0], (400, 1)))
+        self.assertTrue(np.all(picture["rays"] >= 1))
+        self.assertEqual(scene.render(size=(40, 40)).channels, {})
+        for name in ("albedo", "depth.W", "nothing"):
+            with self.assertRaises(KeyError):
+                picture[name]
+        with self.assertRaises(whit.Error):
+            scene.render(channels=["dept"])
 
     def test_they_show_themselves(self):
         picture = whit.Scene("whitted").render(size=SIZE)

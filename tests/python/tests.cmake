@@ -7,4 +7,6 @@ if(WHIT_PYTHON)
                       WHIT_PROGRAM=$<TARGET_FILE:whit> PYTHONDONTWRITEBYTECODE=1
                       ${Python_EXECUTABLE} ${test})
   endforeach()
+  whit_program_test(python python.pip_installs ${CMAKE_CURRENT_SOURCE_DIR}/python/pip_test.sh
+                    ${Python_EXECUTABLE} ${CMAKE_BINARY_DIR})
 endif()

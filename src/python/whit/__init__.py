@@ -54,6 +54,30 @@ class Picture:
         return self._picture.rgba[:, :, :3]
 
     @property
+    def channels(self) -> dict[str, np.ndarray]:
+        """What was kept beside it (render(channels=...)), by name: (height, width) or (height,
+        width, components), float32 or, of what is counted or numbered, uint32.
+
+        What each is, its unit and its value where nothing is met, says share/doc/whit/scenes/
+        README.md. "object" and "material" are numbers in Scene.objects and Scene.materials.
+        """
+        return {name: self[name] for name in self._picture.channels}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A channel, "position" (height, width, 3), or a component of one as files name it,
+        "depth.Z" (height, width)."""
+        channel, _, component = name.partition(".")
+        kept = self._picture.channels
+        if channel not in kept:
+            raise KeyError(f"{name}: the picture has {', '.join(kept) or 'no channels'}")
+        components, values = kept[channel]
+        if component and component not in components:
+            raise KeyError(f"{name}: the channel has {', '.join(components)}")
+        if component or len(components) == 1:
+            return values[:, :, components.index(component) if component else 0]
+        return values
+
+    @property
     def width(self) -> int:
         """In pixels; of a crop its own."""
         return self._picture.rgb.shape[1]
@@ -158,6 +182,16 @@ class Scene:
     def cameras(self) -> list[str]:
         """Their names; the first is seen from where no camera is given."""
         return self._session.cameras
+
+    @property
+    def objects(self) -> list[str]:
+        """Names by the numbers in the channel "object", of the first 65,536."""
+        return self._session.objects
+
+    @property
+    def materials(self) -> list[str]:
+        """Names by the numbers in the channel "material"."""
+        return self._session.materials
 
     @property
     def triangles(self) -> int:

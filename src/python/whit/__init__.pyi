@@ -21,6 +21,13 @@ class Picture:
         ...
 
     @property
+    def channels(self) -> dict[str, np.ndarray]:
+        ...
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        ...
+
+    @property
     def width(self) -> int:
         ...
 
@@ -72,6 +79,14 @@ class Scene:
         ...
 
     @property
+    def objects(self) -> list[str]:
+        ...
+
+    @property
+    def materials(self) -> list[str]:
+        ...
+
+    @property
     def triangles(self) -> int:
         ...
 
@@ -96,7 +111,7 @@ class Scene:
     def set_transform(self, pointer: str, matrix: Any) -> None:
         ...
 
-    def render(self, *, path_time: Optional[float]=None, progress: Optional[Progress]=None, size: Optional[Union[str, tuple[int, int]]]=None, camera: Optional[str]=None, eye: Optional[Sequence[float]]=None, at: Optional[Sequence[float]]=None, up: Optional[Sequence[float]]=None, fov: Optional[float]=None, ortho: Optional[float]=None, crop: Optional[Union[str, tuple[int, int, int, int]]]=None, spp: Optional[int]=None, adaptive: Optional[bool]=None, contrast: Optional[int]=None, depth: Optional[int]=None, glossy: Optional[int]=None, cutoff: Optional[float]=None, light_samples: Optional[int]=None, light_cutoff: Optional[float]=None, fresnel: Optional[Literal['exact', 'schlick']]=None, texture_filter: Optional[Literal['nearest', 'bilinear', 'trilinear']]=None, offset: Optional[Literal['bound', 'fixed', 'wachter-binder']]=None, terminator: Optional[bool]=None, bend: Optional[bool]=None, reciprocal: Optional[Literal['exact', 'refined', 'approximate']]=None, threads: Optional[int]=None, packet: Optional[Literal['auto', 1, 4, 8, 16]]=None, simd: Optional[Literal['auto', 'avx3', 'avx2', 'sse4', 'sse2', 'neon', 'scalar']]=None, mode: Optional[Literal['packets', 'reference']]=None, batch: Optional[Literal['tile', 'frame']]=None, robust: Optional[bool]=None, retry: Optional[bool]=None, bvh: Optional[Literal['low', 'medium', 'high']]=None, verdicts: Optional[Literal['auto', 'off', 'audit']]=None, sphere_segments: Optional[int]=None, effects: Optional[Literal['auto', 'all']]=None, quality: Optional[Literal['draft', 'standard', 'fine', 'reference']]=None, disable: Optional[Union[str, Sequence[str]]]=None, exposure: Optional[Union[float, Literal['auto']]]=None, tonemap: Optional[Literal['none', 'filmic', 'reinhard']]=None, film: Optional[Literal['float', 'half', '8bit']]=None, srgb: Optional[Literal['exact', 'table']]=None, tile: Optional[int]=None, queue: Optional[int]=None, strict: Optional[bool]=None) -> Picture:
+    def render(self, *, path_time: Optional[float]=None, progress: Optional[Progress]=None, size: Optional[Union[str, tuple[int, int]]]=None, camera: Optional[str]=None, eye: Optional[Sequence[float]]=None, at: Optional[Sequence[float]]=None, up: Optional[Sequence[float]]=None, fov: Optional[float]=None, ortho: Optional[float]=None, crop: Optional[Union[str, tuple[int, int, int, int]]]=None, spp: Optional[int]=None, adaptive: Optional[bool]=None, contrast: Optional[int]=None, depth: Optional[int]=None, glossy: Optional[int]=None, cutoff: Optional[float]=None, light_samples: Optional[int]=None, light_cutoff: Optional[float]=None, fresnel: Optional[Literal['exact', 'schlick']]=None, texture_filter: Optional[Literal['nearest', 'bilinear', 'trilinear']]=None, offset: Optional[Literal['bound', 'fixed', 'wachter-binder']]=None, terminator: Optional[bool]=None, bend: Optional[bool]=None, reciprocal: Optional[Literal['exact', 'refined', 'approximate']]=None, threads: Optional[int]=None, packet: Optional[Literal['auto', 1, 4, 8, 16]]=None, simd: Optional[Literal['auto', 'avx3', 'avx2', 'sse4', 'sse2', 'neon', 'scalar']]=None, mode: Optional[Literal['packets', 'reference']]=None, batch: Optional[Literal['tile', 'frame']]=None, robust: Optional[bool]=None, retry: Optional[bool]=None, bvh: Optional[Literal['low', 'medium', 'high']]=None, verdicts: Optional[Literal['auto', 'off', 'audit']]=None, sphere_segments: Optional[int]=None, effects: Optional[Literal['auto', 'all']]=None, quality: Optional[Literal['draft', 'standard', 'fine', 'reference']]=None, disable: Optional[Union[str, Sequence[str]]]=None, exposure: Optional[Union[float, Literal['auto']]]=None, tonemap: Optional[Literal['none', 'filmic', 'reinhard']]=None, film: Optional[Literal['float', 'half', '8bit']]=None, srgb: Optional[Literal['exact', 'table']]=None, tile: Optional[int]=None, queue: Optional[int]=None, channels: Optional[Union[str, Sequence[str]]]=None, strict: Optional[bool]=None) -> Picture:
         ...
 
     def __repr__(self) -> str:
