@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstring>
+
+#include "core/error.h"
 
 namespace whit::cli {
 
@@ -11,6 +14,8 @@ namespace {
 
 std::atomic<int> writers{0};
 std::atomic<bool> interrupted{false};
+std::atomic<int> child{0};  // 0: none
+char childsFile[4096];
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "they are used by a signal handler");
 
@@ -18,9 +23,17 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 // process, so that nothing can slip in between the test and the exit. Outside a scope no temporary
 // file exists, and a long render is not waited for. Other threads may close a scope: either they
 // see that there was an interruption, or it sees that the scope is closed.
+[[noreturn]] void end() {
+  if (child != 0) {
+    kill(child, SIGKILL);
+    unlink(childsFile);
+  }
+  _exit(kInterruptedStatus);
+}
+
 extern "C" void onInterrupt(int) {
   interrupted = true;
-  if (writers == 0) _exit(kInterruptedStatus);
+  if (writers == 0) end();
 }
 
 }  // namespace
@@ -36,7 +49,15 @@ void installInterruptHandlers() {
 WriteScope::WriteScope() { ++writers; }
 
 WriteScope::~WriteScope() {
-  if (--writers == 0 && interrupted) _exit(kInterruptedStatus);
+  if (--writers == 0 && interrupted) end();
 }
+
+ChildScope::ChildScope(int process, const std::string& file) {
+  if (file.size() >= sizeof childsFile) throwIo("cannot write '" + file + "': its name is too long");
+  std::memcpy(childsFile, file.c_str(), file.size() + 1);
+  child = process;
+}
+
+ChildScope::~ChildScope() { child = 0; }
 
 }  // namespace whit::cli

@@ -1,6 +1,8 @@
 // Control-C and SIGTERM: the program ends at once with status 130, and leaves no half-written file.
 #pragma once
 
+#include <string>
+
 namespace whit::cli {
 
 inline constexpr int kInterruptedStatus = 130;
@@ -16,6 +18,16 @@ class WriteScope {
   ~WriteScope();
   WriteScope(const WriteScope&) = delete;
   WriteScope& operator=(const WriteScope&) = delete;
+};
+
+// While it is alive an interruption ends that process as well, and removes the file that it writes.
+// One at a time, on the main thread.
+class ChildScope {
+ public:
+  ChildScope(int process, const std::string& file);
+  ~ChildScope();
+  ChildScope(const ChildScope&) = delete;
+  ChildScope& operator=(const ChildScope&) = delete;
 };
 
 }  // namespace whit::cli

@@ -1,6 +1,7 @@
 #include "app/open_scene.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -11,11 +12,12 @@
 namespace whit::cli {
 
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
-                                     Progress* progress) {
+                                     Progress* progress, const LookAtScene& look) {
   const Stopwatch stopwatch;
   auto open = std::make_unique<OpenScene>(common.render.strict);
-  open->scene = Scene::finalize(loadScene(name, common.load, open->warnings, progress),
-                                open->warnings, progress);
+  SceneDescription description = loadScene(name, common.load, open->warnings, progress);
+  if (look) look(description);
+  open->scene = Scene::finalize(std::move(description), open->warnings, progress);
   open->settings = common.load.settings;
   open->sky = common.load.sky;
   open->loadMs = stopwatch.ms();

@@ -1,6 +1,7 @@
 // A scene as the commands need it, and the frames made of it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,9 +27,11 @@ struct OpenScene {
   mutable std::mutex moving;
 };
 
-// Loads and bakes; tells people on standard error what was repaired, unless --quiet.
+// Loads and bakes; tells people on standard error what was repaired, unless --quiet. `look`, if any,
+// sees the scene before it is baked.
+using LookAtScene = std::function<void(const SceneDescription&)>;
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
-                                     Progress* progress);
+                                     Progress* progress, const LookAtScene& look = {});
 
 // The options of a frame of the scene: models have defaults of their own. An automatic exposure is
 // still to be settled (render/auto_exposure.h).

@@ -18,6 +18,7 @@ int explainCommand(const Words& words);
 int accuracyCommand(const Words& words);
 int stressCommand(const Words& words);
 int scenesCommand(const Words& words);
+int turntableCommand(const Words& words);
 
 struct Command {
   const char *name, *summary;
@@ -26,6 +27,7 @@ struct Command {
 
 inline constexpr Command kCommands[] = {
     {"render", "one image, or the frames of a scene's camera path", renderCommand},
+    {"turntable", "a film of a model that turns", turntableCommand},
     {"bench", "how long a frame takes, by stage and by kind of ray", benchCommand},
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},

@@ -12,6 +12,8 @@
 #include "cli/json_report.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "core/printable.h"
+#include "io/image_layers.h"
 #include "render/auto_exposure.h"
 #include "render/path_divergence.h"
 
@@ -25,7 +27,8 @@ constexpr const char* kCompareUsage =
 constexpr const char* kCompareSummary =
     "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two: without\n"
     "--tolerance at most 5 % of the pixels may be off by 2 codes or more, and 2 % of the energy.\n"
-    "Or compares the image files A and B, of which B counts as the reference.";
+    "Or compares the image files A and B, of which B counts as the reference. Channels that both\n"
+    "have are compared as well.";
 
 struct CompareJob {
   CommonOptions common;
@@ -38,6 +41,7 @@ struct CompareJob {
 struct Compared {
   Comparison numbers;
   Image a, b;
+  std::vector<ImageLayer> layersA, layersB;
   float exposure = 0;  // EV
 };
 
@@ -56,6 +60,9 @@ OptionList listOptions(CompareJob& job) {
 
 Compared compareFiles(const CompareJob& job) {
   if (job.stages) throwUsage("--stages needs a scene, not two images");
+  if (!job.common.render.channels.empty()) {
+    throwUsage("--channels needs a scene: of two images those are compared that both have");
+  }
   if (!job.common.load.settings.empty()) throwUsage("--set needs a scene, not two images");
   if (!job.common.load.sky.empty()) throwUsage("--sky needs a scene, not two images");
   if (job.common.render.exposure.automatic) {
@@ -66,6 +73,8 @@ Compared compareFiles(const CompareJob& job) {
   result.exposure = job.common.render.exposure.ev;
   result.a = readImage(job.subjects[0], ImageLimits(), warnings);
   result.b = readImage(job.subjects[1], ImageLimits(), warnings);
+  result.layersA = readLayers(job.subjects[0], ImageLimits());
+  result.layersB = readLayers(job.subjects[1], ImageLimits());
   if (!job.common.quiet) tellWarnings(warnings);
   return result;
 }
@@ -89,9 +98,43 @@ Compared compareModes(const CompareJob& job) {
     Film scratch = openFilm(open->scene, job.common);
     result.numbers.stages = compareStages(renderer, camera, scratch);
   }
+  result.layersA = layersOf(packets.channels);
+  result.layersB = layersOf(reference.channels);
   result.a = std::move(packets.image);
   result.b = std::move(reference.image);
   return result;
+}
+
+// Those that both have, values of one kind. Sizes are the same.
+std::vector<ChannelDifference> compareChannels(const Compared& compared) {
+  std::vector<ChannelDifference> differences;
+  for (const ImageLayer& a : compared.layersA) {
+    const auto b = std::find_if(
+        compared.layersB.begin(), compared.layersB.end(), [&](const ImageLayer& layer) {
+          return layer.name == a.name && layer.countsThings == a.countsThings;
+        });
+    if (b == compared.layersB.end()) continue;
+    differences.push_back({a.name, a.countsThings,
+                           a.countsThings ? differenceOf(a.numbers, b->numbers)
+                                          : differenceOf(a.floats, b->floats)});
+  }
+  return differences;
+}
+
+void printChannels(FILE* out, const std::vector<ChannelDifference>& channels) {
+  if (channels.empty()) return;
+  std::fprintf(out, "\n%-20s%18s%14s%14s%14s\n", "channel", "pixels differing", "incomparable",
+               "largest", "RMS");
+  for (const ChannelDifference& c : channels) {
+    std::fprintf(out, "%-20s%18llu", printable(c.name).c_str(),
+                 static_cast<unsigned long long>(c.difference.differing));
+    if (!c.countsThings) {
+      std::fprintf(out, "%14llu%14.6g%14.6g",
+                   static_cast<unsigned long long>(c.difference.incomparable),
+                   c.difference.largest, c.difference.rms);
+    }
+    std::fputc('\n', out);
+  }
 }
 
 void printNumbers(FILE* out, const Comparison& c) {
@@ -198,9 +241,11 @@ int compareCommand(const Words& words) {
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
   compared.numbers.difference =
       compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
+  compared.numbers.channels = compareChannels(compared);
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     printNumbers(people, compared.numbers);
+    printChannels(people, compared.numbers.channels);
     if (compared.numbers.stages) printStages(people, *compared.numbers.stages);
   }
   if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));

@@ -26,6 +26,7 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "instances", s.instances.size());
   std::printf("  %-12s(%g, %g, %g) to (%g, %g, %g)\n", "bounds", s.lower.x, s.lower.y, s.lower.z,
               s.upper.x, s.upper.y, s.upper.z);
+  std::printf("  %-12s%llu\n", "objects", static_cast<unsigned long long>(s.items.count));
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());

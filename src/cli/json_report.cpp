@@ -153,6 +153,15 @@ Json compareJson(const Comparison& comparison) {
             {"path_flips_per_mpx", orNull(comparison.pathDivergencesPerMpx)},
             {"nonfinite", d.nonFinite},
             {"time_ms", {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}}}};
+  for (const ChannelDifference& c : comparison.channels) {
+    Json row{{"channel", c.name}, {"pixels_differing", c.difference.differing}};
+    if (!c.countsThings) {
+      row["pixels_incomparable"] = c.difference.incomparable;
+      row["max"] = c.difference.largest;
+      row["rms"] = c.difference.rms;
+    }
+    json["channels"].push_back(std::move(row));
+  }
   if (!comparison.stages) return json;
   json["stages"] = Json::array();
   for (const StageDifference& row : *comparison.stages) {
@@ -167,6 +176,13 @@ Json compareJson(const Comparison& comparison) {
   return json;
 }
 
+// By their numbers in the channel of that name, as objects are.
+static std::vector<std::string> materialNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
 Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,
               const Warnings& warnings) {
   Json json{{"scene", scene.name},
@@ -176,6 +192,9 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"instances", scene.instances.size()},
             {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
             {"materials", scene.materials.size()},
+            {"material_names", materialNames(scene)},
+            {"objects", scene.items.count},
+            {"object_names", scene.items.names},
             {"lights", scene.lights.size()},
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},

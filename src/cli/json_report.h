@@ -10,6 +10,7 @@
 #include "app/frame_summary.h"
 #include "core/warnings.h"
 #include "metrics/metrics.h"
+#include "metrics/value_difference.h"
 #include "render/stage_comparison.h"
 
 namespace whit::cli {
@@ -26,11 +27,19 @@ Json runJson(const RunSummary& run);
 // or `warm_over_off`, of verdicts.
 Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs = RunPairs::none);
 
+// Of one channel that both pictures have.
+struct ChannelDifference {
+  std::string name;  // "depth.Z"
+  bool countsThings = false;
+  ValueDifference difference;
+};
+
 struct Comparison {
   ImageDifference difference;
   std::optional<double> pathDivergencesPerMpx;         // unknown of two files
   std::optional<double> timeMsA, timeMsB;              // unknown of two files
   std::optional<std::vector<StageDifference>> stages;  // with --stages
+  std::vector<ChannelDifference> channels;
 };
 // Infinite and unknown numbers are null.
 Json compareJson(const Comparison& comparison);

@@ -42,6 +42,22 @@ std::vector<LayerView> viewsOf(const ChannelLayers& channels) {
   return views;
 }
 
+std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
+  std::vector<ImageLayer> layers;
+  for (const LayerView& view : viewsOf(channels)) {
+    ImageLayer layer{view.name, view.numbers != nullptr, {}, {}};
+    for (std::size_t i = 0; i < channels.pixels(); ++i) {
+      if (view.numbers) {
+        layer.numbers.push_back(view.numbers[i * view.stride]);
+      } else {
+        layer.floats.push_back(view.floats[i * view.stride]);
+      }
+    }
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   ImageMetadata said;
   if (channels.empty()) return said;

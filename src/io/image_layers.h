@@ -26,6 +26,9 @@ struct ImageLayer {
 // that is subsampled.
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits);
 
+// Copies, named as in a file.
+std::vector<ImageLayer> layersOf(const ChannelLayers& channels);
+
 // As writeExr() takes them; what they view must outlive it.
 std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers);
 std::vector<LayerView> viewsOf(const ChannelLayers& channels);
