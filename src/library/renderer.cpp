@@ -119,7 +119,7 @@ void Renderer::Data::setMember(const std::string& text, whit::Progress* told) {
   ownScene();
   if (!document) document = own().document();
   if (!editScene(setting)) return readAgain(text, told);
-  own().load.settings.push_back(text);
+  addSceneSetting(text, own().load.settings);
   changed = true;  // an automatic exposure follows
 }
 
@@ -141,7 +141,7 @@ bool Renderer::Data::editScene(const SceneSetting& setting) {
 
 void Renderer::Data::readAgain(const std::string& setting, whit::Progress* told) {
   whit::LoadOptions load = own().load;
-  load.settings.push_back(setting);
+  addSceneSetting(setting, load.settings);
   std::shared_ptr<Scene::Data> next = Scene::Data::read(own().source, load, own().strict, told);
   for (const auto& [pointer, place] : places) setPlace(next->scene, pointer, place);
   renderer.reset();

@@ -66,7 +66,7 @@ Json describe(const Material& m) {
 
 }  // namespace
 
-struct SceneBuilder::Data {
+struct SceneBuilder::Data {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   SceneText text;
 
   // A member of a section; what is there is replaced.

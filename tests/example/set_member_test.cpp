@@ -1,4 +1,5 @@
 // Members of a scene that are set between frames: the picture of a scene that was read so.
+#include "io/scene_settings.h"
 #include "library_scenes.h"
 
 namespace whit::api {
@@ -93,6 +94,28 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
   }
   EXPECT_GT(settings.size(), 15u);
   EXPECT_TRUE(samePictures(renderer.render(), smallRenderer(whittedWith(settings)).render()));
+}
+
+TEST(SetMember, TheSameMemberAgainIsOneSetting) {
+  std::vector<std::string> settings;
+  const auto add = [&](const char* text) { addSceneSetting(text, settings); };
+  for (int i = 0; i < 3; ++i) {
+    add("/lights/0/intensity=1");
+    add("/sky/zenith=[0,0,1]");
+    add("/lights/0/intensity=2");
+  }
+  const std::vector<std::string> once{"/sky/zenith=[0,0,1]", "/lights/0/intensity=2"};
+  EXPECT_EQ(settings, once);
+  // Of what lies within another the order counts, and appending is done each time.
+  settings.clear();
+  for (const char* text : {"/sky=1", "/sky/zenith=2", "/sky=3", "/sky/zenith=4", "/lights/-=5",
+                           "/lights/-=5", "/sky=6"}) {
+    add(text);
+  }
+  EXPECT_EQ(settings.size(), 7u);
+  add("/sky=7");
+  EXPECT_EQ(settings.size(), 7u);
+  EXPECT_EQ(settings.back(), "/sky=7");
 }
 
 TEST(SetMember, LeavesTheSceneOfOthersAlone) {
