@@ -36,7 +36,8 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   constexpr double kMostGb = 1.8e10;
   const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
   load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
-  load.threads = options.threads;
+  constexpr int kMostThreads = 1024;  // as of the option "threads"
+  load.threads = std::clamp(options.threads, 0, kMostThreads);
   load.sky = options.sky;
   load.sphereSegments = options.sphereSegments;
   load.instant.plays = options.moves;

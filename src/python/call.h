@@ -4,6 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <string>
@@ -29,6 +30,40 @@ namespace py = pybind11;
   throw py::error_already_set();
 }
 
+// Calls that are under way, which the end of the interpreter waits for: a thread that comes back to
+// Python after that is lost in the middle of C++.
+class Calls {
+ public:
+  // One that is under way while it lives.
+  class Entry {
+   public:
+    Entry() {
+      constexpr int kInterrupted = 130;
+      ++underWay;
+      if (!ending) return;
+      --underWay;
+      raise(api::Error(kInterrupted, "Python ends"));
+    }
+    ~Entry() { --underWay; }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+  };
+
+  static bool areEnding() { return ending; }
+  // Ends them all, as far as they tell of their progress; `atexit` calls it.
+  static void end() {
+    constexpr std::chrono::milliseconds kStep{1};
+    constexpr int kSteps = 10000;
+    ending = true;
+    const py::gil_scoped_release noGil;
+    for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
+  }
+
+ private:
+  static inline std::atomic<int> underWay{0};
+  static inline std::atomic<bool> ending{false};
+};
+
 // Looks on at work of the thread that makes it: there, now and then, Python sees to signals and the
 // caller's function is called.
 class Onlooker {
@@ -36,6 +71,7 @@ class Onlooker {
   explicit Onlooker(py::object function) : function_(std::move(function)) {}
 
   bool operator()(const std::string& phase, double fraction) {
+    if (Calls::areEnding()) return false;
     if (std::this_thread::get_id() != thread_ || !isTime()) return true;
     const py::gil_scoped_acquire gil;
     try {
@@ -74,6 +110,7 @@ class Onlooker {
 // What `body` returns, called without the GIL and given what to tell of its progress.
 template <typename Body>
 auto call(const py::object& function, Body&& body) {
+  const Calls::Entry entry;
   Onlooker onlooker(function);
   try {
     const py::gil_scoped_release noGil;

@@ -28,19 +28,30 @@ auto spanOf(const Array& array) {
   return std::span(array.data(), static_cast<std::size_t>(array.size()));
 }
 
-// What load() and build() take besides.
+// A member of what load() and build() take besides.
+template <typename T>
+T memberOf(const py::dict& given, const char* name) {
+  const py::object value = given[name];
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(std::string(name) + ": cannot take " +
+                         py::repr(value).cast<std::string>());
+  }
+}
+
 api::LoadOptions loadOptions(const py::dict& given) {
   api::LoadOptions options;
-  options.allowOutside = given["allow_outside"].cast<bool>();
-  options.strict = given["strict"].cast<bool>();
-  options.maxMemoryGb = given["max_memory_gb"].cast<double>();
-  options.threads = given["threads"].cast<int>();
-  options.sky = given["sky"].cast<std::string>();
-  options.sphereSegments = given["sphere_segments"].cast<int>();
-  options.moves = given["moves"].cast<bool>();
-  options.movable = given["movable"].cast<std::vector<std::string>>();
-  options.animation = given["animation"].cast<std::string>();
-  options.settings = given["settings"].cast<std::vector<std::string>>();
+  options.allowOutside = memberOf<bool>(given, "allow_outside");
+  options.strict = memberOf<bool>(given, "strict");
+  options.maxMemoryGb = memberOf<double>(given, "max_memory_gb");
+  options.threads = memberOf<int>(given, "threads");
+  options.sky = memberOf<std::string>(given, "sky");
+  options.sphereSegments = memberOf<int>(given, "sphere_segments");
+  options.moves = memberOf<bool>(given, "moves");
+  options.movable = memberOf<std::vector<std::string>>(given, "movable");
+  options.animation = memberOf<std::string>(given, "animation");
+  options.settings = memberOf<std::vector<std::string>>(given, "settings");
   return options;
 }
 
@@ -210,4 +221,5 @@ PYBIND11_MODULE(_whit, module) {
   module.def("build", &build);
   module.def("option_table", &optionTable);
   module.def("version", &whit::api::version);
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Calls::end));
 }

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -116,6 +118,16 @@ class Control(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "depth: expected int"):
             self.scene.render(depth=object())
 
+    def test_arguments_of_the_wrong_kind(self):
+        for arguments in ({"threads": 2**70}, {"sky": 4}, {"movable": 4}, {"max_memory_gb": "much"},
+                          {"sphere_segments": 1.5}):
+            with self.subTest(**arguments), self.assertRaises(TypeError):
+                whit.Scene("whitted", **arguments)
+        whit.Scene("whitted", threads=10**9)
+        for source in (None, 4, object()):
+            with self.subTest(source=source), self.assertRaises(TypeError):
+                whit.Scene(source)
+
     def test_errors_of_scenes(self):
         with temporary_folder():
             with open("bad.json", "w", encoding="utf-8") as file:
@@ -158,6 +170,20 @@ class Control(unittest.TestCase):
         with self.assertRaises(whit.Error) as caught:
             whit.Scene("landscape?triangles=400000", progress=lambda phase, fraction: False)
         self.assertEqual(caught.exception.exit_status, 130)
+
+
+class Ends(unittest.TestCase):
+    def test_python_ends_while_threads_render(self):
+        program = ("import threading, time, whit\n"
+                   "def work():\n"
+                   "    scene = whit.Scene('whitted')\n"
+                   "    while True: scene.render(size=(640, 400), spp=64)\n"
+                   "for _ in range(3): threading.Thread(target=work, daemon=True).start()\n"
+                   "time.sleep(0.3)\n")
+        for _ in range(5):
+            done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                                  check=False, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Growth(unittest.TestCase):
