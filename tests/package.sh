@@ -28,6 +28,8 @@ dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
 
 clean=$work/clean
 makeCleanSystem "$VERSION_CODENAME" "$clean" "$work/debootstrap.log"
+# The container's steps in copies of it. Its release is theirs.
+if [ "$VERSION_CODENAME" = bookworm ]; then "$root/tests/container.sh" "$clean"; fi
 cp "$deb" "$clean/whit.deb"
 within() {
   chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \

@@ -108,7 +108,7 @@ fuzzReaders() {
 installTestPrograms() { scenes/install_packages.sh test || return 77; }
 
 groups=(build view python)
-if $full; then groups+=(clean check); fi
+if $full; then groups+=(clean package check); fi
 if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
 step "programs that tests start" installTestPrograms

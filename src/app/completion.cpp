@@ -72,7 +72,9 @@ std::string bashOptions(const std::string& command, const OptionList& list) {
     const std::string either = entry.shortName.empty() ? option : option + " | -" + entry.shortName;
     all += " " + option;
     const std::vector<std::string> words = wordsOf(entry);
-    if (!words.empty()) {
+    if (!entry.names.empty()) {
+      text += "        " + either + ") words='" + joined(entry.names) + "' list=yes ;;\n";
+    } else if (!words.empty()) {
       text += "        " + either + ") words='" + joined(words) + "' ;;\n";
     } else if (!entry.placeholder.empty()) {
       values += (values.empty() ? "" : " | ") + either;
@@ -95,7 +97,9 @@ std::string zshOptions(const std::string& program, const std::string& command,
     if (!entry.placeholder.empty()) {
       spec += ":" + quoted(entry.placeholder, Shell::zsh) + ":";
       const std::vector<std::string> words = wordsOf(entry);
-      if (!words.empty())
+      if (!entry.names.empty())
+        spec += "_values -s , " + entry.name + " " + joined(entry.names);
+      else if (!words.empty())
         spec += "(" + joined(words) + ")";
       else if (takesFile(entry))
         spec += "_files";
@@ -120,6 +124,7 @@ std::string fishOptions(const std::string& program, const std::string& command,
     text += begin + (entry.shortName.empty() ? "" : " -s " + entry.shortName) + " -l " + entry.name;
     const std::vector<std::string> words = wordsOf(entry);
     if (!entry.placeholder.empty()) text += takesFile(entry) ? " -r" : " -x";
+    if (!entry.names.empty()) text += " -a '(__fish_append , " + joined(entry.names) + ")'";
     if (!words.empty()) text += " -a '" + joined(words) + "'";
     text += " -d '" + quoted(entry.help, Shell::fish) + "'\n";
   }
@@ -145,7 +150,7 @@ std::string completionOpening(Shell shell, const std::string& program,
     case Shell::bash:
       text = "# Written by " + written + " bash.\n" + functionName(program, "") +
              "() {\n  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} "
-             "words=\n";
+             "words= list=\n";
       if (!commands.empty()) {
         text += "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W '" + names +
                 " --help --version --man --completion' -- \"$current\"))\n    return\n  fi\n";
@@ -191,8 +196,9 @@ std::string completionClosing(Shell shell, const std::string& program) {
   const std::string function = functionName(program, "");
   switch (shell) {
     case Shell::bash:
-      return "  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n}\ncomplete -o "
-             "default -F " +
+      return "  esac\n  local done=${list:+${current%\"${current##*,}\"}}\n  COMPREPLY=($(compgen "
+             "-P "
+             "\"$done\" -W \"$words\" -- \"${current#\"$done\"}\"))\n}\ncomplete -o default -F " +
              function + " " + program + "\n";
     case Shell::zsh:
       return function + " \"$@\"\n";

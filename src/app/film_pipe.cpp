@@ -26,9 +26,12 @@ std::string rateText(double fps) { return formatValue(OptionSpec{}, fps); }
 
 std::vector<std::string> argumentsFor(const std::string& program, const std::string& to, int width,
                                       int height, double fps) {
-  std::vector<std::string> words{program,    "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb0",
-                                 "-s",       std::to_string(width) + "x" + std::to_string(height),
-                                 "-r",       rateText(fps), "-i", "-"};
+  std::vector<std::string> words{
+      program, "-v",          "error",
+      "-f",    "rawvideo",    "-pix_fmt",
+      "rgb0",  "-s",          std::to_string(width) + "x" + std::to_string(height),
+      "-r",    rateText(fps), "-i",
+      "-"};
   words.insert(words.end(), std::begin(kFilmCodec), std::end(kFilmCodec));
   words.insert(words.end(), {"-f", "mp4", "-y", to});
   return words;
@@ -88,13 +91,16 @@ std::string filmCommand(const std::string& pattern, double fps, const std::strin
 
 FilmPipe::FilmPipe(const std::string& program, const std::string& path, int width, int height,
                    double fps)
-    : path_(path), file_(path), said_(std::tmpfile()) {
+    : path_(path), said_(std::tmpfile()) {
+  const WriteScope starting;  // until it is known what an interruption has to undo
+  file_.emplace(path);
+  if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
   if (!said_) throwIo(std::string("cannot make a temporary file: ") + std::strerror(errno));
   signal(SIGPIPE, SIG_IGN);  // a program that has ended is then an error of the write
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throwIo(std::string("cannot make a pipe: ") + strerror(errno));
   pipe_ = ends[1];
-  const int error = start(argumentsFor(program, asFile(file_.temporaryPath()), width, height, fps),
+  const int error = start(argumentsFor(program, asFile(file_->temporaryPath()), width, height, fps),
                           ends[0], fileno(said_.get()), process_);
   close(ends[0]);
   if (error != 0) {
@@ -102,7 +108,7 @@ FilmPipe::FilmPipe(const std::string& program, const std::string& path, int widt
     process_ = 0;
     throwIo("cannot start " + program + ": " + std::strerror(error));
   }
-  scope_.emplace(process_, file_.temporaryPath());
+  ChildScope::begun(process_);
 }
 
 FilmPipe::~FilmPipe() {
@@ -117,7 +123,7 @@ int FilmPipe::wait() {
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
   process_ = 0;
-  scope_.reset();
+  ChildScope::ended();
   return status;
 }
 
@@ -145,7 +151,7 @@ void FilmPipe::finish() {
   const int status = wait();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail("ffmpeg has failed");
   const WriteScope scope;
-  file_.commit();
+  file_->commit();
 }
 
 }  // namespace whit::cli

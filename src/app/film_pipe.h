@@ -36,8 +36,8 @@ class FilmPipe {
   FilmPipe(const FilmPipe&) = delete;
   FilmPipe& operator=(const FilmPipe&) = delete;
 
-  // A picture: r, g, b, 255 of each pixel, rows from the top. Throws Error(io) with what the program
-  // has said if it has ended.
+  // A picture: r, g, b, 255 of each pixel, rows from the top. Throws Error(io) with what the
+  // program has said if it has ended.
   void add(std::span<const std::uint8_t> rgba);
   void finish();
 
@@ -49,10 +49,10 @@ class FilmPipe {
   [[noreturn]] void fail(const std::string& what);
 
   std::string path_;
-  AtomicFile file_;
+  std::optional<ChildScope> scope_;  // before the file: it lives longer
+  std::optional<AtomicFile> file_;
   std::unique_ptr<std::FILE, CloseFile> said_;  // what the program has to say
   int pipe_ = -1, process_ = 0;
-  std::optional<ChildScope> scope_;
 };
 
 }  // namespace whit::cli

@@ -15,6 +15,7 @@ namespace {
 std::atomic<int> writers{0};
 std::atomic<bool> interrupted{false};
 std::atomic<int> child{0};  // 0: none
+std::atomic<bool> hasFile{false};
 char childsFile[4096];
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "they are used by a signal handler");
@@ -24,10 +25,8 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 // file exists, and a long render is not waited for. Other threads may close a scope: either they
 // see that there was an interruption, or it sees that the scope is closed.
 [[noreturn]] void end() {
-  if (child != 0) {
-    kill(child, SIGKILL);
-    unlink(childsFile);
-  }
+  if (child != 0) kill(child, SIGKILL);
+  if (hasFile) unlink(childsFile);
   _exit(kInterruptedStatus);
 }
 
@@ -52,12 +51,16 @@ WriteScope::~WriteScope() {
   if (--writers == 0 && interrupted) end();
 }
 
-ChildScope::ChildScope(int process, const std::string& file) {
-  if (file.size() >= sizeof childsFile) throwIo("cannot write '" + file + "': its name is too long");
+ChildScope::ChildScope(const std::string& file) {
+  if (file.size() >= sizeof childsFile)
+    throwIo("cannot write '" + file + "': its name is too long");
   std::memcpy(childsFile, file.c_str(), file.size() + 1);
-  child = process;
+  hasFile = true;
 }
 
-ChildScope::~ChildScope() { child = 0; }
+ChildScope::~ChildScope() { hasFile = false; }
+
+void ChildScope::begun(int process) { child = process; }
+void ChildScope::ended() { child = 0; }
 
 }  // namespace whit::cli

@@ -20,12 +20,14 @@ class WriteScope {
   WriteScope& operator=(const WriteScope&) = delete;
 };
 
-// While it is alive an interruption ends that process as well, and removes the file that it writes.
-// One at a time, on the main thread.
+// While it is alive an interruption removes the file, and ends the process that writes it, too. One
+// at a time.
 class ChildScope {
  public:
-  ChildScope(int process, const std::string& file);
+  explicit ChildScope(const std::string& file);
   ~ChildScope();
+  static void begun(int process);
+  static void ended();
   ChildScope(const ChildScope&) = delete;
   ChildScope& operator=(const ChildScope&) = delete;
 };

@@ -27,8 +27,8 @@ struct OpenScene {
   mutable std::mutex moving;
 };
 
-// Loads and bakes; tells people on standard error what was repaired, unless --quiet. `look`, if any,
-// sees the scene before it is baked.
+// Loads and bakes; tells people on standard error what was repaired, unless --quiet. `look`, if
+// any, sees the scene before it is baked.
 using LookAtScene = std::function<void(const SceneDescription&)>;
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress, const LookAtScene& look = {});

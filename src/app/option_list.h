@@ -9,10 +9,27 @@
 
 namespace whit::cli {
 
+// What a value that is a list of names is made of; none of another.
+template <typename T>
+std::vector<std::string> namesIn(const T&) {
+  return {};
+}
+inline std::vector<std::string> namesIn(const EffectSet&) {
+  std::vector<std::string> names;
+  for (const EffectName& effect : kEffectNames) names.emplace_back(effect.name);
+  return names;
+}
+inline std::vector<std::string> namesIn(const ChannelSet&) {
+  std::vector<std::string> names;
+  for (const ChannelInfo& channel : kChannels) names.emplace_back(channel.name);
+  return names;
+}
+
 class OptionList {
  public:
   struct Entry {
     std::string group, name, shortName, placeholder, help;  // no placeholder: a flag
+    std::vector<std::string> names = {};  // of which its value is a list, with commas between
     bool repeats = false;
     bool everyday = true;  // in --help; the others are in --help-all
     std::function<void(const std::string&)> set;
@@ -30,8 +47,10 @@ class OptionList {
   Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
     const std::string known = formatValue(spec, field);
     const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
-    return push(spec, tell ? help + " (default: " + known + ")" : help,
-                [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+    Entry& entry = push(spec, tell ? help + " (default: " + known + ")" : help,
+                        [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+    entry.names = namesIn(field);
+    return entry;
   }
   Entry& flag(std::string_view name, const std::string& help, bool& field) {
     return value({.name = name}, help, field);
@@ -54,8 +73,12 @@ class OptionList {
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,
               std::function<void(const std::string&)> set) {
-    entries.push_back({group_, std::string(spec.name), "", std::string(spec.words), help, false,
-                       true, std::move(set)});
+    entries.push_back({.group = group_,
+                       .name = std::string(spec.name),
+                       .shortName = "",
+                       .placeholder = std::string(spec.words),
+                       .help = help,
+                       .set = std::move(set)});
     return entries.back();
   }
 

@@ -114,9 +114,9 @@ std::vector<ChannelDifference> compareChannels(const Compared& compared) {
           return layer.name == a.name && layer.countsThings == a.countsThings;
         });
     if (b == compared.layersB.end()) continue;
-    differences.push_back({a.name, a.countsThings,
-                           a.countsThings ? differenceOf(a.numbers, b->numbers)
-                                          : differenceOf(a.floats, b->floats)});
+    differences.push_back(
+        {a.name, a.countsThings,
+         a.countsThings ? differenceOf(a.numbers, b->numbers) : differenceOf(a.floats, b->floats)});
   }
   return differences;
 }
@@ -130,8 +130,8 @@ void printChannels(FILE* out, const std::vector<ChannelDifference>& channels) {
                  static_cast<unsigned long long>(c.difference.differing));
     if (!c.countsThings) {
       std::fprintf(out, "%14llu%14.6g%14.6g",
-                   static_cast<unsigned long long>(c.difference.incomparable),
-                   c.difference.largest, c.difference.rms);
+                   static_cast<unsigned long long>(c.difference.incomparable), c.difference.largest,
+                   c.difference.rms);
     }
     std::fputc('\n', out);
   }

@@ -30,8 +30,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kTurntableUsage =
-    "whit turntable SCENE -o FILM.mp4|FRAMES####.png [options]";
+constexpr const char* kTurntableUsage = "whit turntable SCENE -o FILM.mp4|FRAMES####.png [options]";
 constexpr const char* kTurntableSummary =
     "Frames a model, lights it and turns it: the camera goes around it, light stays where it is.\n"
     "A film is made by ffmpeg, where that is installed; else its pictures are written, and the\n"
@@ -57,15 +56,13 @@ OptionList listOptions(TurntableJob& job) {
   list.value({"turns", "X", -1000, 1000}, "how often it turns; below 0: the other way around",
              job.turns);
   list.value({"frames", "N", 1, 1e6}, "pictures of all turns together", job.frames);
-  list.value({"seconds", "S", 0.001, 1e6}, "how long they last, in place of --frames",
-             job.seconds);
+  list.value({"seconds", "S", 0.001, 1e6}, "how long they last, in place of --frames", job.seconds);
   list.value({"fps", "N", 0.001, 1000}, "pictures a second", job.fps);
   list.value({"range", "A..B"}, "those of the pictures that are made, counted from 0 (all)",
              job.range);
   list.value({"json", "FILE"}, "what was done; - is standard output", job.json);
   listCommonOptions(list, job.common);
-  list.operands("SCENE", "a model, a scene file, or the name of a shipped scene", 1, 1,
-                job.scenes);
+  list.operands("SCENE", "a model, a scene file, or the name of a shipped scene", 1, 1, job.scenes);
   return list;
 }
 
@@ -182,9 +179,8 @@ class Turner {
       ImageMetadata metadata =
           describeImage(stand_.open->scene, camera, renderer_, film, stand_.options);
       addSettings(stand_.open->settings, stand_.open->sky, metadata);
-      writer.start([&write, &film, metadata = std::move(metadata), k] {
-        write(film, metadata, k);
-      });
+      writer.start(
+          [&write, &film, metadata = std::move(metadata), k] { write(film, metadata, k); });
     }
     writer.finish();
   }
@@ -254,9 +250,9 @@ Made makePictures(const TurntableJob& job, const std::string& pattern, Turner& t
 
 void report(const TurntableJob& job, const Turner& turner, const Made& made, double ms) {
   if (!job.common.quiet) {
-    const std::string what =
-        made.files.size() == 1 ? printable(made.files[0])
-                               : std::to_string(made.files.size()) + " pictures";
+    const std::string what = made.files.size() == 1
+                                 ? printable(made.files[0])
+                                 : std::to_string(made.files.size()) + " pictures";
     std::fprintf(stderr, "wrote %s, %.1f s\n", what.c_str(), ms / 1000);
   }
   if (!made.command.empty() && job.json != "-") std::printf("%s\n", made.command.c_str());
@@ -299,8 +295,9 @@ int turntableCommand(const Words& words) {
   }
   progress.reset();
   if (isFilm(job) && !program) {
-    std::fprintf(stderr, "whit: ffmpeg is not in $PATH: pictures instead of %s; with it installed, "
-                         "this makes the film:\n",
+    std::fprintf(stderr,
+                 "whit: ffmpeg is not in $PATH: pictures instead of %s; with it installed, "
+                 "this makes the film:\n",
                  printable(job.output).c_str());
   }
   report(job, turner, made, stopwatch.ms());

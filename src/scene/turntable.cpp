@@ -92,8 +92,7 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
   double distance = 0;
   for (std::size_t i = 0; i < kSlices; ++i) {
     for (const double y : {outline.begin(i), outline.begin(i + 1)}) {
-      distance =
-          std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
+      distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
     }
   }
   turntable.pivot = view.center;

@@ -48,9 +48,15 @@ for program in "$@"; do
       test "$(completed "$name" render --mode '')" = "packets reference"
       test "$(completed "$name" render --sky s)" = studio
       test "$(completed "$name" render --spp 1)" = ""
+      test "$(completed "$name" render --channels de)" = depth
+      test "$(completed "$name" render --channels depth,no)" = depth,normal
+      test "$(completed "$name" render --disable shadows,mi)" = shadows,mirror
     fi
   done
-  if [ -n "$commands" ]; then test "$(completed "$name" ren)" = render; fi
+  if [ -n "$commands" ]; then
+    test "$(completed "$name" ren)" = render
+    test "$(completed "$name" turn)" = turntable
+  fi
   echo "$name: $count options"
 done
 echo "completions: $# passed"

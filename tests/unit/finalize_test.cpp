@@ -99,7 +99,7 @@ TEST(Finalize, CamerasOfTheSceneComeFirst) {
 TEST(Finalize, MemoryIsCounted) {
   SceneDescription d = sceneOf(square());
   d.textures.push_back(whiteTexture(TexelFormat::data));
-  EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 4u);
+  EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 4 + 12u);
 }
 
 }  // namespace

@@ -1,0 +1,188 @@
+// --channels as users run it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/image_file.h"
+#include "io/image_layers.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string kAll = "depth,position,normal,albedo,uv,object,material,triangle,rays";
+
+void expectDone(const std::vector<std::string>& words) {
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+// Nothing is written.
+void expectRefused(int status, const std::string& why, const std::vector<std::string>& words,
+                   const TemporaryFolder& folder) {
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+  };
+  const auto before = count();
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  EXPECT_EQ(count(), before);
+}
+
+std::string textOf(const std::string& path, const std::string& name) {
+  for (const auto& [key, text] : readExrMetadata(path)) {
+    if (key == name) return text;
+  }
+  return "";
+}
+
+TEST(Channels, AreBesideThePicture) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder), exr = folder / "a.exr";
+  expectDone({"render", scene, "-o", exr, "-o", folder / "a.png", "-o", folder / "a.depth.png",
+              "-o", folder / "normal.png", "--channels", kAll, "--quiet"});
+  expectDone({"render", scene, "-o", folder / "plain.exr", "-o", folder / "plain.png", "--quiet"});
+  EXPECT_EQ(readLayers(exr, ImageLimits()).size(), 17u);
+  EXPECT_TRUE(readLayers(folder / "plain.exr", ImageLimits()).empty());
+  EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "plain.png"));
+  EXPECT_NE(readFile(folder / "a.depth.png"), readFile(folder / "plain.png"));
+  EXPECT_EQ(textOf(exr, "channels"), kAll);
+  EXPECT_EQ(Json::parse(textOf(exr, "whit:objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
+  const Json materials = Json::parse(textOf(exr, "whit:materials"));
+  const Outcome info = runWhit({"info", scene, "--json", "-"});
+  const Json said = Json::parse(info.out);
+  EXPECT_EQ(said["objects"], 2);
+  EXPECT_EQ(said["object_names"], (Json{"/scene/0", "/scene/1"}));
+  ASSERT_EQ(said["material_names"].size(), materials.size());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    EXPECT_EQ(said["material_names"][i], materials[std::to_string(i)]);
+  }
+}
+
+TEST(Channels, WhatCannotBeIsSaid) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  const auto refuse = [&](int status, const std::string& why, const std::string& output,
+                          const std::string& channels, const std::string& exr = "zip") {
+    expectRefused(
+        status, why,
+        {"render", scene, "-o", folder / output, "--channels", channels, "--exr", exr, "--quiet"},
+        folder);
+  };
+  refuse(2, "nearest: 'depth'", "a.exr", "deth");
+  refuse(2, "expected an EXR to keep them in", "a.png", "depth");
+  refuse(2, "positions do not fit into a PNG", "a.position.png", "position");
+  refuse(2, "dwaa is lossy for channels", "a.exr", "depth", "dwaa");
+  refuse(4, "there is no folder", "none/a.exr", "depth");
+  // A depth beyond what 16 bits hold.
+  expectRefused(5, "does not fit into 16 bits",
+                {"render", scene, "-o", folder / "a.depth.png", "--channels", "depth", "--eye",
+                 "0,100,0", "--at", "0,0,0.1", "--quiet"},
+                folder);
+}
+
+TEST(Channels, OfCropsAreMerged) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  const auto part = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", scene,   "-o", folder / name, "--channels",
+                                   kAll,     "--spp", "2",  "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    expectDone(words);
+  };
+  part("whole.exr", {});
+  part("left.exr", {"--crop", "0,0,20,32"});
+  part("right.exr", {"--crop", "20,0,48,32"});
+  expectDone({"merge", folder / "merged.exr", folder / "left.exr", folder / "right.exr"});
+  EXPECT_EQ(textOf(folder / "merged.exr", "whit:objects"),
+            textOf(folder / "whole.exr", "whit:objects"));
+  const Outcome compared = runWhit(
+      {"compare", folder / "merged.exr", folder / "whole.exr", "--tolerance", "0", "--json", "-"});
+  EXPECT_EQ(compared.status, 0) << compared.err;
+  const Json channels = Json::parse(compared.out)["channels"];
+  ASSERT_EQ(channels.size(), 17u);
+  for (const Json& c : channels) EXPECT_EQ(c["pixels_differing"], 0) << c;
+  expectDone({"render", scene, "-o", folder / "bare.exr", "--crop", "0,0,20,32", "--quiet"});
+  expectRefused(2, "bare.exr: lacks the channel",
+                {"merge", folder / "m.exr", folder / "bare.exr", folder / "right.exr"}, folder);
+}
+
+TEST(Channels, AreComparedExactly) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  expectDone({"render", scene, "-o", folder / "a.exr", "--channels", "depth,object", "--quiet"});
+  expectDone({"render", scene, "-o", folder / "b.exr", "--channels", "depth,object,normal", "--set",
+              "/scene/1/transform/translate=[0,1,0.5]", "--quiet"});
+  const Outcome outcome =
+      runWhit({"compare", folder / "a.exr", folder / "b.exr", "--json", folder / "c.json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("object.id"), std::string::npos);
+  const Json channels = Json::parse(readFile(folder / "c.json"))["channels"];
+  ASSERT_EQ(channels.size(), 3u);  // those that both have
+  Warnings warnings;
+  const auto a = readLayers(folder / "a.exr", ImageLimits());
+  const auto b = readLayers(folder / "b.exr", ImageLimits());
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < a[2].numbers.size(); ++i) {
+    differing += a[2].numbers[i] != b[5].numbers[i];
+  }
+  EXPECT_GT(differing, 0u);
+  EXPECT_EQ(channels[2]["channel"], "object.id");
+  EXPECT_EQ(channels[2]["pixels_differing"], differing);
+  EXPECT_FALSE(channels[2].contains("max"));
+  // The ball is half a unit nearer.
+  EXPECT_EQ(channels[0]["channel"], "depth.Z");
+  EXPECT_GT(channels[0]["max"], 0.3);
+  EXPECT_GT(channels[0]["rms"], 0.0);
+  expectRefused(2, "--channels needs a scene",
+                {"compare", folder / "a.exr", folder / "b.exr", "--channels", "depth"}, folder);
+}
+
+TEST(Channels, OfBothModesAreCompared) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      runWhit({"compare", writeTinyScene(folder), "--channels", "depth,object", "--json", "-"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Json channels = Json::parse(outcome.out)["channels"];
+  ASSERT_EQ(channels.size(), 3u);
+  EXPECT_LT(channels[0]["max"], 1e-4);
+  EXPECT_EQ(channels[2]["pixels_differing"], 0);
+}
+
+TEST(Channels, OfFramesAreThoseOfEachAlone) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  const auto film = [&](const std::string& name, const std::string& frames) {
+    expectDone({"render", scene, "-o", folder / (name + "#.exr"), "-o",
+                folder / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
+                kAll, "--quiet"});
+  };
+  film("film", "0..3");
+  film("alone", "2");
+  EXPECT_EQ(readFile(folder / "film2.exr"), readFile(folder / "alone2.exr"));
+  EXPECT_EQ(readFile(folder / "film.depth-2.png"), readFile(folder / "alone.depth-2.png"));
+  EXPECT_NE(readFile(folder / "film.depth-2.png"), readFile(folder / "film.depth-1.png"));
+}
+
+TEST(Channels, ResumingAsksForTheSameOnes) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  const auto kept = [&](const std::string& channels) {
+    const Outcome outcome =
+        runWhit({"render", scene, "-o", folder / "a.exr", "-o", folder / "a.depth.png", "--resume",
+                 "--channels", channels, "--json", "-"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out)["kept"].get<int>();
+  };
+  EXPECT_EQ(kept("depth"), 0);
+  EXPECT_EQ(kept("depth"), 1);
+  EXPECT_EQ(kept("depth,object"), 0);
+  EXPECT_EQ(kept("depth,object"), 1);
+}
+
+}  // namespace
+}  // namespace whit::cli

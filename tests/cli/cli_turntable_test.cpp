@@ -1,0 +1,194 @@
+// whit turntable as users run it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/film_pipe.h"
+#include "core/option_values.h"
+#include "io/image_file.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// A program of this name that is found before all others.
+void writeProgram(const TemporaryFolder& folder, const std::string& text) {
+  std::ofstream(folder / "ffmpeg") << "#!/bin/sh\n" << text << "\n";
+  fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
+}
+
+Outcome turn(const std::string& scene, const std::vector<std::string>& more,
+             const std::string& path = "") {
+  std::vector<std::string> words{"turntable", scene, "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  return runWhit(words, [&] {
+    if (!path.empty()) setenv("PATH", path.c_str(), 1);
+  });
+}
+
+std::string cubeObj(const TemporaryFolder& folder) {
+  std::ofstream(folder / "cube.obj")
+      << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+  return folder / "cube.obj";
+}
+
+std::vector<std::string> namesIn(const TemporaryFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
+  const TemporaryFolder folder;
+  const std::string cube = cubeObj(folder);
+  const Outcome all = turn(cube, {"-o", folder / "all-##.exr", "--frames", "5", "--size", "48x32"});
+  ASSERT_EQ(all.status, 0) << all.err;
+  const Outcome one = turn(cube, {"-o", folder / "one-##.exr", "--frames", "5", "--size", "48x32",
+                                  "--range", "3", "--threads", "1"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(readFile(folder / "all-03.exr"), readFile(folder / "one-03.exr"));
+  EXPECT_NE(readFile(folder / "all-03.exr"), readFile(folder / "all-02.exr"));
+  EXPECT_FALSE(fs::exists(folder / "one-02.exr"));
+}
+
+// A cube looks the same after a quarter of a turn, but for the light.
+TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(
+      turn(cubeObj(folder), {"-o", folder / "f#.exr", "--frames", "4", "--size", "48x48"}).status,
+      0);
+  const auto eye = [&](int k) {
+    const std::string file = folder / ("f" + std::to_string(k) + ".exr");
+    for (const auto& [name, text] : readExrMetadata(file)) {
+      Vec3f v;
+      if (name == "eye") parseValue(OptionSpec{}, text, v);
+      if (name == "eye") return v;
+    }
+    return Vec3f();
+  };
+  const Vec3f first = eye(0);
+  EXPECT_GT(length(Vec3d(first)), 2);
+  EXPECT_NEAR(eye(1).x, first.z, 1e-5);
+  EXPECT_NEAR(eye(1).z, -first.x, 1e-5);
+  EXPECT_NEAR(eye(2).x, -first.x, 1e-5);
+  EXPECT_NEAR(eye(3).x, -first.z, 1e-5);
+  EXPECT_EQ(eye(2).y, first.y);
+}
+
+TEST(TurntableCommand, WithoutFfmpegThereArePicturesAndTheCommand) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      turn(cubeObj(folder),
+           {"-o", folder / "film.mp4", "--frames", "3", "--size", "32x20", "--fps", "12"},
+           "/nonexistent");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("ffmpeg is not in $PATH"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, filmCommand(folder / "film-%04d.png", 12, folder / "film.mp4") + "\n");
+  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj", "film-0000.png", "film-0001.png",
+                                                       "film-0002.png"}));
+}
+
+TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
+  const TemporaryFolder folder, programs;
+  const std::string cube = cubeObj(folder);
+  const auto expectFailure = [&](const std::string& program, const std::string& said) {
+    writeProgram(programs, program);
+    const Outcome outcome =
+        turn(cube, {"-o", folder / "film.mp4", "--frames", "40", "--size", "320x200"},
+             programs.path().string() + ":/usr/bin:/bin");
+    EXPECT_EQ(outcome.status, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  };
+  expectFailure("echo no such codec >&2; exit 1", "no such codec");  // at once
+  expectFailure("cat >/dev/null; echo the disk is full >&2; exit 3", "the disk is full");
+  expectFailure("kill -9 $$", "ffmpeg has");
+}
+
+TEST(TurntableCommand, AnInterruptionLeavesNothing) {
+  const TemporaryFolder folder, programs, output;
+  writeProgram(programs, "cat >/dev/null");
+  const std::string cube = cubeObj(folder);
+  const pid_t child =
+      startWhit({"turntable", cube, "-o", folder / "film.mp4", "--frames", "100000", "--size",
+                 "64x40", "--quiet"},
+                output, [&] { setenv("PATH", (programs.path().string() + ":/bin").c_str(), 1); });
+  ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));  // the temporary file
+  kill(child, SIGTERM);
+  EXPECT_EQ(waitFor(child), 130);
+  EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+}
+
+TEST(TurntableCommand, WrongUsageIsSaid) {
+  const TemporaryFolder folder;
+  const std::string cube = cubeObj(folder);
+  const auto refuse = [&](int status, const std::string& why,
+                          const std::vector<std::string>& words) {
+    const Outcome outcome = turn(cube, words);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
+  };
+  refuse(2, "expected a film or pictures", {});
+  refuse(2, "ends in .mp4 or .png or .exr", {"-o", folder / "a.gif"});
+  refuse(2, "####", {"-o", folder / "a.png"});
+  refuse(2, "even numbers", {"-o", folder / "a.mp4", "--size", "31x20"});
+  refuse(2, "--range", {"-o", folder / "a#.png", "--frames", "4", "--range", "2..4"});
+  refuse(2, "--range makes pictures", {"-o", folder / "a.mp4", "--range", "2"});
+  refuse(4, "there is no folder", {"-o", folder / "none/a.mp4"});
+  EXPECT_EQ(turn(folder / "none.glb", {"-o", folder / "a.mp4"}).status, 4);
+}
+
+TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2", "--seconds", "0.5",
+                                    "--fps", "4", "--camera", "side", "--json", "-"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["frames"], 2);
+  EXPECT_EQ(json["size"], (Json{48, 32}));
+  EXPECT_EQ(json["files"].size(), 2u);
+  for (const auto& [name, text] : readExrMetadata(folder / "a1.exr")) {
+    if (name != "eye") continue;
+    Vec3f v;
+    parseValue(OptionSpec{}, text, v);
+    EXPECT_NEAR(v.x, -6, 1e-5);
+    EXPECT_NEAR(v.y, 2, 1e-6);
+  }
+}
+
+// With ffmpeg, and a model of the real world.
+TEST(TurntableCommand, TheHelmetIsAFilm) {
+  const char* const data = std::getenv("WHIT_DATA");
+  const std::string helmet = std::string(data ? data : "") + "/gltf/FlightHelmet/FlightHelmet.gltf";
+  if (!fs::exists(helmet)) GTEST_SKIP() << "no FlightHelmet in $WHIT_DATA: NOT checked";
+  if (!findProgram("ffmpeg") || !findProgram("ffprobe")) {
+    GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";
+  }
+  const TemporaryFolder folder;
+  const std::string film = folder / "helmet.mp4";
+  const Outcome outcome = turn(helmet, {"-o", film, "--size", "160x120"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string said = folder / "said";
+  const std::string probe =
+      "ffprobe -v error -show_entries stream=width,height,nb_frames,duration "
+      "-of json '" +
+      film + "' > '" + said + "'";
+  ASSERT_EQ(std::system(probe.c_str()), 0);
+  const Json stream = Json::parse(readFile(said))["streams"][0];
+  EXPECT_EQ(stream["width"], 160);
+  EXPECT_EQ(stream["height"], 120);
+  EXPECT_EQ(stream["nb_frames"], "96");
+  EXPECT_EQ(std::stod(stream["duration"].get<std::string>()), 4.0);
+}
+
+}  // namespace
+}  // namespace whit::cli

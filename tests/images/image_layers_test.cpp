@@ -1,0 +1,192 @@
+#include "io/image_layers.h"
+
+#include <png.h>
+
+#include <cmath>
+#include <limits>
+
+#include "image_samples.h"
+#include "io/merge_images.h"
+
+namespace whit {
+namespace {
+
+// Of each pixel of a 4x3 picture: values that half floats and 16 bits would not hold.
+ChannelLayers sampleChannels() {
+  ChannelLayers layers;
+  layers.resize(parseChannels("depth,position,normal,albedo,uv,object,material,triangle,rays"), 12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const auto x = static_cast<float>(i);
+    ChannelValues v;
+    v.z = 1.0f / 3 + x, v.distance = 1e-7f * x;
+    v.position = {x, -x, 70001.25f}, v.normal = {0, x / 12, -1}, v.albedo = {0.1f, x / 12, 1};
+    v.uv = {x, 0.5f};
+    v.object = 0xfffffff0u + static_cast<std::uint32_t>(i), v.material = 3, v.triangle = 1u << 24;
+    layers.keep(i, i == 5 ? ChannelValues() : v);
+    layers.numbers(Channel::rays)[i] = static_cast<std::uint32_t>(i);
+  }
+  return layers;
+}
+
+class ImageLayers : public ImageTest {
+ protected:
+  std::string write(const std::string& name, const ChannelLayers& layers,
+                    ExrStorage storage = ExrStorage::zip, const Crop& window = {0, 0, 4, 3}) {
+    writeExr(path(name), Image(4, 3, window), {}, storage, 1, viewsOf(layers));
+    return path(name);
+  }
+};
+
+TEST_F(ImageLayers, KeepEveryBit) {
+  const ChannelLayers layers = sampleChannels();
+  const std::vector<ImageLayer> wanted = layersOf(layers);
+  for (const ExrStorage storage : {ExrStorage::zip, ExrStorage::none, ExrStorage::half}) {
+    const std::vector<ImageLayer> found = readLayers(write("a.exr", layers, storage), limits_);
+    ASSERT_EQ(found.size(), 17u);
+    for (const ImageLayer& layer : found) {
+      const auto same = std::find_if(wanted.begin(), wanted.end(),
+                                     [&](const ImageLayer& w) { return w.name == layer.name; });
+      ASSERT_NE(same, wanted.end()) << layer.name;
+      EXPECT_EQ(layer.floats, same->floats) << layer.name;
+      EXPECT_EQ(layer.numbers, same->numbers) << layer.name;
+    }
+  }
+  EXPECT_EQ(statusOf([&] { write("b.exr", layers, ExrStorage::dwaa); }), ExitStatus::usage);
+}
+
+TEST_F(ImageLayers, AreInTheOrderOfTheirNames) {
+  std::string names;
+  for (const ImageLayer& l : readLayers(write("a.exr", sampleChannels()), limits_)) {
+    names += l.name + (l.countsThings ? "! " : " ");
+  }
+  EXPECT_EQ(names,
+            "albedo.B albedo.G albedo.R depth.Z depth.distance material.id! normal.X normal.Y "
+            "normal.Z object.id! position.X position.Y position.Z rays.count! triangle.id! uv.U "
+            "uv.V ");
+}
+
+TEST_F(ImageLayers, ColorsAreNone) {
+  writeExr(path("a.exr"), Image(4, 3), {});
+  EXPECT_TRUE(readLayers(path("a.exr"), limits_).empty());
+}
+
+TEST_F(ImageLayers, PartsAreMerged) {
+  const ChannelLayers whole = sampleChannels();
+  const auto part = [&](const std::string& name, const Crop& window) {
+    const auto width = static_cast<std::size_t>(window.x1 - window.x0);
+    ChannelLayers layers;
+    layers.resize(whole.channels(), width * 3);
+    for (std::size_t y = 0; y < 3; ++y) {
+      layers.copy(whole, y * 4 + static_cast<std::size_t>(window.x0), width, y * width);
+    }
+    return write(name, layers, ExrStorage::zip, window);
+  };
+  const std::string left = part("l.exr", {0, 0, 3, 3}), right = part("r.exr", {2, 0, 4, 3});
+  const MergedImage merged = mergeImages({left, right}, limits_, warnings_);
+  EXPECT_TRUE(warnings_.entries().empty());
+  writeExr(path("m.exr"), merged.image, {}, ExrStorage::zip, 1, viewsOf(merged.layers));
+  const std::vector<ImageLayer> found = readLayers(path("m.exr"), limits_);
+  const std::vector<ImageLayer> wanted = readLayers(write("w.exr", whole), limits_);
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_EQ(found[k].name, wanted[k].name);
+    EXPECT_EQ(found[k].floats, wanted[k].floats) << found[k].name;
+    EXPECT_EQ(found[k].numbers, wanted[k].numbers) << found[k].name;
+  }
+}
+
+TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
+  ChannelLayers less;
+  less.resize(parseChannels("depth"), 12);
+  const std::string all = write("a.exr", sampleChannels()), some = write("s.exr", less);
+  for (const auto& parts : {std::vector{all, some}, std::vector{some, all}}) {
+    try {
+      mergeImages(parts, limits_, warnings_);
+      ADD_FAILURE();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.status(), ExitStatus::usage);
+      EXPECT_NE(std::string(e.what()).find("s.exr: lacks the channel"), std::string::npos)
+          << e.what();
+    }
+  }
+}
+
+// As libpng reads it.
+std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_read_info(png, info);
+  EXPECT_EQ(png_get_bit_depth(png, info), 16);
+  channels = png_get_channels(png, info);
+  std::vector<std::uint16_t> values;
+  std::vector<std::uint8_t> row(png_get_rowbytes(png, info));
+  for (png_uint_32 y = 0; y < png_get_image_height(png, info); ++y) {
+    png_read_row(png, row.data(), nullptr);
+    for (std::size_t i = 0; i < row.size(); i += 2) {
+      values.push_back(static_cast<std::uint16_t>(row[i] << 8 | row[i + 1]));
+    }
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  std::fclose(file);
+  return values;
+}
+
+class ChannelPng : public ImageLayers {
+ protected:
+  // Of a 2x1 picture: something, and nothing.
+  std::vector<std::uint16_t> codes(Channel channel, const ChannelValues& values,
+                                   std::uint32_t rays = 1) {
+    ChannelLayers layers;
+    layers.resize(ChannelSet().with(channel), 2);
+    layers.keep(0, values);
+    layers.keep(1, {});
+    if (channel == Channel::rays) layers.numbers(channel)[0] = layers.numbers(channel)[1] = rays;
+    writeChannelPng(path("a.png"), Image(2, 1), layers, channel, {});
+    return readPng16(path("a.png"), components_);
+  }
+  int components_ = 0;
+};
+
+using Codes = std::vector<std::uint16_t>;
+
+TEST_F(ChannelPng, DepthIsInThousandthsOfAUnit) {
+  ChannelValues v;
+  v.z = 1.2344f, v.distance = 9;
+  EXPECT_EQ(codes(Channel::depth, v), (Codes{1234, 0}));
+  EXPECT_EQ(components_, 1);
+  v.z = 65.535f;
+  EXPECT_EQ(codes(Channel::depth, v), (Codes{65535, 0}));
+  v.z = 65.536f;
+  EXPECT_EQ(statusOf([&] { codes(Channel::depth, v); }), ExitStatus::limit);
+  v.z = -1;
+  EXPECT_EQ(statusOf([&] { codes(Channel::depth, v); }), ExitStatus::limit);
+}
+
+TEST_F(ChannelPng, VectorsAndColors) {
+  ChannelValues v;
+  v.normal = {1, -1, 0};
+  EXPECT_EQ(codes(Channel::normal, v), (Codes{65535, 0, 32768, 0, 0, 0}));
+  EXPECT_EQ(components_, 3);
+  v.albedo = {1, 0, 0.0031308f / 2};  // the linear part of sRGB
+  EXPECT_EQ(codes(Channel::albedo, v),
+            (Codes{65535, 0, static_cast<std::uint16_t>(std::lround(12.92 * 0.0015654 * 65535)), 0,
+                   0, 0}));
+  v.uv = {1.25f, -0.25f};
+  EXPECT_EQ(codes(Channel::uv, v), (Codes{16384, 49151, 0, 0, 0, 0}));
+  EXPECT_EQ(statusOf([&] { codes(Channel::position, v); }), ExitStatus::usage);
+}
+
+TEST_F(ChannelPng, NumbersAreWholeOrRefused) {
+  ChannelValues v;
+  v.object = 65534, v.material = 0, v.triangle = 65535;
+  EXPECT_EQ(codes(Channel::object, v), (Codes{65534, 65535}));
+  EXPECT_EQ(codes(Channel::material, v), (Codes{0, 65535}));
+  EXPECT_EQ(statusOf([&] { codes(Channel::triangle, v); }), ExitStatus::limit);
+  EXPECT_EQ(codes(Channel::rays, v, 65535), (Codes{65535, 65535}));
+  EXPECT_EQ(statusOf([&] { codes(Channel::rays, v, 65536); }), ExitStatus::limit);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,462 @@
+// Channels of scenes whose every pixel is known, by both ways to trace.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "sampling/sample_pattern.h"
+#include "scene/move_scene.h"
+#include "shipped_scene.h"
+#include "simd/deform_vertices.h"
+
+namespace whit::test {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+const std::string kAll = "depth,position,normal,albedo,uv,object,material,triangle,rays";
+
+RenderOptions channelOptions(const std::string& channels = kAll) {
+  RenderOptions o = smallOptions();
+  o.channels = parseChannels(channels);
+  return o;
+}
+
+Film filmOf(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  if (options.mode == Mode::reference) {
+    renderer.renderReference(camera, film);
+  } else {
+    renderer.render(camera, film);
+  }
+  return film;
+}
+
+// What is kept of pixel (x, y) of the whole image, as numbers of the channel.
+std::vector<float> floatsAt(const Film& film, Channel channel, int x, int y) {
+  const std::size_t n = infoOf(channel).components, first = n * film.image.index(x, y);
+  const std::span<const float> all = film.channels.floats(channel);
+  return {all.begin() + static_cast<std::ptrdiff_t>(first),
+          all.begin() + static_cast<std::ptrdiff_t>(first + n)};
+}
+std::uint32_t numberAt(const Film& film, Channel channel, int x, int y) {
+  return film.channels.numbers(channel)[film.image.index(x, y)];
+}
+
+// The ray through a place of the picture, in closed form: of a camera at the eye that looks along
+// -z.
+struct ViewRay {
+  Vec3d origin, direction;
+  ViewRay(const Camera& camera, const Image& image, double x, double y) : origin(camera.eye) {
+    const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
+    const double right = (2 * x / image.width - 1) * half * image.width / image.height;
+    direction = normalized(Vec3d{right, (1 - 2 * y / image.height) * half, -1});
+  }
+  Vec3d at(double t) const { return origin + direction * t; }
+};
+
+// A few units in the last place of what goes into a position.
+constexpr double kNear = 2.0e-6;
+
+void expectNear(const std::vector<float>& found, const std::vector<double>& wanted, double bound) {
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], bound) << i;
+}
+
+// A square of side 4 in the plane z = 0, of the color (0.5, 0.25, 0.1), uv (0, 0) to (1, 1), seen
+// from z = 5; nothing around it, no light.
+SceneDescription squareScene() {
+  SceneDescription d;
+  d.name = "square";
+  d.materials.resize(2);
+  d.materials[1].diffuse = {0.5f, 0.25f, 0.1f};
+  Mesh mesh;
+  mesh.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.materials = {1};
+  d.objects.push_back({"square", {mesh}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.resize(1);  // at z = 5, looking along -z
+  d.cameras[0].fov = 60;
+  return d;
+}
+
+Scene finalized(SceneDescription d) {
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+SceneDescription loadText(const std::string& text) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                     ("whit-channels-" + std::to_string(getpid()) + ".json");
+  std::ofstream(path) << text;
+  Warnings warnings;
+  SceneDescription d = loadScene(path.string(), {}, warnings);
+  std::filesystem::remove(path);
+  return d;
+}
+
+class Channels : public testing::TestWithParam<Mode> {
+ protected:
+  static RenderOptions options(const std::string& channels = kAll) {
+    RenderOptions o = channelOptions(channels);
+    o.mode = GetParam();
+    return o;
+  }
+};
+
+TEST_P(Channels, OfASquareAreItsOwn) {
+  const Scene scene = finalized(squareScene());
+  const Film film = filmOf(scene, options());
+  int met = 0;
+  for (int y = 0; y < film.image.height; ++y) {
+    for (int x = 0; x < film.image.width; ++x) {
+      const ViewRay ray(scene.cameras[0], film.image, x + 0.5, y + 0.5);
+      const double t = -5 / ray.direction.z;
+      const Vec3d p = ray.at(t);
+      if (std::max(std::abs(p.x), std::abs(p.y)) > 2) continue;
+      ++met;
+      expectNear(floatsAt(film, Channel::depth, x, y), {5, t}, kNear);
+      expectNear(floatsAt(film, Channel::position, x, y), {p.x, p.y, 0}, kNear);
+      expectNear(floatsAt(film, Channel::normal, x, y), {0, 0, 1}, 0);
+      expectNear(floatsAt(film, Channel::albedo, x, y), {0.5, 0.25, 0.1f}, 0);
+      expectNear(floatsAt(film, Channel::uv, x, y), {(p.x + 2) / 4, (p.y + 2) / 4}, kNear);
+      EXPECT_EQ(numberAt(film, Channel::object, x, y), 0u);
+      EXPECT_EQ(numberAt(film, Channel::material, x, y), 1u);
+      if (std::abs(p.x - p.y) > kNear) {
+        EXPECT_EQ(numberAt(film, Channel::triangle, x, y), p.x > p.y ? 0u : 1u);
+      }
+      EXPECT_EQ(numberAt(film, Channel::rays, x, y), 1u);  // there is no light
+    }
+  }
+  EXPECT_GT(met, 500);
+}
+
+TEST_P(Channels, WhereNothingIsMetSayItIsNot) {
+  const Scene scene = finalized(squareScene());
+  const Film film = filmOf(scene, options());
+  expectNear(floatsAt(film, Channel::position, 0, 0), {0, 0, 0}, 0);
+  expectNear(floatsAt(film, Channel::normal, 0, 0), {0, 0, 0}, 0);
+  expectNear(floatsAt(film, Channel::albedo, 0, 0), {0, 0, 0}, 0);
+  expectNear(floatsAt(film, Channel::uv, 0, 0), {0, 0}, 0);
+  EXPECT_EQ(floatsAt(film, Channel::depth, 0, 0), (std::vector<float>{kNothing, kNothing}));
+  for (const Channel c : {Channel::object, Channel::material, Channel::triangle}) {
+    EXPECT_EQ(numberAt(film, c, 0, 0), kNoNumber);
+  }
+  EXPECT_EQ(numberAt(film, Channel::rays, 0, 0), 1u);
+}
+
+// Along parallel rays both depths are one.
+TEST_P(Channels, OfParallelRaysHaveOneDepth) {
+  SceneDescription d = squareScene();
+  d.cameras[0].orthographicHeight = 3;
+  const Film film = filmOf(finalized(std::move(d)), options("depth"));
+  expectNear(floatsAt(film, Channel::depth, 53, 33), {5, 5}, 0);
+}
+
+// A unit sphere about the origin, exact and seen from z = 5: the nearer root of a quadratic.
+TEST_P(Channels, OfASphereAreItsOwn) {
+  SceneDescription d = squareScene();
+  d.objects[0].meshes[0] = {};
+  d.objects[0].meshes[0].spheres = {Affine()};
+  d.objects[0].meshes[0].materials = {1};
+  const Scene scene = finalized(std::move(d));
+  const Film film = filmOf(scene, options());
+  int met = 0;
+  for (int y = 0; y < film.image.height; ++y) {
+    for (int x = 0; x < film.image.width; ++x) {
+      const ViewRay ray(scene.cameras[0], film.image, x + 0.5, y + 0.5);
+      const double b = dot(ray.origin, ray.direction), inside = b * b - 24;
+      if (inside < 0.01) continue;  // not where the sphere is grazed
+      ++met;
+      const double t = -b - std::sqrt(inside);
+      const Vec3d p = ray.at(t);
+      constexpr double kGrazing = 2.0e-5;  // the root's error, ten times at most
+      expectNear(floatsAt(film, Channel::depth, x, y), {-t * ray.direction.z, t}, kGrazing);
+      expectNear(floatsAt(film, Channel::position, x, y), {p.x, p.y, p.z}, kGrazing);
+      expectNear(floatsAt(film, Channel::normal, x, y), {p.x, p.y, p.z}, kGrazing);
+      EXPECT_EQ(numberAt(film, Channel::object, x, y), 0u);
+      EXPECT_EQ(numberAt(film, Channel::triangle, x, y), 0u);
+      const std::vector<float> uv = floatsAt(film, Channel::uv, x, y);
+      EXPECT_NEAR(uv[1], 0.5 + std::asin(p.y) / 3.14159265358979323846, 1e-4);
+      EXPECT_NEAR(std::cos(2 * 3.14159265358979323846 * double{uv[0]}), p.x / std::hypot(p.x, p.z),
+                  1e-4);
+    }
+  }
+  EXPECT_GT(met, 100);
+}
+
+// Three boxes of known depth, of which two are one object that is placed twice.
+TEST_P(Channels, NumbersTellThingsApart) {
+  const std::string text = R"({"whit": 1, "size": [107, 67],
+    "cameras": {"main": {"eye": [0, 0, 9], "at": [0, 0, 0], "fov": 40}},
+    "materials": {"a": {"diffuse": 0.2}, "b": {"diffuse": 0.4}, "c": {"diffuse": 0.6}},
+    "objects": {"pair": [{"shape": "box", "size": [1, 1, 1], "material": "b"}]},
+    "scene": [{"shape": "box", "size": [1, 1, 1], "material": "a",
+               "transform": {"translate": [-2, 0, 0]}},
+              {"use": "pair"},
+              {"use": "pair", "transform": {"translate": [2, 0, 0.5]}},
+              {"shape": "quad", "width": 0.5, "depth": 0.5, "material": "c",
+               "transform": {"rotate": [1, 0, 0, 90], "translate": [0, 1, 0]}}]})";
+  const Scene scene = finalized(loadText(text));
+  const Film film = filmOf(scene, options());
+  // Columns of the middle row where the boxes' fronts are.
+  const auto column = [&](double x, double z) {
+    const double half = std::tan(20 * 3.14159265358979323846 / 180) * film.image.width /
+                        film.image.height * (9 - z);
+    return static_cast<int>((x / half + 1) / 2 * film.image.width);
+  };
+  const int row = film.image.height / 2;
+  const std::array<double, 3> places{-2, 0, 2}, fronts{0.5, 0.5, 1.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int x = column(places[i], fronts[i]);
+    EXPECT_EQ(numberAt(film, Channel::object, x, row), i);
+    EXPECT_NEAR(floatsAt(film, Channel::depth, x, row)[0], 9 - fronts[i], kNear);
+    const std::uint32_t material = numberAt(film, Channel::material, x, row);
+    EXPECT_EQ(scene.materials.at(material).name, i == 0 ? "a" : "b");
+    EXPECT_LT(numberAt(film, Channel::triangle, x, row), 12u);
+  }
+  const std::vector<std::string> names{"/scene/0", "/objects/pair/0", "/objects/pair/0",
+                                       "/scene/3"};
+  EXPECT_EQ(scene.items.names, names);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, Channels, testing::Values(Mode::packets, Mode::reference),
+                         [](const auto& info) {
+                           return info.param == Mode::packets ? "Packets" : "Reference";
+                         });
+
+void expectSame(const ChannelLayers& a, const ChannelLayers& b, const std::string& what) {
+  ASSERT_EQ(a.channels(), b.channels());
+  a.channels().forEach([&](Channel c) {
+    const bool same = infoOf(c).countsThings ? std::equal(a.numbers(c).begin(), a.numbers(c).end(),
+                                                          b.numbers(c).begin(), b.numbers(c).end())
+                                             : std::memcmp(a.floats(c).data(), b.floats(c).data(),
+                                                           a.floats(c).size_bytes()) == 0;
+    EXPECT_TRUE(same) << infoOf(c).name << ": " << what;
+  });
+}
+
+TEST(ChannelLaws, BitsDependOnNothingAround) {
+  for (const std::string& name : smallScenes()) {
+    const Scene scene = load(name);
+    RenderOptions o = channelOptions();
+    o.spp = 3;
+    const ChannelLayers whole = filmOf(scene, o).channels;
+    const auto expectAs = [&](const std::string& what, const auto& change) {
+      RenderOptions other = o;
+      change(other);
+      expectSame(whole, filmOf(scene, other).channels, name + ", " + what);
+    };
+    expectAs("threads", [](RenderOptions& x) { x.threads = 3; });
+    expectAs("tile", [](RenderOptions& x) { x.tile = 7; });
+    expectAs("queue", [](RenderOptions& x) { x.queue = 48; });
+    expectAs("batch", [](RenderOptions& x) { x.batch = Batch::frame; });
+    expectAs("packet", [](RenderOptions& x) { x.packet = 1; });
+    expectAs("packet", [](RenderOptions& x) { x.packet = 4; });
+    expectAs("effects", [](RenderOptions& x) { x.effects = EffectChoice::all; });
+  }
+}
+
+TEST(ChannelLaws, ACropHasTheBitsOfTheWhole) {
+  const Scene scene = load("whitted");
+  for (const bool adaptive : {false, true}) {
+    RenderOptions o = channelOptions();
+    o.spp = 4;
+    o.adaptive = adaptive;
+    const Film whole = filmOf(scene, o);
+    o.crop = Crop{31, 20, 80, 51};
+    const Film part = filmOf(scene, o);
+    ChannelLayers same;
+    same.resize(o.channels, part.image.pixels.size());
+    for (int y = 20; y < 51; ++y) {
+      same.copy(whole.channels, whole.image.index(31, y), 49, part.image.index(31, y));
+    }
+    expectSame(same, part.channels, adaptive ? "adaptive" : "all samples");
+  }
+}
+
+TEST(ChannelLaws, ThePictureIsTheSameWithThem) {
+  for (const std::string& name : smallScenes()) {
+    const Scene scene = load(name);
+    RenderOptions o = smallOptions();
+    const Image plain = render(scene, o).image;
+    o.channels = parseChannels(kAll);
+    EXPECT_EQ(firstDifference(plain, render(scene, o).image), "") << name;
+  }
+}
+
+// Never averaged: where the square ends, each pixel has the depth of the one or of nothing, and of
+// the sample that is nearest to its center.
+TEST(ChannelLaws, AreThoseOfOneSample) {
+  const Scene scene = finalized(squareScene());
+  for (const int spp : {1, 2, 3, 4, 5, 16}) {
+    RenderOptions o = channelOptions("depth,position");
+    o.spp = spp;
+    const std::vector<Vec2f> samples = samplePattern(spp);
+    double best = 1;
+    Vec2f nearest;
+    for (const Vec2f& s : samples) {
+      const double away = std::hypot(double{s.x} - 0.5, double{s.y} - 0.5);
+      if (away < best) best = away, nearest = s;
+    }
+    const Film film = filmOf(scene, o);
+    for (int y = 0; y < film.image.height; ++y) {
+      for (int x = 0; x < film.image.width; ++x) {
+        const float z = floatsAt(film, Channel::depth, x, y)[0];
+        if (z == kNothing) continue;
+        const ViewRay ray(scene.cameras[0], film.image, x + double{nearest.x},
+                          y + double{nearest.y});
+        const Vec3d p = ray.at(-5 / ray.direction.z);
+        EXPECT_NEAR(z, 5, kNear);
+        expectNear(floatsAt(film, Channel::position, x, y), {p.x, p.y, 0}, kNear);
+      }
+    }
+  }
+}
+
+TEST(ChannelLaws, AdaptiveSamplingKeepsTheCenters) {
+  for (const std::string& name : smallScenes()) {
+    const Scene scene = load(name);
+    RenderOptions o = channelOptions();
+    const ChannelLayers centers = filmOf(scene, o).channels;
+    o.spp = 9;
+    o.adaptive = true;
+    expectSame(centers, filmOf(scene, o).channels, name);
+  }
+}
+
+// What both ways to trace keep, but where paths part by rounding.
+TEST(ChannelLaws, AgreeWithTheTwin) {
+  constexpr double kMostParted = 0.01;  // of the pixels, whose rays pass an edge or a cutoff
+  for (const std::string& name : smallScenes()) {
+    const Scene scene = load(name);
+    for (const bool adaptive : {false, true}) {
+      RenderOptions o = channelOptions();
+      o.spp = 3;
+      o.adaptive = adaptive;
+      const Film packets = filmOf(scene, o);
+      o.mode = Mode::reference;
+      const Film reference = filmOf(scene, o);
+      std::size_t parted = 0;
+      for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+        const auto same = [&](Channel c) {
+          return packets.channels.numbers(c)[i] == reference.channels.numbers(c)[i];
+        };
+        if (!same(Channel::object) || !same(Channel::triangle) || !same(Channel::rays)) {
+          ++parted;
+          continue;
+        }
+        EXPECT_TRUE(same(Channel::material));
+        const float z = packets.channels.floats(Channel::depth)[2 * i];
+        const float other = reference.channels.floats(Channel::depth)[2 * i];
+        if (z != kNothing) {
+          EXPECT_NEAR(z, other, 1e-4 * double{other}) << name;
+        }
+      }
+      EXPECT_LE(static_cast<double>(parted),
+                kMostParted * static_cast<double>(packets.image.pixels.size()))
+          << name;
+    }
+  }
+}
+
+// The sum over a picture is what the frame has traced.
+TEST(ChannelLaws, RaysAreAllThatWereTraced) {
+  for (const std::string& name : smallScenes()) {
+    const Scene scene = load(name);
+    const RenderOptions o = channelOptions("rays");
+    Renderer renderer(scene, o);
+    Film film = makeFilm(scene, o);
+    const FrameStats stats = renderer.render(chooseCamera(scene, o), film);
+    std::uint64_t kept = 0, traced = 0;
+    for (const std::uint32_t n : film.channels.numbers(Channel::rays)) kept += n;
+    for (const RayTally& tally : stats.meter.tally) traced += tally.rays;
+    EXPECT_EQ(kept, traced) << name;
+  }
+}
+
+TEST(ChannelLaws, PlansWithoutThemHaveNothingMore) {
+  const Scene scene = load("glass");
+  RenderOptions o = smallOptions();
+  const auto steps = [&] {
+    std::string names;
+    makePlan(scene, o).forEachStep([&](const Step& s) { names += s.name + " "; });
+    return names;
+  };
+  const std::string plain = steps();
+  EXPECT_EQ(plain.find("keep"), std::string::npos);
+  EXPECT_EQ(plain.find("Counts"), std::string::npos);
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), film);
+  EXPECT_EQ(film.channels.bytes(), 0u);
+  for (const TileTracer& tracer : renderer.scheduler().tracers()) {
+    EXPECT_EQ(tracer.bufferBytes().rayCounts, 0u);
+  }
+  o.channels = parseChannels("depth");
+  EXPECT_EQ(steps().find("countRays"), std::string::npos);
+  o.channels = parseChannels("rays");
+  EXPECT_NE(steps().find("countRays"), std::string::npos);
+}
+
+TEST(ChannelLaws, ARendererTakesOthersOver) {
+  const Scene scene = load("whitted");
+  RenderOptions o = channelOptions();
+  const ChannelLayers wanted = filmOf(scene, o).channels;
+  RenderOptions plain = smallOptions();
+  Renderer renderer(scene, plain);
+  Film film = makeFilm(scene, plain);
+  renderer.render(chooseCamera(scene, plain), film);
+  renderer.setOptions(o);
+  renderer.render(chooseCamera(scene, o), film);
+  expectSame(wanted, film.channels, "set later");
+}
+
+// What moves is instanced, what stands still is baked: numbers and names are the same.
+TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
+  Warnings warnings;
+  LoadOptions moving;
+  moving.instant.plays = true;
+  const Scene still = Scene::finalize(loadScene("orrery", {}, warnings), warnings);
+  Scene moved = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
+  moveScene(moved, 0, simd::deformVertices);
+  EXPECT_EQ(still.items.names, moved.items.names);
+  const RenderOptions o = channelOptions("object,material,triangle");
+  const Film a = filmOf(still, o), b = filmOf(moved, o);
+  for (const Channel c : {Channel::object, Channel::material, Channel::triangle}) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.channels.pixels(); ++i) {
+      differing += a.channels.numbers(c)[i] != b.channels.numbers(c)[i];
+    }
+    // Rays that pass an edge within rounding.
+    EXPECT_LE(differing, a.channels.pixels() / 500) << infoOf(c).name;
+  }
+}
+
+TEST(ChannelLaws, MovedThingsKeepTheirNumbers) {
+  Warnings warnings;
+  LoadOptions moving;
+  moving.instant.plays = true;
+  Scene scene = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
+  const RenderOptions o = channelOptions("object,position");
+  moveScene(scene, 3, simd::deformVertices);
+  const Film fresh = filmOf(scene, o);
+  moveScene(scene, 0, simd::deformVertices);
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), film);
+  moveScene(scene, 3, simd::deformVertices);
+  renderer.sceneMoved();
+  renderer.render(chooseCamera(scene, o), film);
+  expectSame(fresh.channels, film.channels, "at 3 s");
+}
+
+}  // namespace
+}  // namespace whit::test
