@@ -71,4 +71,5 @@ for program in whit whit-view; do
 done
 within dpkg --purge whit >/dev/null
 within test ! -e /usr/bin/whit
+within test ! -e /usr/lib/python3/dist-packages/whit
 echo "package: installed, used and removed in a clean $VERSION_CODENAME"

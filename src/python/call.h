@@ -31,37 +31,47 @@ namespace py = pybind11;
 }
 
 // Calls that are under way, which the end of the interpreter waits for: a thread that comes back to
-// Python after that is lost in the middle of C++.
+// Python after that is torn out of the middle of C++, which ends the process by a signal.
 class Calls {
  public:
-  // One that is under way while it lives.
+  // One that is under way while it lives. Made with the GIL.
   class Entry {
    public:
     Entry() {
-      constexpr int kInterrupted = 130;
+      if (depth++ > 0) return;
+      if (ending && std::this_thread::get_id() != ender) waitForTheEnd();
       ++underWay;
-      if (!ending) return;
-      --underWay;
-      raise(api::Error(kInterrupted, "Python ends"));
     }
-    ~Entry() { --underWay; }
+    ~Entry() {
+      if (--depth == 0) --underWay;
+    }
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;
   };
 
-  static bool areEnding() { return ending; }
+  // Whether the work of this thread is to end.
+  static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
   // Ends them all, as far as they tell of their progress; `atexit` calls it.
   static void end() {
     constexpr std::chrono::milliseconds kStep{1};
     constexpr int kSteps = 10000;
+    ender = std::this_thread::get_id();
     ending = true;
     const py::gil_scoped_release noGil;
     for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
   }
 
  private:
+  // Only threads that nobody waits for are there by then.
+  [[noreturn]] static void waitForTheEnd() {
+    const py::gil_scoped_release noGil;
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+
   static inline std::atomic<int> underWay{0};
   static inline std::atomic<bool> ending{false};
+  static inline std::thread::id ender;  // written before `ending`
+  static inline thread_local int depth = 0;
 };
 
 // Looks on at work of the thread that makes it: there, now and then, Python sees to signals and the

@@ -55,6 +55,7 @@ class Session {
 
    private:
     bool wait();
+    Calls::Entry entry_;
     Session& session_;
   };
   void takeOptions(const OptionTexts& options);

@@ -177,8 +177,8 @@ class Ends(unittest.TestCase):
         program = ("import threading, time, whit\n"
                    "def work():\n"
                    "    scene = whit.Scene('whitted')\n"
-                   "    while True: scene.render(size=(640, 400), spp=64)\n"
-                   "for _ in range(3): threading.Thread(target=work, daemon=True).start()\n"
+                   "    while True: scene.render(size=(64, 40), threads=1)\n"
+                   "for _ in range(8): threading.Thread(target=work, daemon=True).start()\n"
                    "time.sleep(0.3)\n")
         for _ in range(5):
             done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
