@@ -1,5 +1,7 @@
 // Which SIMD target the kernels run on.
 #include <cstdint>
+#include <mutex>
+#include <string>
 
 #include "hwy/targets.h"
 #include "simd/kernels.h"
@@ -80,14 +82,20 @@ std::string variantName(EffectSet variant) {
 }
 
 bool chooseTarget(const std::string& name) {
+  static std::mutex mutex;
+  static std::string chosen;
+  const std::lock_guard lock(mutex);
+  if (name == chosen) return true;  // others may be calling kernels
   const std::int64_t detected = detectedTargets();
   if (name == "auto") {
     use(0);
+    chosen = name;
     return true;
   }
   for (const TargetName& target : kTargetNames) {
     if (target.name == name && (detected & target.bit) != 0) {
       use(target.bit);
+      chosen = name;
       return true;
     }
   }

@@ -19,7 +19,7 @@ done
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_TESTS=OFF \
-  -DWHIT_WERROR=ON >"$work/log" ||
+  -DWHIT_WERROR=ON -DWHIT_PYTHON=ON >"$work/log" ||
   { cat "$work/log"; exit 1; }
 cmake --build "$build" --parallel "$(nproc)"
 (cd "$build" && cpack -G DEB -B "$work" >"$work/cpack.log") || { cat "$work/cpack.log"; exit 1; }
@@ -42,6 +42,21 @@ within whit render whitted --size 64x40 -o /tmp/there.exr --quiet
 "$build/whit" render whitted --size 64x40 -o "$work/here.exr" --quiet
 cmp "$work/here.exr" "$clean/tmp/there.exr"
 within whit --version
+
+# The module, of a model and with a shipped scene.
+within apt-get install -y -qq --no-install-recommends python3-numpy >"$work/numpy.log" 2>&1 ||
+  { tail -20 "$work/numpy.log"; exit 1; }
+printf 'v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 1 -1\nf 1 2 3\nf 1 3 4\n' >"$clean/tmp/sheet.obj"
+within python3 -c '
+import numpy, whit
+picture = whit.Scene("/tmp/sheet.obj").render(size=(64, 40))
+assert picture.rgb.shape == (40, 64, 3) and picture.rgb.dtype == numpy.float32, picture.rgb
+assert numpy.isfinite(picture.rgb).all() and picture.rgb.max() > 0.1, picture.rgb
+picture.write("/tmp/module-sheet.exr")
+whit.Scene("whitted").render(size=(64, 40)).write("/tmp/module.exr")'
+within whit render /tmp/sheet.obj --size 64x40 -o /tmp/sheet.exr --quiet
+within whit compare /tmp/module-sheet.exr /tmp/sheet.exr --tolerance 0 --quiet >/dev/null
+within whit compare /tmp/module.exr /tmp/there.exr --tolerance 0 --quiet >/dev/null
 within whit info atrium --quiet | grep triangles >/dev/null
 within test -s /usr/share/doc/whit/example/embed.cpp
 if [ -x "$build/whit-view" ]; then within test -s /usr/share/applications/whit-view.desktop; fi
@@ -56,4 +71,5 @@ for program in whit whit-view; do
 done
 within dpkg --purge whit >/dev/null
 within test ! -e /usr/bin/whit
+within test ! -e /usr/lib/python3/dist-packages/whit
 echo "package: installed, used and removed in a clean $VERSION_CODENAME"

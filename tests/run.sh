@@ -107,7 +107,7 @@ fuzzReaders() {
 # Tests that miss a program are left out.
 installTestPrograms() { scenes/install_packages.sh test || return 77; }
 
-groups=(build view)
+groups=(build view python)
 if $full; then groups+=(clean package check); fi
 if $deep; then groups+=(deep); fi
 step "packages" scenes/install_packages.sh "${groups[@]}"
@@ -142,7 +142,7 @@ fi
 # Last, so that the last line is that of the tests as they are shipped. Those of fresh systems are the
 # same: once is enough where time counts.
 if ! $full || $deep || [[ " ${leftOut[*]-} " == *" fresh systems "* ]]; then
-  step "release" buildAndTest release -DWHIT_WERROR=ON
+  step "release" buildAndTest release -DWHIT_WERROR=ON -DWHIT_PYTHON=ON
 fi
 
 if [ ${#leftOut[@]} -gt 0 ]; then

@@ -14,9 +14,16 @@ bool countMemory(void* user, ssize_t bytes, bool) {
   return true;
 }
 
+constexpr const char* kBuilding = "building the BVH";
+
+// False where whoever is told ends the work: nothing is thrown through Embree.
 bool reportBuild(void* user, double fraction) {
-  reportProgress(static_cast<Progress*>(user), "building the BVH", fraction);
-  return true;
+  try {
+    reportProgress(static_cast<Progress*>(user), kBuilding, fraction);
+    return true;
+  } catch (...) {
+    return false;
+  }
 }
 
 // Whether the ray of this lane meets the triangle from behind: where an instance is met, both are
@@ -248,11 +255,17 @@ void EmbreeScene::moveInstances(const Scene& scene) {
 void EmbreeScene::commit(RTCScene scene, Progress* progress) {
   rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
   rtcCommitScene(scene);
-  requireNoError("building the BVH");
+  const RTCError error = rtcGetDeviceError(device());
+  // Who has ended the work ends it again, where it can be thrown.
+  if (error == RTC_ERROR_CANCELLED) reportProgress(progress, kBuilding, 1);
+  requireNone(error, kBuilding);
 }
 
 void EmbreeScene::requireNoError(const char* doing) const {
-  const RTCError error = rtcGetDeviceError(device());
+  requireNone(rtcGetDeviceError(device()), doing);
+}
+
+void EmbreeScene::requireNone(RTCError error, const char* doing) {
   if (error == RTC_ERROR_NONE) return;
   const std::string what = std::string("Embree failed while ") + doing;
   if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");

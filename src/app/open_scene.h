@@ -10,7 +10,7 @@
 #include "app/parse_options.h"
 #include "core/warnings.h"
 #include "farm/farm.h"
-#include "render/renderer.h"
+#include "render/render_frame.h"
 #include "scene/scene.h"
 
 namespace whit::cli {
@@ -51,9 +51,5 @@ void quietUnlessLeading(const Farm& farm, CommonOptions& common);
 // One frame, shared with the other ranks if there are any.
 FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
                         const Camera& camera, Film& film, Progress* progress = nullptr);
-
-// One frame by the pipeline or by the reference.
-FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
-                       Progress* progress = nullptr);
 
 }  // namespace whit::cli

@@ -1,12 +1,62 @@
 #include "core/error.h"
 
+#include <algorithm>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 namespace whit {
 
+namespace {
+
+bool areDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Where the numbers of line and column begin that `where` ends with, their colon before them.
+std::size_t beginOfLine(std::string_view where) {
+  std::size_t begin = where.size();
+  for (std::size_t colon = where.rfind(':'); colon != std::string_view::npos && colon > 0;
+       colon = where.rfind(':', colon - 1)) {
+    if (!areDigits(where.substr(colon + 1, begin - colon - 1))) break;
+    begin = colon;
+  }
+  return begin;
+}
+
+// Errors of what has no file name the scene and the thing: "scene: light 'lamp'".
+ErrorPlace placeIn(const std::string& where) {
+  if (const std::size_t sign = where.rfind('#'); sign != std::string::npos) {
+    const std::string pointer = where.substr(sign + 1);
+    if (pointer.empty() || pointer[0] == '/') return {where.substr(0, sign), pointer, ""};
+  }
+  if (const std::size_t thing = where.rfind(": "); thing != std::string::npos) {
+    return {"", where.substr(thing + 2), ""};
+  }
+  const std::size_t line = beginOfLine(where);
+  return {where.substr(0, line), line < where.size() ? where.substr(line + 1) : "", ""};
+}
+
+// All messages say it like that.
+std::string expectedIn(const std::string& what) {
+  constexpr std::string_view kExpected = "expected ", kFound = ", found ";
+  if (!what.starts_with(kExpected)) return "";
+  const std::size_t end = std::min(what.rfind(kFound), what.size());
+  return what.substr(kExpected.size(), end - kExpected.size());
+}
+
+}  // namespace
+
+void throwBadScene(const std::string& where, const std::string& what) {
+  ErrorPlace place = placeIn(where);
+  place.expected = expectedIn(what);
+  throw Error(ExitStatus::badScene, where + ": " + what, std::move(place));
+}
+
 Failure failureOf(const std::exception& error) {
-  if (const auto* own = dynamic_cast<const Error*>(&error)) return {own->status(), own->what()};
+  if (const auto* own = dynamic_cast<const Error*>(&error)) {
+    return {own->status(), own->what(), own->place()};
+  }
   if (dynamic_cast<const std::bad_alloc*>(&error)) return {ExitStatus::limit, "out of memory"};
   const auto* system = dynamic_cast<const std::system_error*>(&error);
   if (system && system->code() == std::errc::resource_unavailable_try_again) {

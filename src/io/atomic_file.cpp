@@ -18,7 +18,7 @@ namespace whit {
 namespace {
 
 [[noreturn]] void throwCannotWrite(const std::string& path, int error) {
-  throwIo("cannot write '" + path + "': " + std::strerror(error));
+  throwIo(path, "cannot write '" + path + "': " + std::strerror(error));
 }
 
 // A symbolic link keeps pointing where it points; its target is what is replaced.

@@ -147,11 +147,11 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
       }
     }
     stream.close();
-    if (!stream) throwIo("cannot write '" + path + "': no space left, or the device failed");
+    if (!stream) throwIo(path, "cannot write '" + path + "': no space left, or the device failed");
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
-    throwIo("cannot write '" + path + "': " + e.what());
+    throwIo(path, "cannot write '" + path + "': " + e.what());
   }
   file.commit();
 }

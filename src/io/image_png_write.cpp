@@ -130,8 +130,8 @@ void writeTo(std::FILE* file, const std::string& what, const Rows& rows,
   png_destroy_write_struct(&writer.png, &writer.info);
   const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
   const bool closed = std::fclose(file) == 0;
-  if (!written) throwIo("cannot write '" + what + "': " + reason);
-  if (!closed) throwIo("cannot write '" + what + "': " + std::strerror(errno));
+  if (!written) throwIo(what, "cannot write '" + what + "': " + reason);
+  if (!closed) throwIo(what, "cannot write '" + what + "': " + std::strerror(errno));
 }
 
 void requirePixels(const std::string& what, const DisplayImage& image) {
@@ -144,7 +144,7 @@ void requirePixels(const std::string& what, const DisplayImage& image) {
 void writeFile(const std::string& path, const Rows& rows, const ImageMetadata& metadata) {
   AtomicFile target(path);
   std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
-  if (file == nullptr) throwIo("cannot write '" + path + "': " + std::strerror(errno));
+  if (file == nullptr) throwIo(path, "cannot write '" + path + "': " + std::strerror(errno));
   writeTo(file, path, rows, metadata);
   target.commit();
 }

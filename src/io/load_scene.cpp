@@ -128,17 +128,29 @@ void replaceSpheres(int segments, SceneContext& context) {
   }
 }
 
-SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
-                               const LoadOptions& options, Warnings& warnings, Progress* progress) {
-  JsonDocument document;
-  document.file = path.string();
-  const std::vector<SceneSetting> settings = parseSettings(options);
-  document.root = parseJson(readTextFile(path, kJsonBytesLimit), document.file);
-  for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
+// With the settings and parameters.
+JsonDocument documentOf(const std::string& name, Json root,
+                        const std::map<std::string, double>& parameters,
+                        const LoadOptions& options) {
+  JsonDocument document{name, std::move(root), {}};
+  for (const SceneSetting& setting : parseSettings(options)) applySceneSetting(setting, document);
   JsonObject file{JsonValue(document)};
   file.need("whit").integer(kSchemaVersion, kSchemaVersion);
-  readParameters(file, name.parameters, document);
-  SceneContext context(path, options, warnings, progress);
+  readParameters(file, parameters, document);
+  return document;
+}
+
+JsonDocument documentOf(const fs::path& path, const SceneName& name, const LoadOptions& options) {
+  parseSettings(options);  // what is said beside the file is judged before it
+  Json root = parseJson(readTextFile(path, kJsonBytesLimit), path.string());
+  return documentOf(path.string(), std::move(root), name.parameters, options);
+}
+
+SceneDescription readScene(const JsonDocument& document, const LoadOptions& options,
+                           SceneContext& context) {
+  JsonObject file{JsonValue(document)};
+  file.need("whit");
+  file.find("parameters");
   readCameras(file, options.instant, context.scene);
   readLights(file, options.instant, context.scene);
   readSky(file, context);
@@ -152,6 +164,13 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   finishTextures(context, fromSky);
   replaceSpheres(options.sphereSegments, context);
   return std::move(context.scene);
+}
+
+SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
+                               const LoadOptions& options, Warnings& warnings, Progress* progress) {
+  const JsonDocument document = documentOf(path, name, options);
+  SceneContext context(path, options, warnings, progress);
+  return readScene(document, options, context);
 }
 
 // Of a model, whose lights are there: as if a scene file gave them with the settings.
@@ -227,6 +246,26 @@ SceneDescription loadScene(const std::string& name, const LoadOptions& options, 
   if (extensionOf(path) == ".json") return loadSceneFile(path, parsed, options, warnings, progress);
   throwUsage("\"" + parsed.file + "\": expected a scene (.json), a model (" + modelExtensions() +
              "), or the name of a shipped scene");
+}
+
+SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,
+                           Progress* progress) {
+  const JsonDocument document = readDocument(text, options);
+  SceneContext context(fs::current_path() / "scene", options, warnings, progress);
+  context.scene.name = text.name;
+  context.parts = &text.parts;
+  return readScene(document, options, context);
+}
+
+std::optional<JsonDocument> readDocument(const std::string& name, const LoadOptions& options) {
+  const SceneName parsed = parseSceneName(name);
+  const fs::path path = findScene(parsed.file, options.shippedScenes);
+  if (isModelFile(path)) return std::nullopt;
+  return documentOf(path, parsed, options);
+}
+
+JsonDocument readDocument(const SceneText& text, const LoadOptions& options) {
+  return documentOf(text.name, text.root, {}, options);
 }
 
 }  // namespace whit

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "io/json_reader.h"
+#include "io/scene_parts.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
 
@@ -37,5 +40,20 @@ struct LoadOptions {
 // cannot be read, usage when no such scene is shipped (names the nearest).
 SceneDescription loadScene(const std::string& name, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
+
+// A scene that a program makes: what a scene file would say, and what it hands over besides. Paths
+// are relative to the working directory. `name` stands for the file in errors.
+struct SceneText {
+  std::string name;
+  Json root;
+  SceneParts parts;
+};
+SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,
+                           Progress* progress = nullptr);
+
+// What is read as a scene's description, settings and parameters in their places; none of a model
+// without a scene file.
+std::optional<JsonDocument> readDocument(const std::string& name, const LoadOptions& options);
+JsonDocument readDocument(const SceneText& text, const LoadOptions& options);
 
 }  // namespace whit

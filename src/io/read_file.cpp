@@ -17,19 +17,19 @@ class OpenFile {
   explicit OpenFile(const fs::path& path) : path_(path.string()) {
     std::error_code error;
     const auto status = fs::status(path, error);
-    if (!fs::exists(status)) throwIo("cannot open " + path_ + ": no such file");
-    if (!fs::is_regular_file(status)) throwIo("cannot read " + path_ + ": not a file");
+    if (!fs::exists(status)) throwIo(path_, "cannot open " + path_ + ": no such file");
+    if (!fs::is_regular_file(status)) throwIo(path_, "cannot read " + path_ + ": not a file");
     in_.open(path, std::ios::binary);
-    if (!in_) throwIo("cannot open " + path_ + ": " + std::strerror(errno));
+    if (!in_) throwIo(path_, "cannot open " + path_ + ": " + std::strerror(errno));
     size_ = fs::file_size(path, error);
-    if (error) throwIo("cannot read " + path_ + ": " + error.message());
+    if (error) throwIo(path_, "cannot read " + path_ + ": " + error.message());
   }
 
   std::uint64_t size() const { return size_; }
   std::string read(std::uint64_t bytes) {
     std::string text(bytes, '\0');
     in_.read(text.data(), static_cast<std::streamsize>(bytes));
-    if (!in_) throwIo("cannot read " + path_ + ": reading stopped early");
+    if (!in_) throwIo(path_, "cannot read " + path_ + ": reading stopped early");
     return text;
   }
 

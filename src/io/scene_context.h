@@ -12,6 +12,7 @@
 #include "io/memory_budget.h"
 #include "io/model.h"
 #include "io/paths.h"
+#include "io/scene_parts.h"
 #include "io/texture_loader.h"
 #include "scene/scene.h"
 
@@ -46,7 +47,8 @@ struct SceneContext {
   Warnings& warnings;
   Progress* progress;
   SceneDescription scene;
-  std::string sky;  // this and the next as in LoadOptions
+  const SceneParts* parts = nullptr;  // of a scene that a program makes
+  std::string sky;                    // this and the next as in LoadOptions
   Instant instant;
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/distinct_names.h"
+#include "io/find_named.h"
 #include "io/json_reader.h"
 #include "io/read_motion.h"
 #include "io/shape_parameters.h"
@@ -184,13 +185,8 @@ std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& nam
 }
 
 std::uint32_t ItemReader::object(const JsonValue& name) {
-  const auto found = objects_.find(name.text());
-  if (found != objects_.end()) return readObject(found->second, found->first);
-  std::vector<std::string> names;
-  for (const auto& [known, object] : objects_) names.push_back(known);
-  const std::string nearest = nearestName(name.text(), names);
-  name.fail("the name of an object" +
-            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+  const auto found = objects_.find(findNamed(objects_, name, "an object")->first);
+  return readObject(found->second, found->first);
 }
 
 void ItemReader::readItems(const JsonValue& list, Body& to) {
@@ -207,6 +203,8 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
     content = readShape(item, *shape);
   } else if (const auto model = item.find("model")) {
     content = readModel(item, *model);
+  } else if (const auto mesh = context_.parts ? item.find("mesh") : std::nullopt) {
+    content = readMesh(item, *mesh);
   } else if (const auto use = item.find("use")) {
     content.children.push_back({object(*use), Affine(), 0});
   } else if (const auto group = item.find("group")) {
@@ -273,6 +271,26 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
   const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
   Model& model = context_.model(file);
   return contentOf(model, file, modelMaterials(model, item));
+}
+
+// A body of its own, so that one that is placed several times is kept once.
+Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
+  const auto found = findNamed(context_.parts->meshes, name, "a mesh");
+  const auto named = item.find("material");
+  const std::uint32_t material = named ? materials_.find(*named) : materials_.defaultMaterial();
+  const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
+  if (isNew) {
+    context_.budget.charge(1, bytesOf(found->second), name.where());
+    Mesh mesh = meshOf(found->second, name.where());
+    mesh.name = found->first;
+    mesh.materials = {material};
+    entry->second = layout_.add(found->first);
+    layout_.body(entry->second)
+        .parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine()});
+  }
+  Body content;
+  content.children.push_back({entry->second, Affine(), 0});
+  return content;
 }
 
 // Overrides first, then images are asked for: they are decoded while the geometry is read.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/json_reader.h"
@@ -36,6 +37,7 @@ class ItemReader {
   void readItem(const JsonValue& value, Body& to);
   Body readShape(JsonObject& item, const JsonValue& name);
   Body readModel(JsonObject& item, const JsonValue& path);
+  Body readMesh(JsonObject& item, const JsonValue& name);
   std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
   std::uint32_t addMaterial(Model& model, std::size_t i, Material material,
                             const GivenMembers& given);
@@ -48,6 +50,8 @@ class ItemReader {
   MaterialReader& materials_;
   SceneLayout layout_;
   std::map<std::string, NamedObject> objects_;
+  // Of meshes that a program hands over, by name and material.
+  std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
   int depth_ = 0;  // of the item that is being read
 };
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "io/find_named.h"
 #include "io/shape_parameters.h"
 #include "scene/generation_limit.h"
 
@@ -53,22 +53,19 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
   return made;
 }
 
-template <typename Entries>
-typename Entries::const_iterator findNamed(const Entries& entries, const JsonValue& name,
-                                           const std::string& kind) {
-  const auto found = entries.find(name.text());
-  if (found != entries.end()) return found;
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const auto& [known, entry] : entries) names.push_back(known);
-  const std::string nearest = nearestName(name.text(), names);
-  name.fail("the name of a " + kind +
-            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
-}
-
 [[noreturn]] void failFormat(const JsonValue& name, TexelFormat is, TexelFormat needed) {
   name.fail("a texture that is read as " + std::string(formatName(needed)) + " (this one is " +
             formatName(is) + ")");
+}
+
+// What the texture says that it is read as, where it does.
+TextureUse readUse(JsonObject& object, const JsonValue& name, TextureUse use) {
+  const auto as = object.find("as");
+  if (!as) return use;
+  const bool data = as->word(useNames()) == "data";
+  const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
+  if (is != formatOf(use)) failFormat(name, is, formatOf(use));
+  return data ? TextureUse::data : use;
 }
 
 }  // namespace
@@ -94,7 +91,7 @@ MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : contex
 }
 
 std::uint32_t MaterialReader::find(const JsonValue& name) const {
-  return findNamed(materials_, name, "material")->second;
+  return findNamed(materials_, name, "a material")->second;
 }
 
 std::uint32_t MaterialReader::add(Material material) {
@@ -125,23 +122,30 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
       return made;
     });
   }
+  if (context_.parts && object.has("array")) return loadArray(object, name, use);
   const JsonValue image = object.need("image");
   TextureSource source;
   source.where = image.where();
   source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
   readWrap(object, source.wrapU, source.wrapV);
-  if (const auto as = object.find("as")) {
-    const bool data = as->word(useNames()) == "data";
-    const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
-    if (is != formatOf(use)) failFormat(name, is, formatOf(use));
-    if (data) use = TextureUse::data;
-  }
+  use = readUse(object, name, use);
   object.finish();
   return context_.textures.add(source, {use})[0];
 }
 
+std::int32_t MaterialReader::loadArray(JsonObject& object, const JsonValue& name, TextureUse use) {
+  const JsonValue array = object.need("array");
+  TextureSource source;
+  source.where = array.where();
+  readWrap(object, source.wrapU, source.wrapV);
+  use = readUse(object, name, use);
+  object.finish();
+  const GivenImage& given = findNamed(context_.parts->images, array, "an array")->second;
+  return context_.textures.add(given, source, use);
+}
+
 std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
-  findNamed(textures_, name, "texture");
+  findNamed(textures_, name, "a texture");
   NamedTexture& named = textures_.at(name.text());
   // Patterns do not go beyond 1.
   const bool isPattern = JsonObject(named.definition).has("pattern");

@@ -36,6 +36,12 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
   return index;
 }
 
+// Whether one of the members is within the other, or both are the same.
+bool areRelated(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::equal(
+      a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+}
+
 }  // namespace
 
 SceneSetting parseSceneSetting(const std::string& text) {
@@ -54,6 +60,22 @@ SceneSetting parseSceneSetting(const std::string& text) {
     return setting;
   }
   throwUsage(wanted);
+}
+
+// The last of those that have to do with the member can go if it is of that very member: the ones
+// after it could as well come before it.
+void addSceneSetting(const std::string& text, std::vector<std::string>& settings) {
+  const std::vector<std::string> tokens = parseSceneSetting(text).tokens;
+  const std::string section = "/" + escapePointer(tokens.front());
+  const bool appends = std::find(tokens.begin(), tokens.end(), "-") != tokens.end();
+  for (std::size_t i = settings.size(); i-- > 0 && !appends;) {
+    if (!settings[i].starts_with(section)) continue;
+    const std::vector<std::string> other = parseSceneSetting(settings[i]).tokens;
+    if (!areRelated(tokens, other)) continue;
+    if (tokens == other) settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  settings.push_back(text);
 }
 
 void applySceneSetting(const SceneSetting& setting, JsonDocument& document) {

@@ -18,6 +18,10 @@ struct SceneSetting {
 // names may hold that sign as well. Throws Error(usage).
 SceneSetting parseSceneSetting(const std::string& text);
 
+// Adds one to settings that are taken in their order, in place of those that it leaves nothing of:
+// a member that is set again and again is one setting.
+void addSceneSetting(const std::string& text, std::vector<std::string>& settings);
+
 // Puts the value into the description, whatever was there; objects that lead to it are made
 // where there are none, and "-" stands for a new element of a list. Whether such a member makes
 // sense is for the reader of the scene to say. Throws badScene with "file#/json/pointer".

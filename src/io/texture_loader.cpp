@@ -70,6 +70,19 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
   return slots;
 }
 
+std::int32_t TextureLoader::add(const GivenImage& image, const TextureSource& source,
+                                TextureUse use) {
+  const auto slot = static_cast<std::int32_t>(slots_.size());
+  std::optional<Texture>* const target = &slots_.emplace_back();
+  queue_.add([this, &image, source, use, target] {
+    const std::uint64_t bytes = image.codes.size_bytes() + image.values.size_bytes();
+    const MemoryHold copy(&budget_, 1, bytes, source.where);
+    const RawImage raw = imageOf(image, source.where);
+    *target = make(source.where, raw, use, source);
+  });
+  return slot;
+}
+
 std::int32_t TextureLoader::add(std::function<Texture()> make) {
   return add(1, [make = std::move(make)] {
     std::vector<std::optional<Texture>> made;
@@ -136,17 +149,19 @@ void TextureLoader::decode(const TextureSource& source, const std::vector<Textur
     return;
   }
   const std::string name = std::filesystem::path(source.path).filename().string();
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), source.path);
-    const MemoryHold copy = holdCopy(raw, uses[i]);
-    std::optional<Texture> texture = makeUse(name, raw, uses[i], source, warnings_);
-    if (texture) {
-      texels.keep();
-      texture->wrapU = source.wrapU;
-      texture->wrapV = source.wrapV;
-    }
-    *targets[i] = std::move(texture);
-  }
+  for (std::size_t i = 0; i < uses.size(); ++i) *targets[i] = make(name, raw, uses[i], source);
+}
+
+std::optional<Texture> TextureLoader::make(const std::string& name, const RawImage& raw,
+                                           TextureUse use, const TextureSource& source) {
+  MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), name);
+  const MemoryHold copy = holdCopy(raw, use);
+  std::optional<Texture> texture = makeUse(name, raw, use, source, warnings_);
+  if (!texture) return texture;
+  texels.keep();
+  texture->wrapU = source.wrapU;
+  texture->wrapV = source.wrapV;
+  return texture;
 }
 
 void TextureLoader::finish(SceneDescription& scene) {

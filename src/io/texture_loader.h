@@ -15,6 +15,7 @@
 #include "io/decode_queue.h"
 #include "io/image_file.h"
 #include "io/memory_budget.h"
+#include "io/scene_parts.h"
 #include "scene/scene.h"
 
 namespace whit {
@@ -45,6 +46,8 @@ class TextureLoader {
   // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
   // use gives the same slot again; emission is color where the file cannot go beyond 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
+  // The same of an image that a program hands over; `source` has no path.
+  std::int32_t add(const GivenImage& image, const TextureSource& source, TextureUse use);
   // A texture that `make` computes, beside the rest.
   std::int32_t add(std::function<Texture()> make);
   // `count` of them, some of which there may turn out to be none of.
@@ -66,6 +69,8 @@ class TextureLoader {
 
   void decode(const TextureSource& source, const std::vector<TextureUse>& uses,
               const std::vector<std::optional<Texture>*>& targets);
+  std::optional<Texture> make(const std::string& name, const RawImage& raw, TextureUse use,
+                              const TextureSource& source);
   RawImage read(const std::string& path);
   MemoryHold holdCopy(const RawImage& raw, TextureUse use);  // of the alpha that it takes out
 

@@ -66,6 +66,9 @@ class Renderer {
   // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
   void shadingChanged();
 
+  // For frames to come, after cameras of the scene were changed. Not while rendering.
+  void camerasChanged() { lookAround(); }
+
   // For frames to come, after moveScene(). What stands still keeps its acceleration structure. Not
   // while rendering.
   void sceneMoved();

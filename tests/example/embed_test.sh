@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the example against what is installed and compares its picture with the program's:
+# Builds the examples against what is installed and compares their pictures with the program's:
 # embed_test.sh BUILD-FOLDER CMAKE C++-COMPILER GENERATOR MAKE-PROGRAM
 set -eu
 
@@ -20,6 +20,16 @@ build/embed only-installed embedded.exr
 usr/bin/whit render only-installed -o rendered.exr --size 96x60 --depth 4 --quiet
 # Bit for bit; what the files say about themselves differs.
 usr/bin/whit compare embedded.exr rendered.exr --tolerance 0 --quiet >log || { cat log; exit 1; }
+
+# The last frame of the loop.
+build/loop only-installed looped.exr >said
+eye=$(sed -n 's/^last: --eye //p' said)
+usr/bin/whit render only-installed -o rendered.exr --size 96x60 --depth 4 --quiet --eye "$eye" \
+  --set /lights/0/intensity=550
+usr/bin/whit compare looped.exr rendered.exr --tolerance 0 --quiet >log || { cat log; exit 1; }
+
+build/made made.png | grep -qx '8192 triangles'
+usr/bin/whit compare made.png made.png --quiet >log || { cat log; exit 1; }
 
 status=0
 build/embed no-such-scene none.exr 2>said || status=$?

@@ -55,7 +55,7 @@ struct Inside {
     options.size = ImageSize{40, 24};
     options.threads = 1;
   }
-  Film render(const Camera& camera, Mode mode = Mode::packets) {
+  Film render(const whit::Camera& camera, Mode mode = Mode::packets) {
     whit::Renderer renderer(scene, options);
     Film film = makeFilm(scene, options);
     if (mode == Mode::packets) {

@@ -1,0 +1,82 @@
+// What comes out of the library: api::Error, and what a callback of the caller's throws.
+#pragma once
+
+#include <exception>
+#include <mutex>
+#include <string>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "library/whit.h"
+
+namespace whit::api {
+
+// A callback has ended the work.
+struct Stopped : std::exception {
+  const char* what() const noexcept override { return "ended by the progress callback"; }
+};
+
+// Tells a callback, one thread at a time. Once that has ended the work it is asked no more, and all
+// who report are stopped.
+class CallbackProgress : public whit::Progress {
+ public:
+  explicit CallbackProgress(const api::Progress& callback) : callback_(callback) {}
+
+  void report(const std::string& phase, double fraction) override {
+    const std::lock_guard lock(mutex_);
+    if (!stopped_) stopped_ = !goesOn(phase, fraction);
+    if (stopped_) throw Stopped();
+  }
+  // What the caller is told of that.
+  [[noreturn]] void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+    constexpr int kInterrupted = 130;
+    throw Error(kInterrupted, Stopped().what());
+  }
+
+ private:
+  bool goesOn(const std::string& phase, double fraction) {
+    try {
+      return callback_(phase, fraction);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return false;
+    }
+  }
+
+  const api::Progress& callback_;
+  std::mutex mutex_;
+  bool stopped_ = false;
+  std::exception_ptr thrown_;
+};
+
+[[noreturn]] inline void throwAsOwn(const std::exception& error) {
+  const Failure failure = failureOf(error);
+  const ErrorPlace& at = failure.place;
+  throw Error(static_cast<int>(failure.status), failure.what, {at.file, at.place, at.expected});
+}
+
+// Calls `body` and lets nothing out but api::Error.
+template <typename Body>
+decltype(auto) guarded(Body&& body) {
+  try {
+    return body();
+  } catch (const std::exception& error) {
+    throwAsOwn(error);
+  }
+}
+
+// Likewise of long work: `body` is given what to tell, or null.
+template <typename Body>
+decltype(auto) guarded(const Progress& callback, Body&& body) {
+  CallbackProgress progress(callback);
+  try {
+    return body(callback ? &progress : nullptr);
+  } catch (const Stopped&) {
+    progress.rethrow();
+  } catch (const std::exception& error) {
+    throwAsOwn(error);
+  }
+}
+
+}  // namespace whit::api

@@ -1,0 +1,159 @@
+#include <utility>
+
+#include "io/json_text.h"
+#include "io/scene_settings.h"
+#include "library/guarded.h"
+#include "library/scene_data.h"
+
+namespace whit::api {
+
+namespace {
+
+void describeCone(const Light& light, Json& json) {
+  json["type"] = "spot";
+  json["innerConeAngle"] = light.innerConeAngle;
+  json["outerConeAngle"] = light.outerConeAngle;
+}
+
+Json describe(const Light& light) {
+  if (light.type == Light::Type::directional) {
+    return {
+        {"type", "directional"}, {"direction", light.direction}, {"irradiance", light.intensity}};
+  }
+  Json json{{"position", light.position}, {"intensity", light.intensity}, {"radius", light.radius}};
+  if (light.type != Light::Type::spot) return json;
+  json["direction"] = light.direction;
+  describeCone(light, json);
+  return json;
+}
+
+Json describe(const Camera& camera) {
+  Json json{{"eye", camera.eye}, {"at", camera.at}, {"up", camera.up}, {"fov", camera.fov}};
+  if (camera.orthographicHeight != 0) json["orthographicHeight"] = camera.orthographicHeight;
+  return json;
+}
+
+// Members that decide on others are written only where they are given.
+Json describe(const Material& m) {
+  Json json{{"diffuse", m.diffuse},
+            {"specular", m.specular},
+            {"emission", m.emission},
+            {"roughness", m.roughness},
+            {"ior", m.ior}};
+  const auto addGiven = [&](const char* name, const auto& value) {
+    if (value) json[name] = *value;
+  };
+  addGiven("mirror", m.mirror);
+  addGiven("mirrorGrazing", m.mirrorGrazing);
+  addGiven("transmission", m.transmission);
+  addGiven("absorption", m.absorption);
+  addGiven("thin", m.thin);
+  addGiven("glossyReflection", m.glossyReflection);
+  addGiven("castsShadow", m.castsShadow);
+  if (m.coverage != 1) json["coverage"] = m.coverage;
+  const auto addMap = [&](const char* name, const std::string& map) {
+    if (!map.empty()) json[name] = map;
+  };
+  addMap("diffuseMap", m.diffuseMap);
+  addMap("specularMap", m.specularMap);
+  addMap("roughnessMap", m.roughnessMap);
+  addMap("emissionMap", m.emissionMap);
+  addMap("normalMap", m.normalMap);
+  addMap("alphaMap", m.alphaMap);
+  addMap("coverageMap", m.coverageMap);
+  return json;
+}
+
+}  // namespace
+
+struct SceneBuilder::Data {  // NOLINT(bugprone-exception-escape): moving Json does not throw
+  SceneText text;
+
+  // A member of a section; what is there is replaced.
+  std::string put(const char* section, const std::string& name, Json value) {
+    text.root[section][name] = std::move(value);
+    return std::string("/") + section + "/" + escapePointer(name);
+  }
+  std::string append(const char* section, Json value) {
+    Json& list = text.root[section];
+    list.push_back(std::move(value));
+    return std::string("/") + section + "/" + std::to_string(list.size() - 1);
+  }
+};
+
+SceneBuilder::SceneBuilder(const std::string& name, const std::string& description)
+    : data_(std::make_unique<Data>()) {
+  guarded([&] {
+    data_->text.name = name;
+    data_->text.root = parseJson(description, name);
+    if (!data_->text.root.is_object()) throwBadScene(name, "expected an object");
+    if (!data_->text.root.contains("whit")) data_->text.root["whit"] = 1;
+  });
+}
+SceneBuilder::SceneBuilder(const SceneBuilder& other)
+    : data_(std::make_unique<Data>(*other.data_)) {}
+SceneBuilder::SceneBuilder(SceneBuilder&& other) noexcept = default;
+SceneBuilder& SceneBuilder::operator=(SceneBuilder other) noexcept {
+  data_.swap(other.data_);
+  return *this;
+}
+SceneBuilder::~SceneBuilder() = default;
+
+SceneBuilder& SceneBuilder::addMesh(const std::string& name, MeshArrays arrays) {
+  return guarded([&]() -> SceneBuilder& {
+    data_->text.parts.meshes[name] = {arrays.positions, arrays.normals,   arrays.uvs,
+                                      arrays.colors,    arrays.triangles, std::move(arrays.keep)};
+    return *this;
+  });
+}
+
+SceneBuilder& SceneBuilder::addTexture(const std::string& name, ImageArrays arrays) {
+  return guarded([&]() -> SceneBuilder& {
+    data_->text.parts.images[name] = {arrays.width, arrays.height, arrays.channels,
+                                      arrays.codes, arrays.values, std::move(arrays.keep)};
+    Json& textures = data_->text.root["textures"];
+    if (!textures.contains(name)) textures[name] = {{"array", name}};
+    return *this;
+  });
+}
+
+std::string SceneBuilder::addMaterial(const std::string& name, const Material& material) {
+  return guarded([&] { return data_->put("materials", name, describe(material)); });
+}
+
+std::string SceneBuilder::addLight(const Light& light) {
+  return guarded([&] { return data_->append("lights", describe(light)); });
+}
+
+std::string SceneBuilder::addCamera(const std::string& name, const Camera& camera) {
+  return guarded([&] { return data_->put("cameras", name, describe(camera)); });
+}
+
+std::string SceneBuilder::addInstance(const std::string& mesh, const std::string& material,
+                                      const Matrix& transform) {
+  return guarded([&] {
+    Json item{{"mesh", mesh}};
+    if (!material.empty()) item["material"] = material;
+    if (transform != kIdentity) item["transform"] = {{"matrix", transform}};
+    return data_->append("scene", std::move(item));
+  });
+}
+
+SceneBuilder& SceneBuilder::set(const std::string& pointer, const std::string& json) {
+  return guarded([&]() -> SceneBuilder& {
+    JsonDocument document{data_->text.name, data_->text.root, {}};
+    applySceneSetting(parseSceneSetting(pointer + "=" + json), document);
+    data_->text.root = std::move(document.root);
+    return *this;
+  });
+}
+
+Scene SceneBuilder::build(const LoadOptions& options) const {
+  return guarded(options.progress, [&](whit::Progress* progress) {
+    const whit::LoadOptions load = loadOptions(options, WHIT_SHIPPED_SCENES);
+    auto text = std::make_shared<const SceneText>(data_->text);
+    return Scene(Scene::Data::read(std::move(text), load, options.strict, progress));
+  });
+}
+
+}  // namespace whit::api

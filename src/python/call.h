@@ -1,0 +1,146 @@
+// Calls of the library from Python: without the GIL, with progress and Control-C, and with errors
+// as whit.Error.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "library/whit.h"
+
+namespace whit::python {
+
+namespace py = pybind11;
+
+// Raises whit.Error, as Python's current exception.
+[[noreturn]] inline void raise(const api::Error& error) {
+  const auto orNone = [](const std::string& text) -> py::object {
+    if (text.empty()) return py::none();
+    return py::str(text);
+  };
+  const py::object type = py::module_::import("whit._error").attr("Error");
+  const py::object raised = type(error.what(), error.status(), orNone(error.file()),
+                                 orNone(error.place()), orNone(error.expected()));
+  PyErr_SetObject(type.ptr(), raised.ptr());
+  throw py::error_already_set();
+}
+
+// Calls that are under way, which the end of the interpreter waits for: a thread that comes back to
+// Python after that is torn out of the middle of C++, which ends the process by a signal.
+class Calls {
+ public:
+  // One that is under way while it lives. Made with the GIL.
+  class Entry {
+   public:
+    Entry() {
+      if (depth++ > 0) return;
+      if (ending && std::this_thread::get_id() != ender) waitForTheEnd();
+      ++underWay;
+    }
+    ~Entry() {
+      if (--depth == 0) --underWay;
+    }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+  };
+
+  // Whether the work of this thread is to end.
+  static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
+  // Ends them all, as far as they tell of their progress; `atexit` calls it.
+  static void end() {
+    constexpr std::chrono::milliseconds kStep{1};
+    constexpr int kSteps = 10000;
+    ender = std::this_thread::get_id();
+    ending = true;
+    const py::gil_scoped_release noGil;
+    for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
+  }
+
+ private:
+  // Only threads that nobody waits for are there by then.
+  [[noreturn]] static void waitForTheEnd() {
+    const py::gil_scoped_release noGil;
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+
+  static inline std::atomic<int> underWay{0};
+  static inline std::atomic<bool> ending{false};
+  static inline std::thread::id ender;  // written before `ending`
+  static inline thread_local int depth = 0;
+};
+
+// Looks on at work of the thread that makes it: there, now and then, Python sees to signals and the
+// caller's function is called.
+class Onlooker {
+ public:
+  explicit Onlooker(py::object function) : function_(std::move(function)) {}
+
+  bool operator()(const std::string& phase, double fraction) {
+    if (Calls::areEnding()) return false;
+    if (std::this_thread::get_id() != thread_ || !isTime()) return true;
+    const py::gil_scoped_acquire gil;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (function_.is_none()) return true;
+      const py::object answer = function_(phase, fraction);
+      return answer.is_none() || answer.cast<bool>();
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return false;
+    }
+  }
+  // What Python's own code has raised meanwhile.
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Each time costs the GIL, which other threads may have.
+  bool isTime() {
+    constexpr std::chrono::milliseconds kBetween{20};
+    const Clock::time_point now = Clock::now();
+    if (now - last_ < kBetween) return false;
+    last_ = now;
+    return true;
+  }
+
+  py::object function_;
+  std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point last_ = Clock::now();
+  std::exception_ptr thrown_;
+};
+
+// What `body` returns, called without the GIL and given what to tell of its progress.
+template <typename Body>
+auto call(const py::object& function, Body&& body) {
+  const Calls::Entry entry;
+  Onlooker onlooker(function);
+  try {
+    const py::gil_scoped_release noGil;
+    return body([&onlooker](const std::string& phase, double fraction) {
+      return onlooker(phase, fraction);
+    });
+  } catch (const api::Error& error) {
+    onlooker.rethrow();
+    raise(error);
+  }
+}
+
+// The same of what takes no time.
+template <typename Body>
+auto call(Body&& body) {
+  try {
+    return body();
+  } catch (const api::Error& error) {
+    raise(error);
+  }
+}
+
+}  // namespace whit::python

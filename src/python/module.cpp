@@ -1,0 +1,225 @@
+// The extension _whit: the library as the package `whit` calls it, which gives it Python's manners.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "python/session.h"
+
+namespace whit::python {
+
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style>;
+using Indices = py::array_t<std::uint32_t, py::array::c_style>;
+
+// For the library, which lets go of it without the GIL.
+std::shared_ptr<const void> kept(const py::object& object) {
+  return {new py::object(object), [](const py::object* held) {
+            const py::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
+
+template <typename Array>
+auto spanOf(const Array& array) {
+  return std::span(array.data(), static_cast<std::size_t>(array.size()));
+}
+
+// A member of what load() and build() take besides.
+template <typename T>
+T memberOf(const py::dict& given, const char* name) {
+  const py::object value = given[name];
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(std::string(name) + ": cannot take " +
+                         py::repr(value).cast<std::string>());
+  }
+}
+
+api::LoadOptions loadOptions(const py::dict& given) {
+  api::LoadOptions options;
+  options.allowOutside = memberOf<bool>(given, "allow_outside");
+  options.strict = memberOf<bool>(given, "strict");
+  options.maxMemoryGb = memberOf<double>(given, "max_memory_gb");
+  options.threads = memberOf<int>(given, "threads");
+  options.sky = memberOf<std::string>(given, "sky");
+  options.sphereSegments = memberOf<int>(given, "sphere_segments");
+  options.moves = memberOf<bool>(given, "moves");
+  options.movable = memberOf<std::vector<std::string>>(given, "movable");
+  options.animation = memberOf<std::string>(given, "animation");
+  options.settings = memberOf<std::vector<std::string>>(given, "settings");
+  return options;
+}
+
+std::unique_ptr<Session> load(const std::string& name, const py::dict& given,
+                              const std::string& shippedScenes, const py::object& progress) {
+  api::LoadOptions options = loadOptions(given);
+  return call(progress, [&](const api::Progress& told) {
+    options.progress = told;
+    api::Scene scene = api::loadScene(name, options, shippedScenes.c_str());
+    return std::make_unique<Session>(std::move(scene));
+  });
+}
+
+api::SceneBuilder builderOf(const std::string& name, const std::string& description,
+                            const py::dict& meshes, const py::dict& images) {
+  api::SceneBuilder builder(name, description);
+  for (const auto& [key, value] : meshes) {
+    const auto arrays = value.cast<py::tuple>();
+    const auto triangles = arrays[1].cast<Indices>();
+    const Floats positions = arrays[0].cast<Floats>(), normals = arrays[2].cast<Floats>(),
+                 uvs = arrays[3].cast<Floats>(), colors = arrays[4].cast<Floats>();
+    builder.addMesh(key.cast<std::string>(), {spanOf(positions), spanOf(triangles), spanOf(normals),
+                                              spanOf(uvs), spanOf(colors), kept(arrays)});
+  }
+  for (const auto& [key, value] : images) {
+    const auto array = value.cast<py::array>();
+    api::ImageArrays image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
+                           static_cast<int>(array.shape(2))};
+    const auto count = static_cast<std::size_t>(array.size());
+    if (array.dtype().is(py::dtype::of<std::uint8_t>())) {
+      image.codes = {static_cast<const std::uint8_t*>(array.data()), count};
+    } else {
+      image.values = {static_cast<const float*>(array.data()), count};
+    }
+    image.keep = kept(array);
+    builder.addTexture(key.cast<std::string>(), std::move(image));
+  }
+  return builder;
+}
+
+std::unique_ptr<Session> build(const std::string& name, const std::string& description,
+                               const py::dict& meshes, const py::dict& images,
+                               const py::dict& given, const py::object& progress) {
+  const api::SceneBuilder builder =
+      call([&] { return builderOf(name, description, meshes, images); });
+  api::LoadOptions options = loadOptions(given);
+  return call(progress, [&](const api::Progress& told) {
+    options.progress = told;
+    return std::make_unique<Session>(builder.build(options));
+  });
+}
+
+// A view of the picture's own memory, which it keeps alive. Not to be written to: files are made of
+// it as well.
+template <typename T>
+py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t components) {
+  const api::Image& image = picture.cast<const Picture&>().image;
+  py::array_t<T> view({static_cast<std::size_t>(image.height()),
+                       static_cast<std::size_t>(image.width()), components},
+                      data.data(), picture);
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
+// By their names: those of their components, and the values.
+py::dict channelsOf(const py::object& picture) {
+  py::dict all;
+  for (const auto& channel : picture.cast<const Picture&>().image.channels()) {
+    py::list components;
+    for (const std::string_view name : channel.components) components.append(std::string(name));
+    const std::size_t count = channel.components.size();
+    const py::array values = channel.numbers.empty() ? viewOf(picture, channel.values, count)
+                                                     : viewOf(picture, channel.numbers, count);
+    all[py::str(std::string(channel.name))] = py::make_tuple(components, values);
+  }
+  return all;
+}
+
+py::dict describe(const api::FrameStatistics& frame) {
+  py::dict stages, rays;
+  for (const auto& stage : frame.stages) stages[py::str(std::string(stage.name))] = stage.ms;
+  for (const auto& kind : frame.rays) rays[py::str(std::string(kind.name))] = kind.count;
+  py::dict all;
+  all["frame_ms"] = frame.frameMs;
+  all["embree_ms"] = frame.embreeMs;
+  all["stages_ms"] = stages;
+  all["rays"] = rays;
+  all["non_finite_pixels"] = frame.nonFinitePixels;
+  return all;
+}
+
+py::list optionTable() {
+  py::list table;
+  for (const api::OptionInfo& option : api::options()) {
+    table.append(py::make_tuple(std::string(option.name), std::string(option.words),
+                                std::string(option.help), option.preset));
+  }
+  return table;
+}
+
+std::map<std::string, double> animationsOf(Session& session) {
+  return session.ask([](const api::Scene& scene) {
+    std::map<std::string, double> all;
+    for (const api::Animation& a : scene.animations()) all[a.name] = a.seconds;
+    return all;
+  });
+}
+
+void defineSession(py::module_& module) {
+  // Of a scene, asked in its turn.
+  const auto asked = [](auto member) {
+    return [member](Session& session) {
+      return session.ask([&](const api::Scene& scene) { return (scene.*member)(); });
+    };
+  };
+  py::class_<Session>(module, "Session")
+      .def_property_readonly("name", asked(&api::Scene::name))
+      .def_property_readonly("width", asked(&api::Scene::width))
+      .def_property_readonly("height", asked(&api::Scene::height))
+      .def_property_readonly("cameras", asked(&api::Scene::cameras))
+      .def_property_readonly("objects", asked(&api::Scene::objects))
+      .def_property_readonly("materials", asked(&api::Scene::materials))
+      .def_property_readonly("triangles", asked(&api::Scene::triangles))
+      .def_property_readonly("warnings", asked(&api::Scene::warnings))
+      .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
+      .def_property_readonly("animations", &animationsOf)
+      .def("render", &Session::render)
+      .def("set_member", &Session::setMember)
+      .def("set_time", &Session::setTime)
+      .def("set_transform", &Session::setTransform);
+}
+
+void definePicture(py::module_& module) {
+  py::class_<Picture>(module, "Picture")
+      .def_property_readonly("left", [](const Picture& p) { return p.image.left(); })
+      .def_property_readonly("top", [](const Picture& p) { return p.image.top(); })
+      .def_property_readonly("rgb",
+                             [](const py::object& picture) {
+                               return viewOf(picture, picture.cast<const Picture&>().image.rgb(),
+                                             3);
+                             })
+      .def_property_readonly("rgba",
+                             [](const py::object& picture) {
+                               return viewOf(picture, picture.cast<const Picture&>().image.srgb(),
+                                             4);
+                             })
+      .def_property_readonly("channels", &channelsOf)
+      .def_property_readonly("statistics", [](const Picture& p) { return describe(p.statistics); })
+      .def("write",
+           [](const Picture& p, const std::string& path) {
+             call(py::none(), [&](const api::Progress&) { p.image.write(path); });
+           })
+      .def("png", [](const Picture& p) {
+        return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
+      });
+}
+
+}  // namespace
+
+}  // namespace whit::python
+
+PYBIND11_MODULE(_whit, module) {
+  using namespace whit::python;
+  defineSession(module);
+  definePicture(module);
+  module.def("load", &load);
+  module.def("build", &build);
+  module.def("option_table", &optionTable);
+  module.def("version", &whit::api::version);
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Calls::end));
+}

@@ -1,0 +1,118 @@
+# By make_stubs.py, of __init__.py and the library's table of options.
+import os
+from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
+import numpy as np
+from ._arrays import Mesh as Mesh
+from ._error import Error as Error
+__all__ = ['Error', 'Mesh', 'Picture', 'Scene']
+__version__: str
+Progress = Callable[[str, float], Optional[bool]]
+class Picture:
+
+    def __init__(self, picture: Any) -> None:
+        ...
+
+    @property
+    def rgb(self) -> np.ndarray:
+        ...
+
+    @property
+    def srgb(self) -> np.ndarray:
+        ...
+
+    @property
+    def channels(self) -> dict[str, np.ndarray]:
+        ...
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        ...
+
+    @property
+    def width(self) -> int:
+        ...
+
+    @property
+    def height(self) -> int:
+        ...
+
+    @property
+    def left(self) -> int:
+        ...
+
+    @property
+    def top(self) -> int:
+        ...
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        ...
+
+    def write(self, path: Union[str, os.PathLike]) -> None:
+        ...
+
+    def png(self) -> bytes:
+        ...
+
+    def _repr_png_(self) -> bytes:
+        ...
+
+    def __array__(self, dtype: Any=None, copy: Any=None) -> np.ndarray:
+        ...
+
+    def __repr__(self) -> str:
+        ...
+class Scene:
+
+    def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *, settings: Optional[Mapping[str, Any]]=None, sky: Union[str, os.PathLike]='', moves: bool=False, movable: Sequence[str]=(), animation: str='', sphere_segments: int=0, strict: bool=False, allow_outside: bool=False, max_memory_gb: float=16.0, threads: int=0, progress: Optional[Progress]=None, name: str='scene') -> None:
+        ...
+
+    @property
+    def name(self) -> str:
+        ...
+
+    @property
+    def size(self) -> tuple[int, int]:
+        ...
+
+    @property
+    def cameras(self) -> list[str]:
+        ...
+
+    @property
+    def objects(self) -> list[str]:
+        ...
+
+    @property
+    def materials(self) -> list[str]:
+        ...
+
+    @property
+    def triangles(self) -> int:
+        ...
+
+    @property
+    def animations(self) -> dict[str, float]:
+        ...
+
+    @property
+    def path_seconds(self) -> float:
+        ...
+
+    @property
+    def warnings(self) -> list[str]:
+        ...
+
+    def set(self, pointer: str, value: Any, *, progress: Optional[Progress]=None) -> None:
+        ...
+
+    def set_time(self, seconds: float) -> None:
+        ...
+
+    def set_transform(self, pointer: str, matrix: Any) -> None:
+        ...
+
+    def render(self, *, path_time: Optional[float]=None, progress: Optional[Progress]=None, size: Optional[Union[str, tuple[int, int]]]=None, camera: Optional[str]=None, eye: Optional[Sequence[float]]=None, at: Optional[Sequence[float]]=None, up: Optional[Sequence[float]]=None, fov: Optional[float]=None, ortho: Optional[float]=None, crop: Optional[Union[str, tuple[int, int, int, int]]]=None, spp: Optional[int]=None, adaptive: Optional[bool]=None, contrast: Optional[int]=None, depth: Optional[int]=None, glossy: Optional[int]=None, cutoff: Optional[float]=None, light_samples: Optional[int]=None, light_cutoff: Optional[float]=None, fresnel: Optional[Literal['exact', 'schlick']]=None, texture_filter: Optional[Literal['nearest', 'bilinear', 'trilinear']]=None, offset: Optional[Literal['bound', 'fixed', 'wachter-binder']]=None, terminator: Optional[bool]=None, bend: Optional[bool]=None, reciprocal: Optional[Literal['exact', 'refined', 'approximate']]=None, threads: Optional[int]=None, packet: Optional[Literal['auto', 1, 4, 8, 16]]=None, simd: Optional[Literal['auto', 'avx3', 'avx2', 'sse4', 'sse2', 'neon', 'scalar']]=None, mode: Optional[Literal['packets', 'reference']]=None, batch: Optional[Literal['tile', 'frame']]=None, robust: Optional[bool]=None, retry: Optional[bool]=None, bvh: Optional[Literal['low', 'medium', 'high']]=None, verdicts: Optional[Literal['auto', 'off', 'audit']]=None, sphere_segments: Optional[int]=None, effects: Optional[Literal['auto', 'all']]=None, quality: Optional[Literal['draft', 'standard', 'fine', 'reference']]=None, disable: Optional[Union[str, Sequence[str]]]=None, exposure: Optional[Union[float, Literal['auto']]]=None, tonemap: Optional[Literal['none', 'filmic', 'reinhard']]=None, film: Optional[Literal['float', 'half', '8bit']]=None, srgb: Optional[Literal['exact', 'table']]=None, tile: Optional[int]=None, queue: Optional[int]=None, channels: Optional[Union[str, Sequence[str]]]=None, strict: Optional[bool]=None) -> Picture:
+        ...
+
+    def __repr__(self) -> str:
+        ...

@@ -1,0 +1,128 @@
+"""Arrays as the extension takes them: C-contiguous, of 32-bit floats, of 32-bit indices, of 8-bit
+codes. What is so already is not copied."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from ._error import Error
+
+_NO_FLOATS = np.empty((0,), np.float32)
+_NO_INDICES = np.empty((0,), np.uint32)
+
+
+def _fail(what: str, expected: str, found: str) -> None:
+    raise Error(f"{what}: expected {expected}, found {found}", place=what, expected=expected)
+
+
+def _array(values: Any, what: str, kinds: str, expected: str) -> np.ndarray:
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError) as error:  # lists of lists of several lengths
+        _fail(what, expected, str(error))
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = array.astype(np.float32 if "f" in kinds else np.uint32)
+    if array.dtype.kind not in kinds:
+        _fail(what, expected, f"an array of {array.dtype}")
+    return array
+
+
+def floats(values: Any, columns: int, what: str) -> np.ndarray:
+    """(n, columns), float32; None is no array."""
+    if values is None:
+        return _NO_FLOATS
+    expected = f"numbers of shape (n, {columns})"
+    array = _array(values, what, "fiu", expected)
+    if array.shape == (0,):
+        array = array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        _fail(what, expected, f"an array of shape {array.shape}")
+    with np.errstate(over="ignore"):  # the infinity that it becomes is refused
+        return np.ascontiguousarray(array, np.float32)
+
+
+def indices(values: Any, what: str) -> np.ndarray:
+    """(n, 3), uint32; None is no array."""
+    if values is None:
+        return _NO_INDICES
+    expected = "whole numbers of shape (n, 3)"
+    array = _array(values, what, "iu", expected)
+    if array.shape == (0,):
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        _fail(what, expected, f"an array of shape {array.shape}")
+    if array.dtype == np.uint32 or array.size == 0:
+        return np.ascontiguousarray(array, np.uint32)
+    low, high = array.min(), array.max()
+    if low < 0 or high > 0xFFFFFFFE:
+        _fail(what, "numbers of vertices, from 0 on", str(low if low < 0 else high))
+    if array.dtype == np.int32:
+        return np.ascontiguousarray(array).view(np.uint32)
+    return np.ascontiguousarray(array, np.uint32)
+
+
+def image(values: Any, what: str) -> np.ndarray:
+    """(height, width, channels), uint8 or float32."""
+    expected = "an image of shape (height, width) or (height, width, 1 to 4), uint8 or float"
+    array = _array(values, what, "fu", expected)
+    if array.ndim == 2:
+        array = array[:, :, None]
+    if array.ndim != 3 or not 1 <= array.shape[2] <= 4 or 0 in array.shape:
+        _fail(what, expected, f"an array of shape {np.shape(values)}")
+    if array.dtype.kind == "u" and array.dtype != np.uint8:
+        _fail(what, expected, f"an array of {array.dtype}")
+    if max(array.shape) > 0x7FFFFFFF:
+        _fail(what, expected, f"an array of shape {array.shape}")
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(array, np.uint8 if array.dtype == np.uint8 else np.float32)
+
+
+def matrix(values: Any, what: str) -> list[float]:
+    """The 12 numbers of three rows and four columns, row by row."""
+    expected = "a matrix of shape (3, 4) or (4, 4)"
+    array = _array(values, what, "fiu", expected)
+    if array.shape not in ((3, 4), (4, 4)):
+        _fail(what, expected, f"an array of shape {array.shape}")
+    if array.shape == (4, 4) and not np.array_equal(array[3], (0, 0, 0, 1)):
+        _fail(what, "a matrix whose last row is 0, 0, 0, 1", str(array[3].tolist()))
+    return [float(x) for x in array[:3].ravel()]
+
+
+class Mesh:
+    """Triangles of a scene made of arrays: an item of it is {"mesh": Mesh(...)}.
+
+    positions: (n, 3), float32; x, y, z of each vertex.
+    triangles: (m, 3), integers; the vertices of each triangle, counter-clockwise seen from outside.
+        None: the vertices come in threes.
+    normals: (n, 3) of unit length, or None: flat shading.
+    uvs: (n, 2), v pointing up, or None.
+    colors: (n, 3), linear, from 0 to 1, which multiply the material's; None: white.
+
+    Arrays of float32 and of uint32 or int32, C-contiguous, are read where they are and not copied;
+    others are converted. They are not to be changed while a scene of them is there.
+    """
+
+    def __init__(self, positions: Any, triangles: Optional[Any] = None, *,
+                 normals: Optional[Any] = None, uvs: Optional[Any] = None,
+                 colors: Optional[Any] = None) -> None:
+        if positions is None:
+            _fail("positions", "numbers of shape (n, 3)", "None")
+        self.positions = floats(positions, 3, "positions")
+        self.triangles = None if triangles is None else indices(triangles, "triangles")
+        self.normals = None if normals is None else floats(normals, 3, "normals")
+        self.uvs = None if uvs is None else floats(uvs, 2, "uvs")
+        self.colors = None if colors is None else floats(colors, 3, "colors")
+
+    def __repr__(self) -> str:
+        count = len(self.positions) // 3 if self.triangles is None else len(self.triangles)
+        return f"<whit.Mesh: {len(self.positions)} vertices, {count} triangles>"
+
+    def _arrays(self) -> tuple:
+        def given(array: Optional[np.ndarray], none: np.ndarray) -> np.ndarray:
+            return none if array is None else array
+
+        return (self.positions, given(self.triangles, _NO_INDICES),
+                given(self.normals, _NO_FLOATS), given(self.uvs, _NO_FLOATS),
+                given(self.colors, _NO_FLOATS))

@@ -1,0 +1,93 @@
+"""A scene's description in Python's own values, as the JSON of scene files."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from typing import Any
+
+import numpy as np
+
+from . import _arrays
+from ._error import Error
+
+_DEEPEST = 64
+
+
+def _escaped(token: str) -> str:
+    return token.replace("~", "~0").replace("/", "~1")
+
+
+class Description:
+    """The text of a scene, and the arrays that it names."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.meshes: dict[str, tuple] = {}
+        self.images: dict[str, np.ndarray] = {}
+        self._names: dict[int, str] = {}
+        self._held: list[Any] = []  # so that ids stay theirs
+
+    def text(self, value: Any, pointer: str = "") -> str:
+        return json.dumps(self._plain(value, pointer, 0), allow_nan=False)
+
+    def _fail(self, pointer: str, expected: str, found: str) -> None:
+        raise Error(f"{self.name}#{pointer}: expected {expected}, found {found}", file=self.name,
+                    place=pointer, expected=expected)
+
+    def _named(self, thing: Any, kind: str) -> tuple[str, bool]:
+        known = self._names.get(id(thing))
+        if known is not None:
+            return known, False
+        name = f"{kind} {len(self._held)}"
+        self._names[id(thing)] = name
+        self._held.append(thing)
+        return name, True
+
+    def _mesh(self, mesh: _arrays.Mesh) -> str:
+        name, new = self._named(mesh, "mesh")
+        if new:
+            self.meshes[name] = mesh._arrays()
+        return name
+
+    def _image(self, array: np.ndarray, pointer: str) -> str:
+        name, new = self._named(array, "array")
+        if new:
+            self.images[name] = _arrays.image(array, f"{self.name}#{pointer}")
+        return name
+
+    def _plain(self, value: Any, pointer: str, depth: int) -> Any:
+        if depth > _DEEPEST:
+            self._fail(pointer, f"at most {_DEEPEST} levels", "more")
+        if isinstance(value, _arrays.Mesh):
+            return self._mesh(value)
+        if isinstance(value, np.ndarray):
+            tokens = pointer.split("/")
+            if tokens[1:2] == ["textures"] and len(tokens) == 3:
+                return {"array": self._image(value, pointer)}
+            if tokens[1:2] == ["textures"] and tokens[3:] == ["array"]:
+                return self._image(value, pointer)
+            return self._plain(value.tolist(), pointer, depth)
+        if isinstance(value, np.generic):
+            return self._plain(value.item(), pointer, depth)
+        if isinstance(value, os.PathLike):
+            return os.fspath(value)
+        if value is None or isinstance(value, (bool, int, str)):
+            return value
+        if isinstance(value, float):
+            if not math.isfinite(value):
+                self._fail(pointer, "a finite number", str(value))
+            return value
+        if isinstance(value, dict):
+            return self._members(value, pointer, depth)
+        if isinstance(value, (list, tuple)):
+            return [self._plain(v, f"{pointer}/{i}", depth + 1) for i, v in enumerate(value)]
+        self._fail(pointer, "what JSON can say, an array or a whit.Mesh", type(value).__name__)
+
+    def _members(self, value: dict, pointer: str, depth: int) -> dict:
+        for key in value:
+            if not isinstance(key, str):
+                self._fail(pointer, "names as keys", repr(key))
+        return {key: self._plain(member, f"{pointer}/{_escaped(key)}", depth + 1)
+                for key, member in value.items()}

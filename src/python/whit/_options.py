@@ -1,0 +1,85 @@
+"""The options of a render, from the library's table."""
+
+from __future__ import annotations
+
+import difflib
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _whit
+
+
+class Option(NamedTuple):
+    name: str  # of the command line, "light-samples"
+    words: str  # what it takes
+    help: str
+    preset: str  # its value where nothing is said; empty where the scene decides
+
+    @property
+    def keyword(self) -> str:
+        return self.name.replace("-", "_")
+
+    @property
+    def annotation(self) -> str:
+        """Its type."""
+        words = self.words
+        if words in ("", "on|off"):
+            return "bool"
+        if words == "N":
+            return "int"
+        if words in ("X", "DEG", "HEIGHT"):
+            return "float"
+        if words == "x,y,z":
+            return "Sequence[float]"
+        if words == "WxH":
+            return "Union[str, tuple[int, int]]"
+        if words == "x0,y0,x1,y1":
+            return "Union[str, tuple[int, int, int, int]]"
+        if words == "EV|auto":
+            return 'Union[float, Literal["auto"]]'
+        if "|" in words:
+            choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
+            return f"Literal[{', '.join(choices)}]"
+        if "," in words:
+            return "Union[str, Sequence[str]]"
+        return "str"
+
+    def text(self, value: Any) -> str:
+        """The value as on the command line."""
+        if isinstance(value, (np.generic, np.ndarray)):
+            value = value.tolist()
+        if isinstance(value, bool):
+            return "on" if value else "off"
+        if isinstance(value, (int, float, str)):
+            return str(value)
+        if isinstance(value, (list, tuple)):
+            return ("x" if self.words == "WxH" else ",").join(str(_plain(v)) for v in value)
+        raise TypeError(f"{self.keyword}: expected {self.annotation}, found {type(value).__name__}")
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+OPTIONS = {option.keyword: option for option in (Option(*row) for row in _whit.option_table())}
+
+
+def texts(given: dict[str, Any]) -> list[tuple[str, str]]:
+    """What is not None, in the order of the table."""
+    for keyword in given:
+        if keyword not in OPTIONS:
+            near = difflib.get_close_matches(keyword, OPTIONS, 1)
+            hint = f"; is {near[0]!r} meant?" if near else ""
+            raise TypeError(f"render() got an unexpected keyword argument {keyword!r}{hint}")
+    return [(option.name, option.text(given[keyword])) for keyword, option in OPTIONS.items()
+            if given.get(keyword) is not None]
+
+
+def documentation() -> str:
+    """A line for each option."""
+    lines = []
+    for option in OPTIONS.values():
+        preset = f" [{option.preset}]" if option.preset else ""
+        lines.append(f"{option.keyword} ({option.words or 'on|off'}){preset}: {option.help}")
+    return "\n".join(f"    {line}" for line in lines)

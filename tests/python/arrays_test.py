@@ -1,0 +1,211 @@
+"""Scenes of arrays: the pictures of files that say the same, and errors for what is wrong."""
+
+import pickle
+import unittest
+
+import numpy as np
+
+import whit
+from samples import SIZE, program, square, square_scene, temporary_folder
+
+SHAPE_SCENE = """{"whit": 1,
+  "cameras": {"above": {"eye": [0, 3, 2], "at": [0, 0, 0], "fov": 50}},
+  "lights": [{"position": [2, 4, 1], "intensity": 60}],
+  "materials": {"red": {"diffuse": [0.8, 0.2, 0.1]}},
+  "scene": [{"model": "square.obj", "materials": {"*": {"diffuse": [0.8, 0.2, 0.1]}}}]}"""
+SQUARE_OBJ = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3\nf 1 3 4\n"
+
+
+class Arrays(unittest.TestCase):
+    def test_the_picture_of_a_file(self):
+        with temporary_folder():
+            with open("square.obj", "w", encoding="utf-8") as file:
+                file.write(SQUARE_OBJ)
+            with open("scene.json", "w", encoding="utf-8") as file:
+                file.write(SHAPE_SCENE)
+            program("render", "scene.json", "--size", "48x30", "-o", "program.exr", "--quiet")
+            picture = whit.Scene(square_scene()).render(size=SIZE)
+            picture.write("module.exr")
+            program("compare", "module.exr", "program.exr", "--tolerance", "0", "--quiet")
+            self.assertGreater(picture.rgb.max(), 0.3)
+
+    def test_any_kind_of_numbers(self):
+        expected = whit.Scene(square_scene()).render(size=SIZE).rgb
+        mesh = square()
+        for floats in (np.float32, np.float64, np.float16, int, list):
+            for indices in (np.uint32, np.int32, np.int64, np.uint8, list):
+                positions = (mesh.positions.tolist() if floats is list
+                             else mesh.positions.astype(floats))
+                triangles = (mesh.triangles.tolist() if indices is list
+                             else mesh.triangles.astype(indices))
+                other = whit.Mesh(positions, triangles)
+                rgb = whit.Scene(square_scene(other)).render(size=SIZE).rgb
+                np.testing.assert_array_equal(rgb, expected)
+        strided = np.repeat(mesh.positions, 2, axis=0)[::2]
+        self.assertFalse(strided.flags.c_contiguous)
+        rgb = whit.Scene(square_scene(whit.Mesh(strided, mesh.triangles))).render(size=SIZE).rgb
+        np.testing.assert_array_equal(rgb, expected)
+
+    def test_arrays_are_read_where_they_are(self):
+        positions, triangles = square().positions, square().triangles
+        mesh = whit.Mesh(positions, triangles, normals=np.ones_like(positions))
+        self.assertIs(mesh.positions, positions)
+        self.assertIs(mesh.triangles, triangles)
+        signed = triangles.astype(np.int32)
+        self.assertTrue(np.shares_memory(whit.Mesh(positions, signed).triangles, signed))
+
+    def test_triangles_one_after_the_other(self):
+        mesh = square()
+        soup = whit.Mesh(mesh.positions[mesh.triangles.ravel()])
+        np.testing.assert_array_equal(whit.Scene(square_scene(soup)).render(size=SIZE).rgb,
+                                      whit.Scene(square_scene(mesh)).render(size=SIZE).rgb)
+
+    def test_textures(self):
+        codes = np.arange(4 * 6 * 3, dtype=np.uint8).reshape(4, 6, 3) * 3
+        uvs = np.array([[0, 0], [0, 1], [1, 1], [1, 0]], np.float32)
+        materials = {"red": {"diffuse": 1, "diffuseMap": "codes"}}
+        linear = np.where(codes / 255 <= 0.04045, codes / 255 / 12.92,
+                          ((codes / 255 + 0.055) / 1.055) ** 2.4)
+        pictures = []
+        for array in (codes, {"array": codes, "wrap": "repeat"}, linear, codes[:, :, :]):
+            scene = square_scene(square(uvs=uvs), materials=materials, textures={"codes": array})
+            pictures.append(whit.Scene(scene).render(size=SIZE).rgb)
+        np.testing.assert_array_equal(pictures[0], pictures[1])
+        np.testing.assert_array_equal(pictures[0], pictures[3])
+        # Textures are kept in 10 bits of the square root, to which both are rounded.
+        np.testing.assert_allclose(pictures[0], pictures[2], atol=2e-3)
+        self.assertFalse(np.array_equal(pictures[0], whit.Scene(square_scene()).render(size=SIZE)))
+
+    def test_one_mesh_in_two_places_is_kept_once(self):
+        mesh = square()
+        items = [{"mesh": mesh}, {"mesh": mesh, "transform": {"translate": [0, 1, 0]}}]
+        scene = whit.Scene(square_scene(scene=items))
+        self.assertEqual(scene.triangles, 4)
+
+    def test_what_is_moved(self):
+        scene = whit.Scene(square_scene(), movable=["/scene/0", "/lights/0"])
+        rest = scene.render(size=SIZE).rgb
+        place = np.eye(4)
+        place[:3, 3] = (0.25, 0.5, 0)
+        scene.set_transform("/scene/0", place)
+        moved = scene.render(size=SIZE).rgb
+        self.assertFalse(np.array_equal(rest, moved))
+        description = square_scene()
+        description["scene"][0]["transform"] = {"matrix": place[:3].ravel()}
+        # What can be moved is traced in its own space, with roundings of its own.
+        placed = whit.Scene(description, movable=["/scene/0", "/lights/0"])
+        np.testing.assert_array_equal(moved, placed.render(size=SIZE).rgb)
+        scene.set_transform("/scene/0", np.eye(4)[:3])
+        np.testing.assert_array_equal(rest, scene.render(size=SIZE).rgb)
+
+    def expect(self, place, expected, make, status=3):
+        with self.assertRaises(whit.Error) as caught:
+            make()
+        error = caught.exception
+        self.assertEqual(error.exit_status, status, str(error))
+        self.assertEqual(error.place, place, str(error))
+        self.assertIn(expected, error.expected or "", str(error))
+
+    def test_arrays_that_are_no_mesh(self):
+        nan = square().positions.copy()
+        nan[2, 1] = np.nan
+        huge = square().positions.astype(np.float64) * 1e300
+        cases = [
+            ("positions", "(n, 3)", lambda: whit.Mesh(None)),
+            ("positions", "(n, 3)", lambda: whit.Mesh(np.zeros((4, 2), np.float32))),
+            ("positions", "(n, 3)", lambda: whit.Mesh(np.zeros(12, np.float32))),
+            ("positions", "(n, 3)", lambda: whit.Mesh(np.zeros((4, 3), complex))),
+            ("positions", "(n, 3)", lambda: whit.Mesh(np.zeros((4, 3), bool))),
+            ("positions", "(n, 3)", lambda: whit.Mesh("many")),
+            ("positions", "(n, 3)", lambda: whit.Mesh([[1, 2, 3], [1, 2]])),
+            ("positions", "(n, 3)", lambda: whit.Mesh([[object()] * 3])),
+            ("triangles", "(n, 3)", lambda: square(triangles=[[0, 1]])),
+            ("triangles", "(n, 3)", lambda: square(triangles=[[0.0, 1.0, 2.0]])),
+            ("triangles", "numbers of vertices", lambda: square(triangles=[[0, 1, -2]])),
+            ("triangles", "numbers of vertices", lambda: square(triangles=[[0, 1, 2**40]])),
+            ("normals", "(n, 3)", lambda: square(normals=np.zeros((4, 4)))),
+            ("uvs", "(n, 2)", lambda: square(uvs=np.zeros((4, 3)))),
+        ]
+        scenes = [
+            ("vertices below 4", square(triangles=[[0, 1, 4]])),
+            ("finite numbers in positions", square(positions=nan)),
+            ("finite numbers in positions", square(positions=huge)),
+            ("finite numbers in normals", square(normals=nan)),
+            ("normals for 4 vertices", square(normals=np.ones((3, 3)))),
+            ("uvs for 4 vertices", square(uvs=np.ones((5, 2)))),
+            ("numbers from 0", square(colors=np.full((4, 3), 1.5))),
+            ("a multiple of 3 vertices", whit.Mesh(square().positions)),
+        ]
+        for place, expected, make in cases:
+            with self.subTest(expected=expected):
+                self.expect(place, expected, make)
+        for expected, mesh in scenes:
+            with self.subTest(expected=expected):
+                self.expect("/scene/0/mesh", expected, lambda: whit.Scene(square_scene(mesh)))
+
+    def test_empty_meshes(self):
+        for mesh in (whit.Mesh([]), whit.Mesh(np.empty((0, 3))),
+                     whit.Mesh(np.empty((0, 3)), np.empty((0, 3), int))):
+            rgb = whit.Scene(square_scene(mesh)).render(size=SIZE).rgb
+            self.assertEqual(rgb.max(), 0)
+
+    def test_arrays_that_are_no_texture(self):
+        for array in (np.zeros((4, 4, 5), np.uint8), np.zeros((4, 4), np.int32),
+                      np.zeros((0, 4), np.uint8), np.zeros(4, np.uint8),
+                      np.zeros((2, 2, 2, 2), np.uint8), np.zeros((4, 4), np.uint16)):
+            with self.subTest(shape=array.shape, dtype=array.dtype):
+                with self.assertRaises(whit.Error):
+                    whit.Scene(square_scene(textures={"bad": array}))
+        for value in (np.nan, -1, np.inf):
+            array = np.full((2, 2, 3), value, np.float32)
+            self.expect("/textures/bad/array", "", lambda: whit.Scene(square_scene(
+                textures={"bad": array}, materials={"red": {"diffuseMap": "bad"}})))
+
+    def test_descriptions_that_make_no_sense(self):
+        loop = []
+        loop.append(loop)
+        cases = [
+            ("/lights/0/intensity", {"lights": [{"position": [0, 1, 0], "intensity": np.nan}]}),
+            ("/lights/0/intensity", {"lights": [{"position": [0, 1, 0], "intensity": -1}]}),
+            ("/lights/0", {"lights": [{"intensity": 1}]}),
+            ("/sky/image", {"sky": {"image": "/etc/passwd"}}),
+            ("/materials/red/diffuse/2", {"materials": {"red": {"diffuse": [0, 0, 2]}}}),
+            ("/cameras/a~1b", {"cameras": {"a/b": {"eye": [0, 0, 0], "at": [0, 0, 0]}}}),
+            ("/scene/0/mesh", {"scene": [{"mesh": "nothing"}]}),
+            ("/ambient/color", {"ambient": {"color": object()}}),
+            ("/nonsense", {"nonsense": 1}),
+            ("/lights", {"lights": {1: 2}}),
+        ]
+        for place, members in cases:
+            with self.subTest(place=place):
+                self.expect(place, "", lambda: whit.Scene(square_scene(**members)))
+        with self.assertRaises(whit.Error) as caught:
+            whit.Scene(square_scene(path=loop))
+        self.assertTrue(caught.exception.place.startswith("/path/0/0/0"))
+
+    def test_huge_counts(self):
+        self.expect(None, "", lambda: whit.Scene(square_scene(), max_memory_gb=1e-8), 5)
+        self.expect(None, "", lambda: whit.Scene(square_scene()).render(size=(65536, 65536)), 5)
+        repeat = {"count": [10000, 1000, 1], "step": [1, 1, 1]}
+        description = square_scene()
+        description["scene"][0]["repeat"] = dict(repeat, count=[10000, 10000, 1])
+        self.expect("/scene/0/repeat/count", "10000000", lambda: whit.Scene(description))
+
+    def test_matrices(self):
+        scene = whit.Scene(square_scene(), movable=["/scene/0"])
+        for matrix in (np.eye(3), np.zeros((4, 4)), "no", np.eye(4, dtype=complex), None):
+            with self.subTest(matrix=matrix), self.assertRaises(whit.Error):
+                scene.set_transform("/scene/0", matrix)
+        for value in (np.nan, np.inf, 1e300):
+            self.expect(None, "", lambda: scene.set_transform("/scene/0", np.full((3, 4), value)), 2)
+
+    def test_errors_are_pickled(self):
+        with self.assertRaises(whit.Error) as caught:
+            whit.Scene({"size": [0, 1]}, name="mine")
+        error = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((error.file, error.place, error.exit_status), ("mine", "/size/0", 3))
+        self.assertTrue(error.expected.startswith("a whole number from 1"), error.expected)
+
+
+if __name__ == "__main__":
+    unittest.main()

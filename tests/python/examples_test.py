@@ -1,0 +1,159 @@
+"""The examples of the module's page, as they stand there, and its signatures."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+import whit
+from samples import SIZE, square_scene, temporary_folder
+from whit import _options
+
+HERE = pathlib.Path(__file__).resolve().parent
+PAGE = (HERE.parents[1] / "src" / "python" / "README.md").read_text()
+
+
+def examples():
+    """By their headings."""
+    return dict(re.findall(r"^## (.+?)\n(?:(?!^## ).)*?```python\n(.+?)```", PAGE,
+                           re.DOTALL | re.MULTILINE))
+
+
+class Examples(unittest.TestCase):
+    def run_example(self, heading, *files):
+        with temporary_folder():
+            done = subprocess.run([sys.executable, "-c", examples()[heading]], capture_output=True,
+                                  text=True, check=False, env={**os.environ, "MPLBACKEND": "Agg"})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for file in files:
+                self.assertGreater(os.path.getsize(file), 500, file)
+            return done.stdout
+
+    def test_a_picture(self):
+        said = self.run_example("A picture", "whitted.png")
+        self.assertTrue(said.startswith("(480, 640, 3) float32\n"), said)
+
+    def test_depth_of_a_mesh(self):
+        nearest, farthest = map(float, self.run_example(
+            "The depth of a mesh made of arrays").split())
+        self.assertAlmostEqual(nearest, 2.75, delta=0.01)
+        self.assertAlmostEqual(farthest, 3.25, delta=0.01)
+
+    def test_error_against_time(self):
+        try:
+            import matplotlib  # noqa: F401
+        except ImportError:
+            self.skipTest("no matplotlib here")
+        self.run_example("Error against time", "error.png")
+
+    def test_a_film(self):
+        self.run_example("A film", *[f"frame{i:04}.png" for i in range(12)])
+
+    def test_comparison_with_the_reference(self):
+        self.run_example("Compared with the reference")
+
+    def test_all_are_tested(self):
+        self.assertEqual(len(examples()), 5)
+
+
+class Signatures(unittest.TestCase):
+    def test_stubs_are_those_of_the_options(self):
+        done = subprocess.run([sys.executable, HERE / "make_stubs.py", "--check"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_every_option_is_told_of(self):
+        for keyword, option in _options.OPTIONS.items():
+            self.assertIn(f"{keyword} (", whit.Scene.render.__doc__)
+            self.assertIn(option.help, whit.Scene.render.__doc__)
+
+    def test_every_option_takes_its_preset(self):
+        scene = whit.Scene("whitted")
+        expected = scene.render(size=SIZE).rgb
+        for keyword, option in _options.OPTIONS.items():
+            if option.preset and keyword != "size":
+                rgb = scene.render(size=SIZE, **{keyword: option.preset}).rgb
+                np.testing.assert_array_equal(rgb, expected, keyword)
+
+    def test_values_as_python_has_them(self):
+        text = {keyword: option.text for keyword, option in _options.OPTIONS.items()}
+        self.assertEqual(text["size"]((640, 480)), "640x480")
+        self.assertEqual(text["size"](np.array([640, 480])), "640x480")
+        self.assertEqual(text["eye"](np.array([0.5, 1, -2])), "0.5,1.0,-2.0")
+        self.assertEqual(text["crop"]([np.int64(1), 2, 3, 4]), "1,2,3,4")
+        self.assertEqual(text["adaptive"](True), "on")
+        self.assertEqual(text["disable"](["shadows", "mirror"]), "shadows,mirror")
+        self.assertEqual(text["spp"](np.uint8(4)), "4")
+        self.assertEqual(text["exposure"]("auto"), "auto")
+
+
+class Pictures(unittest.TestCase):
+    def test_arrays(self):
+        picture = whit.Scene("whitted").render(size=SIZE)
+        self.assertEqual((picture.rgb.shape, picture.rgb.dtype), ((30, 48, 3), np.float32))
+        self.assertEqual((picture.srgb.shape, picture.srgb.dtype), ((30, 48, 3), np.uint8))
+        self.assertTrue(np.shares_memory(picture.rgb, picture.rgb))
+        self.assertFalse(picture.rgb.flags.writeable or picture.srgb.flags.writeable)
+        self.assertEqual(np.asarray(picture).shape, (30, 48, 3))
+        self.assertEqual(np.asarray(picture, np.float64).dtype, np.float64)
+
+    def test_the_top_row_comes_first(self):
+        sky = {"zenith": [0, 0, 1], "horizon": [1, 1, 1], "ground": [0, 1, 0]}
+        scene = whit.Scene({"cameras": {"c": {"eye": [0, 0, 0], "at": [1, 0, 0], "fov": 120}},
+                            "sky": sky})
+        rgb = scene.render(size=SIZE).rgb
+        self.assertGreater(rgb[0, 24, 2], rgb[0, 24, 1])
+        self.assertGreater(rgb[-1, 24, 1], rgb[-1, 24, 2])
+
+    def test_crops_know_their_place(self):
+        scene = whit.Scene("whitted")
+        whole = scene.render(size=SIZE)
+        crop = scene.render(size=SIZE, crop=(8, 4, 20, 16))
+        self.assertEqual((crop.left, crop.top, crop.width, crop.height), (8, 4, 12, 12))
+        np.testing.assert_array_equal(crop.rgb, whole.rgb[4:16, 8:20])
+
+    def test_channels(self):
+        """Of a square in the plane y = 0, seen from 3 above by parallel rays, 2 high."""
+        camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}
+        scene = whit.Scene(square_scene(cameras={"above": camera}))
+        self.assertEqual(scene.materials, ["red"])
+        picture = scene.render(size=(40, 40), channels=["depth", "normal", "material", "rays"])
+        self.assertEqual(list(picture.channels), ["depth", "normal", "material", "rays"])
+        there = np.zeros((40, 40), bool)
+        there[10:30, 10:30] = True
+        np.testing.assert_array_equal(picture["material"] == 0, there)
+        self.assertEqual(picture["material"].dtype, np.uint32)
+        np.testing.assert_allclose(picture["depth.Z"][there], 3, rtol=1e-6)
+        np.testing.assert_array_equal(picture["depth"][..., 0], picture["depth.Z"])
+        self.assertTrue(np.all(np.isinf(picture["depth.Z"][~there])))
+        np.testing.assert_allclose(picture["normal"][there], np.tile([0, 1, 0], (400, 1)))
+        self.assertTrue(np.all(picture["rays"] >= 1))
+        self.assertEqual(scene.render(size=(40, 40)).channels, {})
+        for name in ("albedo", "depth.W", "nothing"):
+            with self.assertRaises(KeyError):
+                picture[name]
+        with self.assertRaises(whit.Error):
+            scene.render(channels=["dept"])
+
+    def test_they_show_themselves(self):
+        picture = whit.Scene("whitted").render(size=SIZE)
+        self.assertEqual(picture._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
+        with temporary_folder():
+            picture.write("a.png")
+            with open("a.png", "rb") as file:
+                self.assertEqual(file.read(), picture.png())
+
+    def test_statistics(self):
+        cost = whit.Scene("whitted").render(size=SIZE).statistics
+        self.assertEqual(cost["rays"]["primary"], 48 * 30)
+        self.assertGreater(cost["frame_ms"], 0)
+        self.assertIn("generateRays", cost["stages_ms"])
+        self.assertEqual(cost["non_finite_pixels"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,74 @@
+"""Writes src/python/whit/__init__.pyi: what __init__.py beside it declares, with a keyword for
+every option.
+
+    PYTHONPATH=build/python python3 tests/python/make_stubs.py           # writes it
+    PYTHONPATH=build/python python3 tests/python/make_stubs.py --check   # status 1 where it differs
+"""
+
+import ast
+import pathlib
+import sys
+
+from whit import _options
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "src" / "python" / "whit"
+HEADER = "# By make_stubs.py, of __init__.py and the library's table of options.\n"
+
+
+def _options_of_render():
+    text = ", ".join(f"{option.keyword}: Optional[{option.annotation}] = None"
+                     for option in _options.OPTIONS.values())
+    function = ast.parse(f"def render(self, *, {text}): ...").body[0]
+    return function.args.kwonlyargs, function.args.kw_defaults
+
+
+def _stub(node):
+    """The declaration without its body."""
+    if isinstance(node, ast.ClassDef):
+        node.body = [_stub(m) for m in node.body if isinstance(m, ast.FunctionDef)]
+    elif isinstance(node, ast.FunctionDef):
+        node.body = [ast.Expr(ast.Constant(...))]
+        if node.name == "render":
+            names, presets = _options_of_render()
+            node.args.kwonlyargs += names
+            node.args.kw_defaults += presets
+            node.args.kwarg = None
+    return node
+
+
+def stubs() -> str:
+    module = ast.parse((FOLDER / "__init__.py").read_text())
+    kept = []
+    for node in module.body:
+        if isinstance(node, ast.ImportFrom) and node.module == "typing":
+            kept.append(ast.parse("from typing import Any, Callable, Literal, Mapping, Optional, "
+                                  "Sequence, Union").body[0])
+        elif isinstance(node, ast.ImportFrom) and node.level == 1:
+            if node.module in ("_arrays", "_error"):
+                name = node.names[0].name
+                node.names[0].asname = name
+                kept.append(node)
+        elif isinstance(node, (ast.Import, ast.ClassDef)):
+            kept.append(_stub(node))
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            if node.targets[0].id == "__version__":
+                kept.append(ast.parse("__version__: str").body[0])
+            else:
+                kept.append(node)
+    return HEADER + "\n".join(ast.unparse(node) for node in kept) + "\n"
+
+
+def main() -> int:
+    path = FOLDER / "__init__.pyi"
+    text = stubs()
+    if "--check" not in sys.argv:
+        path.write_text(text)
+        return 0
+    if path.read_text() == text:
+        return 0
+    print(f"{path} is not what make_stubs.py makes of __init__.py and the options", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

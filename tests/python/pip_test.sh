@@ -1,0 +1,24 @@
+#!/bin/sh
+# Installs the module by pip into a virtual environment, without the network, and uses it there:
+# pip_test.sh PYTHON BUILD-FOLDER; status 77 where there is no pip or no venv.
+set -eu
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+unset PYTHONPATH
+"$1" -m venv --system-site-packages "$work/venv" >"$work/log" 2>&1 || { cat "$work/log"; exit 77; }
+"$work/venv/bin/pip" install --no-index --no-build-isolation --disable-pip-version-check \
+  --config-settings "build-dir=$2" "$root/src/python" >"$work/log" 2>&1 ||
+  { cat "$work/log"; exit 1; }
+cd "$work"
+venv/bin/python -c '
+import whit
+assert whit.__file__.startswith("'"$work"'"), whit.__file__
+assert whit.Scene("whitted").render(size=(48, 30)).rgb.max() > 0.1'
+test -s venv/lib/python3*/site-packages/whit/scenes/whitted.json
+venv/bin/pip uninstall -y whit >"$work/log" 2>&1
+test ! -e venv/lib/python3*/site-packages/whit
+git -C "$root" status --porcelain -- src/python 2>/dev/null >"$work/after" || :
+grep -q '^??' "$work/after" && { cat "$work/after"; exit 1; }
+echo "pip: installed, used and removed"

@@ -1,0 +1,52 @@
+"""What the tests of the Python module share."""
+
+import contextlib
+import os
+import subprocess
+import tempfile
+
+import numpy as np
+
+import whit
+
+SIZE = (48, 30)
+
+
+@contextlib.contextmanager
+def temporary_folder():
+    """A folder, which is also the working directory while it is there."""
+    before = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            yield folder
+        finally:
+            os.chdir(before)
+
+
+def program(*words):
+    """The output of the program whit."""
+    done = subprocess.run([os.environ["WHIT_PROGRAM"], *words], capture_output=True, text=True,
+                          check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"whit {' '.join(words)}: {done.stderr}{done.stdout}")
+    return done.stdout
+
+
+def square(**arrays):
+    """A mesh, its corners at -1 and 1 in the plane y = 0."""
+    positions = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], np.float32)
+    triangles = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+    return whit.Mesh(arrays.pop("positions", positions), arrays.pop("triangles", triangles),
+                     **arrays)
+
+
+def square_scene(mesh=None, **members):
+    """The description of a scene of that mesh, seen from above, a light beside it."""
+    return {
+        "cameras": {"above": {"eye": [0, 3, 2], "at": [0, 0, 0], "fov": 50}},
+        "lights": [{"position": [2, 4, 1], "intensity": 60}],
+        "materials": {"red": {"diffuse": [0.8, 0.2, 0.1]}},
+        "scene": [{"mesh": mesh or square(), "material": "red"}],
+        **members,
+    }
