@@ -79,6 +79,7 @@ StepFunction findAddShading(std::size_t index);
 StepFunction findAddReflections(std::size_t index);
 StepFunction findAddGlossyReflections(std::size_t index);
 StepFunction findAddRefractions(std::size_t index);
+StepFunction findAddIndirect(std::size_t index);
 StepFunction findReturnImpulses(std::size_t index);
 StepFunction findReturnToEye(std::size_t index);
 
@@ -157,8 +158,8 @@ inline constexpr Kernel kAddShading{"addShading",     Stage::addShading,
                                     {Part::radiance}, {}};
 
 // Children of the surfels, appended to the chunk's. A child whose throughput is below the cutoff is
-// not written. There must be room for one a slot, of sampled lobes for so many a slot as
-// lobeSampling says.
+// not written, or under --roulette by chance only, and then for more. There must be room for one a
+// slot, of sampled lobes for so many a slot as lobeSampling says.
 inline constexpr Kernel kAddReflections{"addReflections",   Stage::addImpulses,
                                         findAddReflections, {Part::rays, Part::surfels},
                                         {Part::children},   {}};
@@ -170,6 +171,11 @@ inline constexpr Kernel kAddGlossyReflections{"addGlossyReflections",   Stage::a
 inline constexpr Kernel kAddRefractions{"addRefractions",   Stage::addImpulses,
                                         findAddRefractions, {Part::rays, Part::surfels},
                                         {Part::children},   {}};
+// Rays drawn by the cosine to the normals of diffuse surfels, written and decided on like samples
+// of glossy lobes.
+inline constexpr Kernel kAddIndirect{"addIndirect",    Stage::addImpulses,
+                                     findAddIndirect,  {Part::rays, Part::surfels},
+                                     {Part::children}, {}};
 // The way back: parent radiance += weight * radiance, child by child in slot order.
 inline constexpr Kernel kReturnImpulses{
     "returnImpulses",       Stage::addImpulses,
@@ -203,6 +209,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kAddReflections,
                                      kAddGlossyReflections,
                                      kAddRefractions,
+                                     kAddIndirect,
                                      kReturnImpulses,
                                      kReturnToEye,
                                      kEncodeDisplay};

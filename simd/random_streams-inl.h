@@ -48,6 +48,16 @@ HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t
                                hn::Set(du, index * kLatticeV)))};
 }
 
+HWY_INLINE UnitPoints IndirectPoints(VU path, const LobeSampling& sampling, uint32_t k) {
+  const UintTag du;
+  const VU own = hn::Xor(hn::Sub(path, hn::Set(du, sampling.unshift)), hn::Set(du, kIndirectSalt));
+  return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
+}
+
+HWY_INLINE VF RouletteDraw(VU path) {
+  return UnitFraction(Mixed(hn::Xor(path, hn::Set(UintTag(), kRouletteSalt))));
+}
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

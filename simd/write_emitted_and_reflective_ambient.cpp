@@ -22,6 +22,8 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   // Of a chunk in which nothing emits, no surfel needs its material.
   const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
   const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
+  // Surfaces that reflect the scene do so in place of ambient light.
+  const bool indirect = ambient && (c.materialFlags & kMaterialDiffuses) != 0;
   const bool coverage = c.has(Feature::coverage);
   const bool sky = c.has(Feature::sky), hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
@@ -36,6 +38,10 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
       const VF ny = hn::Load(d, surfels.nsY + i);
       const V3 albedo = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
       result = Mul3(albedo, MulAdd3(half, ny, middle));
+      if (indirect && !hn::AllFalse(d, hit)) {
+        const VU flags = MaterialLanes(tables, hn::BitCast(di, material), hit).Lobe().flags;
+        result = Select3(HasFlags(flags, kMaterialDiffuses), black, result);
+      }
     }
     if (emission && !hn::AllFalse(d, hit)) {
       V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission().emission;

@@ -116,8 +116,9 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
   Sky next = std::move(!another ? scene_->scene.sky : edit.sky.source.empty() ? ownSky_ : opened);
   next.scale = edit.sky.scale;
   next.rotation = edit.sky.rotation;
-  const Ambient ambient =
-      edit.ambient.ofSky > 0 ? ambientFromSky(next, edit.ambient.ofSky) : edit.ambient;
+  const Ambient ambient = edit.ambient.ofSky > 0
+                              ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient.occlusion)
+                              : edit.ambient;
   editSky(scene_->scene, next, ambient);
   if (another && sky_.source.empty()) ownSky_ = std::move(next);
   sky_ = edit.sky;

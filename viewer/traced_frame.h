@@ -65,6 +65,7 @@ inline double samplesOf(const FrameRequest& request) {
 
 // Whether both give the same light under the same sky.
 inline bool sameAmbient(const Ambient& a, const Ambient& b) {
+  if (a.occlusion != b.occlusion) return false;
   if (a.ofSky > 0 || b.ofSky > 0) return a.ofSky == b.ofSky;
   return a.up == b.up && a.down == b.down;
 }

@@ -37,6 +37,10 @@ inline constexpr Need kNeedsTransmission{EffectSet().with(Effect::transmission),
                                          "nothing in the scene is transparent"};
 inline constexpr Need kNeedsGlossyReflection{EffectSet().with(Effect::glossyReflection),
                                              "no glossy lobe in the scene reflects it"};
+inline constexpr Need kNeedsDiffuseReflection{EffectSet().with(Effect::indirect),
+                                              "no diffuse surface reflects the scene"};
+inline constexpr Need kNeedsAmbientOcclusion{EffectSet().with(Effect::ambientOcclusion),
+                                             "the ambient light has no radius of occlusion"};
 inline constexpr Need kNeedsLights{EffectSet().with(Effect::lights), "the scene has no light"};
 inline constexpr Need kNeedsShadows{EffectSet().with(Effect::shadows),
                                     "nothing in the scene casts a shadow"};

@@ -13,7 +13,10 @@ RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surf
   if (effects.has(Effect::emission)) {
     radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
   }
-  if (effects.has(Effect::ambient)) {
+  // What the diffuse surface reflects of the scene is in place of what stands for it.
+  const bool sampled =
+      effects.has(Effect::indirect) && scene.materials[surfel.material].hasDiffuseReflection();
+  if (effects.has(Effect::ambient) && !sampled) {
     const RgbD up(scene.ambient.up), down(scene.ambient.down);
     radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
   }

@@ -45,7 +45,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::coverage, e.has(Effect::coverage))
-      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows))
+      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows) ||
+                                  e.has(Effect::indirect) || options.roulette > 0)
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
@@ -199,6 +200,10 @@ class Planner {
     if (has(Effect::transmission)) {
       addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
     }
+    if (has(Effect::indirect)) {
+      addImpulse(simd::kAddIndirect, kMaterialDiffuses, RayKind::indirect,
+                 static_cast<std::size_t>(options_.indirect));
+    }
     if (options_.depth == 0) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
@@ -208,7 +213,7 @@ class Planner {
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting
     // them by origin and direction before they are packed gains nothing on AVX2 (glass, whitted,
     // tiles of 32 to 256): Embree then leads the rays of a packet one by one.
-    plan_.coherentDepth = has(Effect::glossyReflection) ? 0 : 2;
+    plan_.coherentDepth = has(Effect::glossyReflection) || has(Effect::indirect) ? 0 : 2;
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {
