@@ -74,6 +74,7 @@ StepFunction findLookUpCoverage(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
+StepFunction findFindAmbientAndOcclusionRays(std::size_t index);
 StepFunction findDecideShadows(std::size_t index);
 StepFunction findAddShading(std::size_t index);
 StepFunction findAddReflections(std::size_t index);
@@ -139,6 +140,13 @@ inline constexpr Kernel kFindRadianceAndShadowRays{
     {Part::unshadowed, Part::shadows},
     EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
 
+// Likewise one sample of the ambient light, and a ray of the length of its occlusion for each slot
+// that reflects some: also without Feature::shadows.
+inline constexpr Kernel kFindAmbientAndOcclusionRays{
+    "findAmbientAndOcclusionRays",     Stage::findRadianceAndShadowRays,
+    findFindAmbientAndOcclusionRays,   {Part::rays, Part::surfels},
+    {Part::unshadowed, Part::shadows}, {}};
+
 // Takes the rays whose verdict is known out of the shadow rays; `visible` is 1 where that is lit.
 inline constexpr Kernel kDecideShadows{"decideShadows",
                                        Stage::checkShadows,
@@ -202,6 +210,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,
+                                     kFindAmbientAndOcclusionRays,
                                      kDecideShadows,
                                      kPackShadowRays,
                                      kUnpackVisibility,

@@ -50,7 +50,6 @@ void renew(Material& to, const Material& fresh, const GivenMembers& given) {
     if (!given.contains(name)) to.*m = fresh.*m;
   };
   member("diffuse", &Material::diffuse);
-  member("diffuseReflection", &Material::diffuseReflection);
   member("specular", &Material::specular);
   member("emission", &Material::emission);
   member("roughness", &Material::roughness);

@@ -65,6 +65,7 @@ class Tracer {
                RayCounts& counts) const;
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
+  RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
                        std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD reflectDiffusely(const Surfel& surfel, const Crossing& crossing, int depth,

@@ -22,7 +22,7 @@ Path childOf(const Path& path, std::uint32_t branch) {
 }
 
 // Of the kinds that impulses are of.
-std::uint64_t& counted(RayCounts& counts, RayKind kind) {
+std::uint64_t& countOf(RayCounts& counts, RayKind kind) {
   return kind == RayKind::reflection   ? counts.reflection
          : kind == RayKind::refraction ? counts.refraction
                                        : counts.indirect;
@@ -66,6 +66,9 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
+    if (isOccluded(scene_.ambient, effects_)) {
+      radiance += radianceFromAmbient(surfel, depth, counts, path);
+    }
     if (effects_.has(Effect::lights)) {
       radiance += radianceFromLights(surfel, depth, left, counts, path);
     }
@@ -145,7 +148,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
   if (!(largest > 0 && survives(options_, contribution, path.number))) return {};
-  ++counted(counts, kind);
+  ++countOf(counts, kind);
   const double grows = growthOfSurvivors(options_, contribution);
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
   intersector_.began(followed, kind);
@@ -153,6 +156,22 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
       traceImpulse(impulse.ray, depth, contribution * grows, impulse.media, counts, path);
   intersector_.ended(radiance);
   return followed.weight * radiance;
+}
+
+// The mean over directions of what nothing nearby holds off.
+RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts,
+                                 Path path) const {
+  const LobeSampling points =
+      lightSampling(depth, static_cast<std::uint32_t>(options_.ambientSamples), path.sample);
+  RgbD sum;
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const LightArrival arrival = ambientArrival(scene_, effects_, surfel, options_.shading,
+                                                lightPoint(path.number, points, kAmbientLight, k));
+    if (!(maxComponent(arrival.radiance) > 0)) continue;
+    ++counts.occlusion;
+    if (isVisible(intersector_, arrival.shadowRay, arrival.tFar)) sum += arrival.radiance;
+  }
+  return sum / points.count;
 }
 
 // Each point of a light is looked at as if it were the whole light, so that their number does not

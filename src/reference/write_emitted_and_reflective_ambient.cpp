@@ -8,18 +8,20 @@ RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
   return skyRadiance(scene.sky, direction);
 }
 
+RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
+  if (!effects.has(Effect::ambient)) return {};
+  const Material& material = scene.materials[surfel.material];
+  if (effects.has(Effect::indirect) && material.hasDiffuseReflection()) return {};
+  const RgbD up(scene.ambient.up), down(scene.ambient.down);
+  return surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+}
+
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
   RgbD radiance;
   if (effects.has(Effect::emission)) {
     radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
   }
-  // What the diffuse surface reflects of the scene is in place of what stands for it.
-  const bool sampled =
-      effects.has(Effect::indirect) && scene.materials[surfel.material].hasDiffuseReflection();
-  if (effects.has(Effect::ambient) && !sampled) {
-    const RgbD up(scene.ambient.up), down(scene.ambient.down);
-    radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
-  }
+  if (!isOccluded(scene.ambient, effects)) radiance += reflectedAmbient(scene, effects, surfel);
   return radiance * surfel.coverage;
 }
 

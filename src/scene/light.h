@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/effects.h"
 #include "core/vec3.h"
 #include "scene/texture.h"
 
@@ -70,6 +71,12 @@ struct Ambient {
   // take --ambient-samples of it.
   float occlusion = 0;
 };
+
+// Whether frames with these effects look for what holds it off.
+inline bool isOccluded(const Ambient& ambient, EffectSet effects) {
+  return effects.has(Effect::ambient) && effects.has(Effect::ambientOcclusion) &&
+         ambient.occlusion > 0;
+}
 
 // What it is called: none, color, gradient, studio, or the name of its image's file.
 std::string skyName(const Sky& sky);
