@@ -18,7 +18,7 @@ namespace {
 using test::SampleMean;
 using test::SceneBuilder;
 
-UnitPoint pointOf(test::Numbers& numbers) {
+UnitPoint drawnPoint(test::Numbers& numbers) {
   return {static_cast<float>(numbers.in(0, 1)), static_cast<float>(numbers.in(0, 1))};
 }
 
@@ -60,7 +60,7 @@ TEST(CosineDirections, AreDistributedByTheCosine) {
                 along = cross(n, across);
     std::array<double, kRows * kColumns> seen{};
     for (int i = 0; i < kDraws; ++i) {
-      const Vec3d d = cosineDirection(n, pointOf(numbers));
+      const Vec3d d = cosineDirection(n, drawnPoint(numbers));
       EXPECT_NEAR(length(d), 1, 1e-12);
       ASSERT_GT(dot(d, n), 0);
       const double c = dot(d, n), turn = std::atan2(dot(d, along), dot(d, across)) / (2 * kPi);
@@ -93,7 +93,7 @@ TEST(IndirectRays, WeighTheAlbedoAndStayAboveTheSurface) {
     s.view = normalized(Vec3d(numbers.in(-1, 1), numbers.in(-1, 1), 1));
     s.diffuse = {0.2, 0.5, 0.8};
     s.coverage = 0.5;
-    const Impulse ray = indirectImpulse(s, 7, pointOf(numbers));
+    const Impulse ray = indirectImpulse(s, 7, drawnPoint(numbers));
     EXPECT_EQ(ray.weight, s.diffuse * 0.5);
     EXPECT_EQ(ray.media, 7u);
     EXPECT_GT(ray.ray.direction.z, 0);
