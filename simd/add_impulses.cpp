@@ -153,10 +153,9 @@ HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, 
   const UintTag du;
   const RayColumns& children = job.children;
   VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), child.largest);
-  live = hn::And(live, hn::Gt(child.largest, hn::Zero(d)));
   const MF worth = HWY_UNLIKELY(job.roulette > 0) ? Survivors(job, child, throughput)
                                                   : hn::Ge(throughput, hn::Set(d, job.cutoff));
-  const MF traced = hn::And(live, worth);
+  const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);

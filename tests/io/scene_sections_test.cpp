@@ -127,7 +127,7 @@ TEST_F(SceneSections, SkyGradientAndImage) {
   EXPECT_EQ(errorOfMembers("\"sky\": {\"zenith\": 1, \"ground\": 3}"),
             "3 s.json#/sky: expected a member \"horizon\"");
   EXPECT_EQ(errorOfMembers("\"ambient\": {\"color\": 1, \"occlusion\": -1}"),
-            "3 s.json#/ambient/occlusion: expected a number from 0, found -1");
+            "3 s.json#/ambient/occlusion: expected a number from 0 to 1e+18, found -1");
   EXPECT_EQ(errorOfMembers("\"ambient\": {\"fromSky\": 1}"),
             "3 s.json#/ambient/fromSky: expected a scene with a sky, found 1");
 }
