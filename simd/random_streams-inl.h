@@ -19,9 +19,10 @@ HWY_INLINE VU Mixed(VU x) {
   return hn::Xor(x, hn::ShiftRight<16>(x));
 }
 
-HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample) {
+HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample, uint32_t seed) {
   const UintTag du;
-  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, kPixelSalt))), hn::Set(du, sample * kSampleStep));
+  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, pixelSalt(seed)))),
+                 hn::Set(du, sample * kSampleStep));
 }
 
 HWY_INLINE VU ChildStream(VU path, uint32_t branch) {

@@ -17,10 +17,13 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
 }
 
 // The first ray's: its pixel is packed (core/pixel.h), `sample` its place in the sample pattern.
-// The samples of a pixel are equal steps apart.
+// The samples of a pixel are equal steps apart. Frames of different seeds have noise of their own;
+// pictures have seed 0.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
-constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample) {
-  return mixed(pixel + kPixelSalt) + sample * kSampleStep;
+constexpr std::uint32_t pixelSalt(std::uint32_t seed) { return kPixelSalt ^ mixed(seed); }
+constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample,
+                                      std::uint32_t seed = 0) {
+  return mixed(pixel + pixelSalt(seed)) + sample * kSampleStep;
 }
 
 // A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe and

@@ -42,6 +42,7 @@ struct FrameConstants {
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;
+  std::uint32_t seed = 0;  // of the random numbers
 };
 
 // Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
