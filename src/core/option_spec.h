@@ -21,8 +21,9 @@ enum class Rebuild {
 };
 
 // What an inexact value costs the picture: rounding (the same rays, computed otherwise), rays and
-// terms that are left out or approximated, or too few samples of a pixel.
-enum class Cause { arithmetic, algorithm, sampling };
+// terms that are left out or approximated within Whitted's model, too few samples of a pixel, or
+// light that the model leaves out.
+enum class Cause { arithmetic, algorithm, sampling, transport };
 
 // What a scene must have for an option to do anything there: one of these effects.
 struct Need {
