@@ -97,6 +97,8 @@ struct TracedFrame {
   FrameStats stats;
   ImageMetadata metadata;
   EffectSet effects;                               // that were traced
+  bool sampled = false;                            // rays were drawn at random
+  double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
   std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
   std::vector<std::string> settings;  // with which the scene was read, then those of an edit
   std::string sky;                    // its --sky, unless another was chosen since
@@ -115,6 +117,9 @@ struct UnfinishedFrame {
   DisplayImage display;  // transparent where nothing was traced yet; empty: options are measured
   double done = 0;       // share of it
   std::vector<KnobCost> costs;  // measured so far
+  // Of a picture that gets more and more samples: that are shown, and SampleSums::relativeError().
+  int samples = 0;
+  double sampleError = 0;
 };
 
 }  // namespace whit::view
