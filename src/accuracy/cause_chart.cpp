@@ -10,8 +10,8 @@ namespace whit::accuracy {
 
 namespace {
 
-constexpr double kMargin = 12, kTop = 74, kRow = 52, kLane = 7, kLabel = 16;
-constexpr double kLeft = kMargin, kWidth = kChartWidth - 2 * kMargin;
+constexpr double kSide = 12, kFirstRow = 74, kCauseRow = 52, kCauseBar = 7, kAboveBars = 16;
+constexpr double kBarsLeft = kSide, kBarsWidth = kChartWidth - 2 * kSide;
 
 // In the order of their bars.
 constexpr std::array kShownCauses{Cause::sampling, Cause::arithmetic, Cause::algorithm,
@@ -54,7 +54,7 @@ std::string shortened(const std::string& label) {
 
 std::string legend(const SceneSweep& sweep) {
   std::string svg;
-  double x = kLeft;
+  double x = kBarsLeft;
   for (const Cause cause : kShownCauses) {
     if (cause == Cause::transport && !sweep.transport) continue;
     const char* const name = kCauseNames[static_cast<std::size_t>(cause)];
@@ -64,36 +64,36 @@ std::string legend(const SceneSweep& sweep) {
     x += 104;
   }
   return svg +
-         formatted("<line class=\"all\" x1=\"%.0f\" x2=\"%.0f\" y1=\"58\" y2=\"70\"/>", kLeft + 5,
-                   kLeft + 5) +
-         formatted("<text x=\"%.0f\" y=\"69\">all together; mean FLIP</text>\n", kLeft + 16);
+         formatted("<line class=\"all\" x1=\"%.0f\" x2=\"%.0f\" y1=\"58\" y2=\"70\"/>",
+                   kBarsLeft + 5, kBarsLeft + 5) +
+         formatted("<text x=\"%.0f\" y=\"69\">all together; mean FLIP</text>\n", kBarsLeft + 16);
 }
 
 std::string rowOf(const Point& point, double y, double most) {
-  const auto lengthOf = [&](double flip) { return most > 0 ? kWidth * flip / most : 0; };
+  const auto lengthOf = [&](double flip) { return most > 0 ? kBarsWidth * flip / most : 0; };
   const std::string label = escaped(point.label()), shown = escaped(shortened(point.label()));
   std::string svg = formatted("<g data-point=\"%s\"><title>%s</title>", label.c_str(),
                               escaped(numbersOf(point)).c_str());
   svg +=
       formatted("<rect class=\"row\" x=\"4\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" rx=\"4\"/>",
-                y, kChartWidth - 8, kRow - 2);
-  svg += formatted("<text class=\"b\" x=\"%.0f\" y=\"%.0f\">%s</text>", kLeft, y + kLabel - 3,
-                   shown.c_str());
+                y, kChartWidth - 8, kCauseRow - 2);
+  svg += formatted("<text class=\"b\" x=\"%.0f\" y=\"%.0f\">%s</text>", kBarsLeft,
+                   y + kAboveBars - 3, shown.c_str());
   svg += formatted("<text class=\"v\" x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%.4f</text>",
-                   kLeft + kWidth, y + kLabel - 3, point.total.flipMean);
-  double lane = y + kLabel;
+                   kBarsLeft + kBarsWidth, y + kAboveBars - 3, point.total.flipMean);
+  double lane = y + kAboveBars;
   for (const Cause cause : kShownCauses) {
     if (const ImageDifference* const error = errorBy(cause, point)) {
       svg += formatted("<rect class=\"%s\" x=\"%.0f\" y=\"%.1f\" width=\"%.2f\" height=\"%.0f\"/>",
-                       kCauseNames[static_cast<std::size_t>(cause)], kLeft, lane,
-                       lengthOf(error->flipMean), kLane - 1);
+                       kCauseNames[static_cast<std::size_t>(cause)], kBarsLeft, lane,
+                       lengthOf(error->flipMean), kCauseBar - 1);
     }
-    lane += kLane;
+    lane += kCauseBar;
   }
-  const double at = kLeft + lengthOf(point.total.flipMean);
+  const double at = kBarsLeft + lengthOf(point.total.flipMean);
   return svg +
          formatted("<line class=\"all\" x1=\"%.2f\" x2=\"%.2f\" y1=\"%.1f\" y2=\"%.1f\"/></g>", at,
-                   at, y + kLabel - 1, lane);
+                   at, y + kAboveBars - 1, lane);
 }
 
 }  // namespace
@@ -121,13 +121,13 @@ std::string causeSvg(const SceneSweep& sweep, const ChartLinks& links) {
     }
   }
   const std::string title = sweep.scene + ": errors by cause";
-  const double bottom = kTop + kRow * static_cast<double>(rows.size());
+  const double bottom = kFirstRow + kCauseRow * static_cast<double>(rows.size());
   std::string svg = beginChart("causes", bottom + 8, kCauseStyle, title) +
-                    formatted("<text class=\"h\" x=\"%.0f\" y=\"24\">%s</text>\n", kMargin,
+                    formatted("<text class=\"h\" x=\"%.0f\" y=\"24\">%s</text>\n", kSide,
                               escaped(title).c_str()) +
                     legend(sweep);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double y = kTop + kRow * static_cast<double>(i);
+    const double y = kFirstRow + kCauseRow * static_cast<double>(i);
     svg += linkToPicture(links, sweep, *rows[i], rowOf(*rows[i], y, most)) + "\n";
   }
   return svg + "</svg>\n";
