@@ -44,7 +44,7 @@ SEGMENTS = [0, 16, 48, 192]
 COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "sponza-mirror"]
 SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
 TRANSPORTED = ["atrium", "whitted", "glass", "sponza-mirror"]
-TRANSPORT_SIZE, TRANSPORT_BUDGET = "160x100", "40"
+TRANSPORT_SIZE, TRANSPORT_BUDGET = "96x60", "20"
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
 KERNELS = [("generateRays",), ("packRays", "unpackHits"), ("interpolateSurfels",),
@@ -345,6 +345,11 @@ def transport_table(rows):
                  [row(r) for r in rows if r["kind"] == "baseline"])
 
 
+def transport_charts(scenes):
+    return "\n".join(f"![Error against all transport over time, {scene}]"
+                     f"(../../scenes/pictures/transport-{scene}.svg)" for scene in scenes)
+
+
 def choices():
     """The sentences of the report, a line each."""
     page = (OUT / "transport/report.html").read_text()
@@ -565,7 +570,8 @@ def write_transport():
     for scene in sweep_scenes(rows):
         put_chart(f"pareto-{scene}.svg", f"transport-{scene}.svg", "transport")
     put(ACCURACY_PAGE, {"transport-machine": machine_line(machine, "transport.json"),
-                        "transport-choices": choices(), "transport-causes": transport_table(rows)})
+                        "transport-choices": choices(),
+                        "transport-charts": transport_charts(sweep_scenes(rows)), "transport-causes": transport_table(rows)})
 
 
 def main():
