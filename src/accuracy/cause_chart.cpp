@@ -10,7 +10,7 @@ namespace whit::accuracy {
 
 namespace {
 
-constexpr double kSide = 12, kFirstRow = 74, kCauseRow = 52, kCauseBar = 7, kAboveBars = 16;
+constexpr double kSide = 12, kFirstRow = 80, kCauseRow = 52, kCauseBar = 7, kAboveBars = 16;
 constexpr double kBarsLeft = kSide, kBarsWidth = kChartWidth - 2 * kSide;
 
 // In the order of their bars.
