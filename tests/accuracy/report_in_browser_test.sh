@@ -89,6 +89,4 @@ HTML
 
 measured model depth,cutoff,spp,packet
 for width in 400 1280; do looked model $width; done
-measured transport spp,indirect
-for width in 400 1280; do looked transport $width; done
 exit $status
