@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
+#include "simd/cosine_lobe-inl.h"
 #include "simd/fresnel-inl.h"
 #include "simd/glossy-inl.h"
 #include "simd/material-inl.h"
@@ -22,7 +23,7 @@ namespace whit::simd::HWY_NAMESPACE {
 struct ImpulseJob {
   const ShadingTables& tables;
   ShadingChoices shading;
-  float cutoff;
+  float cutoff, roulette;
   RayColumns rays;
   SurfelColumns surfels;
   RayColumns children;
@@ -34,6 +35,7 @@ HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
   return {c.tables(),
           c.options().shading,
           c.options().cutoff,
+          c.options().roulette,
           c.rays,
           c.surfels,
           c.children,
@@ -132,15 +134,28 @@ struct Child {
   VF cone;
 };
 
+// The lanes whose children go on by Russian roulette, which count for more where it was by chance.
+HWY_INLINE MF Survivors(const ImpulseJob& job, Child& child, VF& throughput) {
+  const FloatTag d;
+  const VF roulette = hn::Set(d, job.roulette), one = hn::Set(d, 1.0f);
+  const MF survives = hn::Lt(hn::Mul(RouletteDraw(child.path), roulette), throughput);
+  const MF chance = hn::And(survives, hn::Lt(throughput, roulette));
+  if (hn::AllFalse(d, chance)) return survives;
+  const VF grows = hn::IfThenElse(chance, hn::Div(roulette, throughput), one);
+  child.weight = Scale3(child.weight, grows);
+  throughput = hn::IfThenElse(chance, roulette, throughput);
+  return survives;
+}
+
 // Appends the children of the lanes that are worth tracing; returns how many.
-HWY_INLINE size_t Append(const ImpulseJob& job, const Child& child, MF live, size_t i, size_t at) {
+HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, size_t at) {
   const FloatTag d;
   const UintTag du;
   const RayColumns& children = job.children;
-  const VF largest = child.largest, cutoff = hn::Set(d, job.cutoff);
-  const VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), largest);
-  const MF traced =
-      hn::And(live, hn::And(hn::Ge(throughput, cutoff), hn::Gt(largest, hn::Zero(d))));
+  VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), child.largest);
+  const MF worth = HWY_UNLIKELY(job.roulette > 0) ? Survivors(job, child, throughput)
+                                                  : hn::Ge(throughput, hn::Set(d, job.cutoff));
+  const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
@@ -310,6 +325,38 @@ void AddRefractions(Chunk& c) noexcept {
   c.childCount = count;
 }
 
+void AddIndirect(Chunk& c) noexcept {
+  const FloatTag d;
+  const UintTag du;
+  const ImpulseJob job = ImpulseJobOf(c);
+  const LobeSampling sampling = lobeSampling(c.depth, c.options().indirect, c.sampleNumber);
+  const VF share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
+  size_t count = c.childCount;
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialDiffuses>(job, i);
+    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    V3 albedo = Load3(job.surfels.diffuseR, job.surfels.diffuseG, job.surfels.diffuseB, i);
+    if (job.coverage) albedo = Scale3(albedo, CoverageAt(job, i));
+    const VF largest = hn::Mul(MaxComponent(albedo), material.Mirror().impulseShare);
+    const V3 weight = Scale3(albedo, share), origin = ChildOrigin(job, lanes, i, 1.0f);
+    const CosineLobes lobes(lanes.ns);
+    const VU media = MediaAt(job, i);
+    const VU path = hn::Load(du, job.rays.path + i);
+    const VF cone = ConesAt(job, i);
+    for (uint32_t k = 0; k < sampling.count; ++k) {
+      const V3 drawn = lobes.Direction(IndirectPoints(path, sampling, k));
+      const VF elevation = LeastElevation(job, Dot(lanes.ns, drawn));
+      const Child child{origin, Lifted(drawn, lanes.ng, elevation, lanes.live), weight,
+                        media,  ChildStream(path, kFirstIndirectBranch + k),    largest,
+                        cone};
+      count += Append(job, child, lanes.live, i, count);
+    }
+  }
+  c.childCount = count;
+}
+
 void ReturnImpulses(Chunk& c) noexcept {
   const FloatTag d;
   const RayColumns rays = c.rays;
@@ -346,6 +393,7 @@ void ReturnToEye(Chunk& c) noexcept {
 StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
 StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddGlossyReflections; }
 StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
+StepFunction FindAddIndirect(size_t /*index*/) { return AddIndirect; }
 StepFunction FindReturnImpulses(size_t /*index*/) { return ReturnImpulses; }
 StepFunction FindReturnToEye(size_t /*index*/) { return ReturnToEye; }
 
@@ -365,6 +413,10 @@ StepFunction findAddGlossyReflections(std::size_t index) {
 HWY_EXPORT(FindAddRefractions);
 StepFunction findAddRefractions(std::size_t index) {
   return HWY_DYNAMIC_DISPATCH(FindAddRefractions)(index);
+}
+HWY_EXPORT(FindAddIndirect);
+StepFunction findAddIndirect(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindAddIndirect)(index);
 }
 HWY_EXPORT(FindReturnImpulses);
 StepFunction findReturnImpulses(std::size_t index) {

@@ -18,7 +18,7 @@ void GenerateRays(Chunk& c) noexcept {
   const uint32_t* const pixels = c.pixels.data() + c.first;
   const size_t n = c.n;
   const auto firstSlot = static_cast<uint32_t>(c.first);
-  const uint32_t sampleNumber = c.sampleNumber;
+  const uint32_t sampleNumber = c.sampleNumber, seed = c.frame->seed;
   const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
   const bool streams = c.has(Feature::streams);
   const V3 eye = Broadcast3(camera.eye), forward = Broadcast3(camera.forward);
@@ -46,7 +46,7 @@ void GenerateRays(Chunk& c) noexcept {
     hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
     if (media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
     if (cones) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
-    if (streams) hn::Store(StreamOfPixel(packed, sampleNumber), du, rays.path + i);
+    if (streams) hn::Store(StreamOfPixel(packed, sampleNumber, seed), du, rays.path + i);
   }
 }
 

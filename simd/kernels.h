@@ -74,11 +74,13 @@ StepFunction findLookUpCoverage(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
+StepFunction findFindAmbientAndOcclusionRays(std::size_t index);
 StepFunction findDecideShadows(std::size_t index);
 StepFunction findAddShading(std::size_t index);
 StepFunction findAddReflections(std::size_t index);
 StepFunction findAddGlossyReflections(std::size_t index);
 StepFunction findAddRefractions(std::size_t index);
+StepFunction findAddIndirect(std::size_t index);
 StepFunction findReturnImpulses(std::size_t index);
 StepFunction findReturnToEye(std::size_t index);
 
@@ -138,6 +140,13 @@ inline constexpr Kernel kFindRadianceAndShadowRays{
     {Part::unshadowed, Part::shadows},
     EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
 
+// Likewise one sample of the ambient light, and a ray of the length of its occlusion for each slot
+// that reflects some: also without Feature::shadows.
+inline constexpr Kernel kFindAmbientAndOcclusionRays{
+    "findAmbientAndOcclusionRays",     Stage::findRadianceAndShadowRays,
+    findFindAmbientAndOcclusionRays,   {Part::rays, Part::surfels},
+    {Part::unshadowed, Part::shadows}, {}};
+
 // Takes the rays whose verdict is known out of the shadow rays; `visible` is 1 where that is lit.
 inline constexpr Kernel kDecideShadows{"decideShadows",
                                        Stage::checkShadows,
@@ -157,8 +166,8 @@ inline constexpr Kernel kAddShading{"addShading",     Stage::addShading,
                                     {Part::radiance}, {}};
 
 // Children of the surfels, appended to the chunk's. A child whose throughput is below the cutoff is
-// not written. There must be room for one a slot, of sampled lobes for so many a slot as
-// lobeSampling says.
+// not written, or under --roulette by chance only, and then for more. There must be room for one a
+// slot, of sampled lobes for so many a slot as lobeSampling says.
 inline constexpr Kernel kAddReflections{"addReflections",   Stage::addImpulses,
                                         findAddReflections, {Part::rays, Part::surfels},
                                         {Part::children},   {}};
@@ -170,6 +179,11 @@ inline constexpr Kernel kAddGlossyReflections{"addGlossyReflections",   Stage::a
 inline constexpr Kernel kAddRefractions{"addRefractions",   Stage::addImpulses,
                                         findAddRefractions, {Part::rays, Part::surfels},
                                         {Part::children},   {}};
+// Rays drawn by the cosine to the normals of diffuse surfels, written and decided on like samples
+// of glossy lobes.
+inline constexpr Kernel kAddIndirect{"addIndirect",    Stage::addImpulses,
+                                     findAddIndirect,  {Part::rays, Part::surfels},
+                                     {Part::children}, {}};
 // The way back: parent radiance += weight * radiance, child by child in slot order.
 inline constexpr Kernel kReturnImpulses{
     "returnImpulses",       Stage::addImpulses,
@@ -196,6 +210,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,
+                                     kFindAmbientAndOcclusionRays,
                                      kDecideShadows,
                                      kPackShadowRays,
                                      kUnpackVisibility,
@@ -203,6 +218,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kAddReflections,
                                      kAddGlossyReflections,
                                      kAddRefractions,
+                                     kAddIndirect,
                                      kReturnImpulses,
                                      kReturnToEye,
                                      kEncodeDisplay};

@@ -19,14 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
 // lightPoint(): the lattice of each lane's own stream.
-HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
-                                  uint32_t k) {
-  const UintTag du;
-  const VU shared = hn::Sub(path, hn::Set(du, sampling.unshift));
-  const VU stream = Mixed(hn::Xor(shared, hn::Set(du, (light + 1) * kLightStep)));
-  return LobePoints(stream, {sampling.count, sampling.first, 0}, k);
-}
-
 template <uint32_t kBits>
 class LightLanes {
   static constexpr bool kSpots = (kBits & EffectSet::bit(Effect::spotLights)) != 0;

@@ -19,9 +19,10 @@ HWY_INLINE VU Mixed(VU x) {
   return hn::Xor(x, hn::ShiftRight<16>(x));
 }
 
-HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample) {
+HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample, uint32_t seed) {
   const UintTag du;
-  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, kPixelSalt))), hn::Set(du, sample * kSampleStep));
+  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, pixelSalt(seed)))),
+                 hn::Set(du, sample * kSampleStep));
 }
 
 HWY_INLINE VU ChildStream(VU path, uint32_t branch) {
@@ -46,6 +47,24 @@ HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t
   return {UnitFraction(hn::Add(shift, hn::Set(du, index * kLatticeU))),
           UnitFraction(hn::Add(Mixed(hn::Xor(shift, hn::Set(du, kSecondShift))),
                                hn::Set(du, index * kLatticeV)))};
+}
+
+HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
+                                  uint32_t k) {
+  const UintTag du;
+  const VU shared = hn::Sub(path, hn::Set(du, sampling.unshift));
+  const VU stream = Mixed(hn::Xor(shared, hn::Set(du, (light + 1) * kLightStep)));
+  return LobePoints(stream, {sampling.count, sampling.first, 0}, k);
+}
+
+HWY_INLINE UnitPoints IndirectPoints(VU path, const LobeSampling& sampling, uint32_t k) {
+  const UintTag du;
+  const VU own = hn::Xor(hn::Sub(path, hn::Set(du, sampling.unshift)), hn::Set(du, kIndirectSalt));
+  return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
+}
+
+HWY_INLINE VF RouletteDraw(VU path) {
+  return UnitFraction(Mixed(hn::Xor(path, hn::Set(UintTag(), kRouletteSalt))));
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/write_emitted_and_reflective_ambient.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/material-inl.h"
+#include "simd/ambient-inl.h"
 #include "simd/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,18 +25,12 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   const bool coverage = c.has(Feature::coverage);
   const bool sky = c.has(Feature::sky), hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
-  // down + (up - down) * (1 + n.y) / 2 as middle + half * n.y
-  const Vec3f up = tables.ambient.up, down = tables.ambient.down;
-  const V3 middle = Broadcast3((up + down) * 0.5f), half = Broadcast3((up - down) * 0.5f);
+  const ReflectedAmbient reflected(c);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU material = hn::Load(du, surfels.material + i);
     const MF hit = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
     V3 result = black;
-    if (ambient) {
-      const VF ny = hn::Load(d, surfels.nsY + i);
-      const V3 albedo = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
-      result = Mul3(albedo, MulAdd3(half, ny, middle));
-    }
+    if (ambient) result = reflected.At(i, hit);
     if (emission && !hn::AllFalse(d, hit)) {
       V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission().emission;
       if (factors) {

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 """Measures speed and accuracy and writes the tables of the pages that state them.
 
-  tests/measure.py                 both, on a machine at rest: some fourteen minutes on two cores
+  tests/measure.py                 all, on a machine at rest: some twenty minutes on two cores
   tests/measure.py --speed         speed: tests/bench/README.md and the table in README.md (8 min)
   tests/measure.py --accuracy      accuracy: src/accuracy/README.md and the table in README.md (6 min)
+  tests/measure.py --transport     against all transport: src/accuracy/README.md and its charts (7 min)
   tests/measure.py --tables-only   only the tables, from what was measured before
 
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
-comments of its name; the text around them is written by hand. All figures of a page are of one commit
-and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
+comments of its name; the text around them is written by hand. All figures of a page, and those against
+all transport, are of one commit and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
 its model ($WHIT_DATA), the viewer's figures a display or Xvfb; without them they are left out, loudly.
 """
 import argparse
 import csv
 import datetime
+import html
 import json
 import os
 import pathlib
@@ -41,6 +43,8 @@ LONG_PATHS = ["matte", "sponza-mirror", "mirrors", "whitted", "glass"]
 SEGMENTS = [0, 16, 48, 192]
 COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "sponza-mirror"]
 SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
+TRANSPORTED = ["atrium", "whitted", "glass", "sponza-mirror"]
+TRANSPORT_SIZE, TRANSPORT_BUDGET = "96x60", "20"
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
 KERNELS = [("generateRays",), ("packRays", "unpackHits"), ("interpolateSurfels",),
@@ -163,6 +167,12 @@ def measure_accuracy():
         keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
     except subprocess.CalledProcessError:
         complain("tests/targets.sh fails: its table stays as it is")
+
+
+def measure_transport():
+    run([BUILD / "whit", "accuracy", *here(TRANSPORTED), "--truth", "transport", "--size",
+         TRANSPORT_SIZE, "--time-budget", TRANSPORT_BUDGET, "--out", OUT / "transport", "--quiet"])
+    keep("transport.json", bench("matte", "--size", "8x8", "--frames", "1"))
 
 
 # Tables.
@@ -323,8 +333,32 @@ def compare_table(data):
                   "worst stage, share of its limit", "not finite"], [row(r) for r in data["runs"]])
 
 
-def sweep():
-    path = OUT / "accuracy/sweep.csv"
+def transport_table(rows):
+    """What the baseline is off by, apart by cause, and what the truth is."""
+    def row(r):
+        error = value(r, "truth_standard_error") / value(r, "truth_mean_radiance")
+        causes = ["sampling", "arithmetic", "algorithm", "transport", "total"]
+        return [scene_of(r), *(f"{value(r, cause + '_flip'):.4f}" for cause in causes),
+                r["truth_samples"], f"{100 * error:.2g} %", f"{value(r, 'truth_noise_flip'):.4f}"]
+    return table(["FLIP of `standard`", "sampling", "arithmetic", "algorithm", "transport", "all",
+                  "samples of the truth", "its standard error", "FLIP between its halves"],
+                 [row(r) for r in rows if r["kind"] == "baseline"])
+
+
+def transport_charts(scenes):
+    return "\n".join(f"![Error against all transport over time, {scene}]"
+                     f"(../../scenes/pictures/transport-{scene}.svg)" for scene in scenes)
+
+
+def choices():
+    """The sentences of the report, a line each."""
+    page = (OUT / "transport/report.html").read_text()
+    found = re.findall(r'<p class="choice">(.*?)</p>', page)
+    return "\n".join("- " + html.unescape(sentence) for sentence in found)
+
+
+def sweep(folder="accuracy"):
+    path = OUT / folder / "sweep.csv"
     return list(csv.DictReader(path.open())) if path.exists() else []
 
 
@@ -501,9 +535,9 @@ def write_speed():
     put("README.md", {"speed": home_speed(frames)})
 
 
-def put_chart(made, picture):
-    """A chart of the sweep without its links, which lead to the report beside it."""
-    chart = (OUT / "accuracy" / made).read_text()
+def put_chart(made, picture, folder="accuracy"):
+    """A chart of a sweep without its links, which lead to the report beside it."""
+    chart = (OUT / folder / made).read_text()
     (PICTURES / picture).write_text(re.sub(r"</?a\b[^>]*>", "", chart))
 
 
@@ -526,28 +560,47 @@ def write_accuracy():
     put("README.md", {"accuracy": home_accuracy(compared)})
 
 
+def write_transport():
+    machine, rows = read("transport.json"), sweep("transport")
+    if not rows:
+        return complain(f"{OUT} has no sweep against all transport: its tables stay as they are")
+    swept = {key: rows[0][key] for key in machine["machine"]}
+    swept["cores"] = int(swept["cores"])
+    require_one_machine([("transport.json", machine["machine"]), ("transport/sweep.csv", swept)])
+    for scene in sweep_scenes(rows):
+        put_chart(f"pareto-{scene}.svg", f"transport-{scene}.svg", "transport")
+    put(ACCURACY_PAGE, {"transport-machine": machine_line(machine, "transport.json"),
+                        "transport-choices": choices(),
+                        "transport-charts": transport_charts(sweep_scenes(rows)), "transport-causes": transport_table(rows)})
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--speed", action="store_true")
     parser.add_argument("--accuracy", action="store_true")
+    parser.add_argument("--transport", action="store_true")
     parser.add_argument("--tables-only", action="store_true")
     job = parser.parse_args()
-    both = not job.speed and not job.accuracy
+    every = not job.speed and not job.accuracy and not job.transport
     if not job.tables_only:
         if not (BUILD / "whit").exists():
             sys.exit("tests/measure.py: there is no build/whit; scenes/demo.sh makes it")
         if not os.environ.get("WHIT_DATA"):
             complain("WHIT_DATA is not set: sponza-mirror is left out")
         OUT.mkdir(parents=True, exist_ok=True)
-        if job.speed or both:
+        if job.speed or every:
             measure_speed()
-        if job.accuracy or both:
+        if job.accuracy or every:
             measure_accuracy()
-    if job.speed or both:
+        if job.transport or every:
+            measure_transport()
+    if job.speed or every:
         write_speed()
-    if job.accuracy or both:
+    if job.accuracy or every:
         write_accuracy()
+    if job.transport or every:
+        write_transport()
 
 
 if __name__ == "__main__":

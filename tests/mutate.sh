@@ -111,8 +111,8 @@ mutations() {
     'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
   plant nan-throughput simd/add_impulses.cpp \
-    'hn::And(live, hn::And(hn::Ge(throughput, cutoff), hn::Gt(largest, hn::Zero(d))))' \
-    'hn::AndNot(hn::Lt(throughput, cutoff), live)'
+    'hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))))' \
+    'hn::And(live, hn::Or(worth, hn::Ne(throughput, throughput)))'
   plant media-not-removed simd/media-inl.h \
     'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \

@@ -177,6 +177,7 @@ bool App::fetchFrame() {
   if (request.view == settings_.view) {
     resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.depth);
   }
+  resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
   rate_.fetched(!request.interruptible);
   if (shown_.request.measureKnobs) settings_.measureKnobs = false;

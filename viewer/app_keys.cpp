@@ -202,7 +202,12 @@ void App::printView() {
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
   window_.setClipboard(text);
-  say("the view as whit render makes it: printed, and in the clipboard");
+  const bool accumulates = unfinished_ && unfinished_->samples > shown_.options.spp;
+  say(accumulates
+          ? formatted("the view with %d samples as whit render makes it: printed, and in the "
+                      "clipboard",
+                      shown_.options.spp)
+          : "the view as whit render makes it: printed, and in the clipboard");
 }
 
 void App::saveScene() {

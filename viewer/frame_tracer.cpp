@@ -131,8 +131,9 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
   Sky next = std::move(!another ? scene_->scene.sky : edit.sky.source.empty() ? ownSky_ : opened);
   next.scale = edit.sky.scale;
   next.rotation = edit.sky.rotation;
-  const Ambient ambient =
-      edit.ambient.ofSky > 0 ? ambientFromSky(next, edit.ambient.ofSky) : edit.ambient;
+  const Ambient ambient = edit.ambient.ofSky > 0
+                              ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient.occlusion)
+                              : edit.ambient;
   editSky(scene_->scene, next, ambient);
   if (another && sky_.source.empty()) ownSky_ = std::move(next);
   sky_ = edit.sky;
@@ -171,6 +172,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.comparison.reset();
   frame.costs.clear();
   if (!tracePicture(request, frame, calls)) return false;
+  finished_ = request;
   frame.scene = scene_;
   frame.request = request;
   frame.request.options.exposure = options_.exposure;
@@ -187,6 +189,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   }
   cli::addSettings(frame.settings, frame.sky, frame.metadata);
   frame.effects = renderer_->plan().effects;
+  frame.sampled = renderer_->plan().features.has(Feature::streams);
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
   if (request.measureKnobs && !measure(request, frame, calls)) return false;
@@ -247,7 +250,12 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   learnedFor_ = request;
   learnedFor_->depth = options_.depth;
   const double expectedMs = msPerSample_ * samplesOf(request);
-  if (request.interruptible && expectedMs > kBlockMs) {
+  part_ = {0, options_.spp};
+  sums_.reset();
+  frame.sampleError = 0;
+  if (accumulates(request)) {
+    if (!traceInPasses(request, frame, calls)) return false;
+  } else if (request.interruptible && expectedMs > kBlockMs) {
     if (!traceInBlocks(request, frame, kBlockMs, calls.superseded, calls)) return false;
   } else if (expectedMs == 0 || expectedMs > kLongBlockMs) {
     if (!traceInBlocks(request, frame, kLongBlockMs, calls.leaving, calls)) return false;
@@ -264,6 +272,12 @@ FrameStats FrameTracer::traceBlock(const FrameRequest& request, const Crop& bloc
                                    TracedFrame& frame) {
   const ImageSize size = filmSizeOf(frame.film);
   const bool whole = block == Crop{0, 0, size.width, size.height};
+  if (sums_) {
+    sizeFilm(band_, size, block);
+    const FrameStats stats = renderer_->accumulate(request.camera, band_, part_, *sums_);
+    place(band_, frame.film);
+    return stats;
+  }
   if (whole && request.view == DebugView::none) {
     return renderer_->render(request.camera, frame.film);
   }
@@ -314,7 +328,7 @@ bool FrameTracer::fits(double blockMs, const ImageSize& size, const Crop& part) 
   constexpr double kShortMs = 1;  // by the mean: what is shorter is not worth a block of its own
   const double known = costs_.highest(size, part), mean = msPerSample_;
   const double samples =
-      static_cast<double>(part.x1 - part.x0) * (part.y1 - part.y0) * options_.spp;
+      static_cast<double>(part.x1 - part.x0) * (part.y1 - part.y0) * part_.count();
   if (mean == 0)
     return part.y1 - part.y0 <= kBlockRows;  // the first of all, which is coarse and flat
   return (known > 0 ? known : kUneven * mean) * samples <= blockMs || mean * samples <= kShortMs;
@@ -363,15 +377,12 @@ Crop FrameTracer::nextTiles(const ImageSize& size, const Crop& last, double bloc
   return block;
 }
 
-bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
-                                const std::function<bool()>& givenUp, const TraceCalls& calls) {
+bool FrameTracer::traceBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
+                              const std::function<bool()>& givenUp,
+                              const std::function<void(const Crop&)>& afterBlock) {
   const ImageSize size = filmSizeOf(frame.film);
-  sizeDisplay(frame.film);
-  std::fill(frame.film.display.rgba.begin(), frame.film.display.rgba.end(), std::uint8_t{0});
-  frame.stats = FrameStats();
   constexpr double kLeastMs = 1e-9;  // of a sample
   double leastMs = std::numeric_limits<double>::infinity();
-  Stopwatch sinceShown;
   for (Crop block; block.y1 < size.height || block.x1 < size.width;) {
     if (givenUp()) return false;
     block = nextBlock(size, block, blockMs, request.view);
@@ -380,16 +391,62 @@ bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame,
     frame.stats.frameMs += stats.frameMs;
     frame.stats.workers = stats.workers;
     const double samples =
-        static_cast<double>(block.x1 - block.x0) * (block.y1 - block.y0) * options_.spp;
+        static_cast<double>(block.x1 - block.x0) * (block.y1 - block.y0) * part_.count();
     // Without what any block takes, however small.
     leastMs = std::min(leastMs, stats.frameMs);
     costs_.learn(size, block, std::max((stats.frameMs - leastMs) / samples, kLeastMs));
+    afterBlock(block);
+  }
+  return true;
+}
+
+bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
+                                const std::function<bool()>& givenUp, const TraceCalls& calls) {
+  const ImageSize size = filmSizeOf(frame.film);
+  sizeDisplay(frame.film);
+  std::fill(frame.film.display.rgba.begin(), frame.film.display.rgba.end(), std::uint8_t{0});
+  frame.stats = FrameStats();
+  Stopwatch sinceShown;
+  return traceBlocks(request, frame, blockMs, givenUp, [&](const Crop& block) {
     const bool last = block.y1 == size.height && block.x1 == size.width;
-    if (last || sinceShown.ms() < kUnfinishedMs) continue;
+    if (last || sinceShown.ms() < kUnfinishedMs) return;
     sinceShown = Stopwatch();
     const double done = static_cast<double>(block.y0) / size.height;
     calls.showUnfinished({request, frame.film.display, done, {}});
+  });
+}
+
+bool FrameTracer::accumulates(const FrameRequest& request) const {
+  return request.interruptible && request.view == DebugView::none && options_.spp > 1 &&
+         !options_.adaptive && renderer_->plan().features.has(Feature::streams);
+}
+
+// What is shown on the way has more samples than the picture before; until then that stays.
+bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
+                                const TraceCalls& calls) {
+  const ImageSize size = filmSizeOf(frame.film);
+  sizeDisplay(frame.film);
+  frame.stats = FrameStats();
+  sums_.emplace(Crop{0, 0, size.width, size.height});
+  const bool again =
+      finished_ && sameSubject(*finished_, request) && finished_->options.size == size;
+  const int shown = again ? finished_->spp : 0;
+  const double passMs = msPerSample_ * static_cast<double>(size.width) * size.height;
+  const double wanted = passMs > 0 ? kPassMs / passMs : 1;
+  const int most =
+      static_cast<int>(std::clamp(wanted, 1.0, std::max(options_.spp / kLeastPasses, 1.0)));
+  while (part_.first < options_.spp) {
+    part_.end = std::min(part_.first + most, options_.spp);
+    if (!traceBlocks(request, frame, kBlockMs, calls.superseded, [](const Crop&) {})) return false;
+    if (part_.end > 1) frame.sampleError = sums_->relativeError(part_.end);
+    part_.first = part_.end;
+    if (part_.end == options_.spp) break;
+    const double done = static_cast<double>(part_.end) / options_.spp;
+    UnfinishedFrame sight{request, {}, done, {}, part_.end, frame.sampleError};
+    if (part_.end > shown) sight.display = frame.film.display;
+    calls.showUnfinished(std::move(sight));
   }
+  sums_.reset();
   return true;
 }
 

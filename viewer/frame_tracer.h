@@ -20,6 +20,10 @@ inline constexpr double kBlockMs = 10;
 inline constexpr double kLongBlockMs = 50;
 // Between two sights of a picture under way.
 inline constexpr double kUnfinishedMs = 25;
+// Of a picture that gets more and more samples, each pass over it is meant to take so long; it has
+// one sample a pixel at least.
+inline constexpr double kPassMs = 100;
+inline constexpr double kLeastPasses = 8;  // where there are as many samples
 
 struct TraceCalls {
   // Asked between blocks of interruptible frames: something else is wanted.
@@ -67,6 +71,13 @@ class FrameTracer {
   // Blocks are meant to take `blockMs`; false when `givenUp` said so between two of them.
   bool traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
                      const std::function<bool()>& givenUp, const TraceCalls& calls);
+  // At rest, where rays are sampled: pass by pass, each with some of the samples of all pixels.
+  bool accumulates(const FrameRequest& request) const;
+  bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
+  // The samples `part_` of all pixels; afterBlock(last block).
+  bool traceBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
+                   const std::function<bool()>& givenUp,
+                   const std::function<void(const Crop&)>& afterBlock);
   // The one after `last`, which is empty before the first.
   Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs, DebugView view);
   Crop nextTiles(const ImageSize& size, const Crop& last, double blockMs);
@@ -85,8 +96,11 @@ class FrameTracer {
   double seconds_ = 0;                     // when it is, where it moves
   std::string animation_;                  // that it was read with
   Film band_;
-  std::vector<WatchedPixel> watched_;  // of the view that is being traced
-  AmountScale scale_;                  // of its last picture, by which the next one begins
+  SampleRange part_;                      // of the samples, that is traced at once
+  std::optional<SampleSums> sums_;        // of a picture that is traced in passes
+  std::optional<FrameRequest> finished_;  // the last picture
+  std::vector<WatchedPixel> watched_;     // of the view that is being traced
+  AmountScale scale_;                     // of its last picture, by which the next one begins
   DebugView scaleOf_ = DebugView::none;
   double msPerSample_ = 0;                  // 0: nothing traced yet
   CostMap costs_;                           // of samples, ms

@@ -287,6 +287,15 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
   return true;
 }
 
+std::string errorText(double sampleError) {
+  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
+}
+
+std::string samplesText(const UnfinishedFrame& frame) {
+  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
+         errorText(frame.sampleError);
+}
+
 std::string sharpnessText(const FrameRequest& request) {
   const int window = std::max(request.window.width, 1);
   const int width = request.options.size ? request.options.size->width : window;
@@ -298,12 +307,15 @@ std::string sharpnessText(const FrameRequest& request) {
 
 void Panel::remember(const TracedFrame& frame) {
   costs_.learn(frame);
+  sofar_.clear();
   if (frame.request.measureKnobs) measured_ = 0;
   if (frame.request.interruptible) return;
   graph_.add(frame.stats.frameMs);
 }
 
 void Panel::remember(const UnfinishedFrame& frame) {
+  const bool shown = frame.samples > 0 && !frame.display.rgba.empty();
+  if (shown) sofar_ = samplesText(frame);
   if (!frame.request.measureKnobs || frame.costs.empty()) return;
   measured_ = frame.done;
   costs_.learn(frame);
@@ -313,8 +325,9 @@ void Panel::drawTimes(const TracedFrame& frame) const {
   const FrameStats& stats = frame.stats;
   ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
   const Image& image = frame.film.image;
-  ImGui::Text("%d x %d, %d sample%s a pixel", image.width, image.height, frame.request.spp,
-              frame.request.spp == 1 ? "" : "s");
+  ImGui::Text("%d x %d, %d sample%s a pixel%s", image.width, image.height, frame.request.spp,
+              frame.request.spp == 1 ? "" : "s", errorText(frame.sampleError).c_str());
+  if (!sofar_.empty()) ImGui::Text("so far %s", sofar_.c_str());
   ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
               frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
@@ -400,9 +413,13 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
 
 void Panel::drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
   constexpr float kMargin = 10, kPadding = 4;
-  std::string text = sharpnessText(frame.request);
+  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
+  const bool more = next && next->samples > frame.request.spp && !next->display.rgba.empty();
+  if (more) {
+    text = samplesText(*next);
+  }
   if (rate > 0) text += formatted(", %.0f frames/s", rate);
-  if (next) {
+  if (next && !more) {
     text += formatted("; next %s: %.0f %%", sharpnessText(next->request).c_str(), 100 * next->done);
   }
   const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());

@@ -52,6 +52,11 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
+// ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
+// empty where that is not known.
+std::string errorText(double sampleError);
+// "100 of 256 samples, within about 0.8 %": of a picture that gets more and more of them.
+std::string samplesText(const UnfinishedFrame& frame);
 // "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
 std::string sharpnessText(const FrameRequest& request);
 
@@ -78,6 +83,7 @@ class Panel {
 
   KnobCosts costs_;
   double measured_ = 0;  // share of the options, while they are measured
+  std::string sofar_;    // of a picture that gets more and more samples, while it does
   FrameGraph graph_;
 };
 

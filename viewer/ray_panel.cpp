@@ -206,7 +206,7 @@ void select(const RayPick& pick, RayView& view) {
   double most = 0;
   for (const LightContribution& light : met.lights) {
     const double radiance = maxComponent(light.radiance);
-    if (radiance <= most) continue;
+    if (radiance <= most || light.light == kAmbientLight) continue;
     most = radiance;
     view.light = light.light;
   }

@@ -113,7 +113,8 @@ double ResolutionControl::scaleOf(std::size_t step) const {
 }
 
 std::size_t ResolutionControl::lastStep(bool supersample) const {
-  return fullStep() + (supersample ? kStillSppFactors.size() - 1 : 0);
+  const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
+  return fullStep() + (supersample ? factors - 1 : 0);
 }
 
 Sharpness ResolutionControl::still(bool supersample) const {

@@ -4,7 +4,8 @@
 // In motion, a scale of the window's size that holds the wanted frame rate, judged by what recent
 // samples cost. Where that would be mush a smaller depth pays for resolution, and where the
 // coarsest scale is still too slow, fewer samples. At rest, step by step: 1/8, 1/4, 1/2 and all of
-// the window's pixels, beginning with what is soon there, then 4 and 16 times the samples.
+// the window's pixels, beginning with what is soon there, then 4 and 16 times the samples; where
+// rays are sampled, 64 and 256 times as well.
 #pragma once
 
 #include <array>
@@ -33,9 +34,10 @@ inline constexpr int kFirstDepth = 4;  // of these, before anything is known
 // Time that a smaller depth must save, as a share, to be worth what it leaves out.
 inline constexpr double kDepthSaves = 0.15;
 inline constexpr std::array kCoarseScales{0.125, 0.25, 0.5};  // at rest
-inline constexpr std::array kStillSppFactors{1, 4, 16};
-inline constexpr double kFirstStillMs = 50;     // what the first picture at rest may take
-inline constexpr double kSettleSeconds = 0.06;  // at rest for so long before it sharpens
+inline constexpr std::array kStillSppFactors{1, 4, 16, 64, 256};
+inline constexpr std::size_t kUnsampledSppFactors = 3;  // of these, where nothing is sampled
+inline constexpr double kFirstStillMs = 50;             // what the first picture at rest may take
+inline constexpr double kSettleSeconds = 0.06;          // at rest for so long before it sharpens
 // A finer scale must promise to stay below this share of the frame time, lest it be taken back.
 inline constexpr double kHeadroom = 0.85;
 
@@ -47,6 +49,8 @@ class ResolutionControl {
   double rate() const { return rate_; }
   void setSpp(int spp) { spp_ = spp; }
   void setDepth(int depth) { depth_ = depth; }
+  // Whether rays are drawn at random: noise goes with many samples only.
+  void setSampled(bool sampled) { sampled_ = sampled; }
 
   // The largest scale, also at rest: `steps` towards finer (positive) or coarser pixels.
   void stepLargestScale(int steps);
@@ -80,6 +84,7 @@ class ResolutionControl {
 
   double rate_ = kFewCoresRate;
   int spp_, depth_ = kDepthLimit;
+  bool sampled_ = false;
   std::size_t largest_ = 0, level_ = 0;  // of kScales
   std::size_t tier_ = 0;                 // of kMotionDepths
   std::size_t step_ = 0;                 // of the scales at rest, then the samples

@@ -65,6 +65,7 @@ inline double samplesOf(const FrameRequest& request) {
 
 // Whether both give the same light under the same sky.
 inline bool sameAmbient(const Ambient& a, const Ambient& b) {
+  if (a.occlusion != b.occlusion) return false;
   if (a.ofSky > 0 || b.ofSky > 0) return a.ofSky == b.ofSky;
   return a.up == b.up && a.down == b.down;
 }
@@ -96,6 +97,8 @@ struct TracedFrame {
   FrameStats stats;
   ImageMetadata metadata;
   EffectSet effects;                               // that were traced
+  bool sampled = false;                            // rays were drawn at random
+  double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
   std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
   std::vector<std::string> settings;  // with which the scene was read, then those of an edit
   std::string sky;                    // its --sky, unless another was chosen since
@@ -114,6 +117,9 @@ struct UnfinishedFrame {
   DisplayImage display;  // transparent where nothing was traced yet; empty: options are measured
   double done = 0;       // share of it
   std::vector<KnobCost> costs;  // measured so far
+  // Of a picture that gets more and more samples: that are shown, and SampleSums::relativeError().
+  int samples = 0;
+  double sampleError = 0;
 };
 
 }  // namespace whit::view

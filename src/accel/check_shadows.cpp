@@ -13,8 +13,9 @@ template <int kWidth>
 std::size_t traceShadows(const Accel::Parts& parts, const Chunk& c, double& embreeMs) {
   const EmbreeScene& scene = parts.embree;
   const std::size_t n = c.shadowCount;
-  QueryContext context(c.coherent);
-  const bool together = parts.together(kWidth, c.coherent);
+  const bool coherent = c.shadowsAreCoherent();
+  QueryContext context(coherent);
+  const bool together = parts.together(kWidth, coherent);
   ShadowGroup<kWidth> group;
   for (auto& packet : group.packets) setConstants<kWidth>(packet, kShadowMask);
   setLanes<kWidth>(group.lanes.data(), kGroup);
@@ -35,9 +36,10 @@ std::size_t traceShadows(const Accel::Parts& parts, const Chunk& c, double& embr
 
 std::size_t traceShadowsSingly(const EmbreeScene& scene, const Chunk& c, double& embreeMs) {
   const auto start = TraceClock::now();
+  const bool coherent = c.shadowsAreCoherent();
   for (std::size_t i = 0; i < c.shadowCount; ++i) {
     const bool blocked = isOccluded(scene, originAt(c.shadows, i), directionAt(c.shadows, i),
-                                    c.shadows.tFar[i], c.coherent);
+                                    c.shadows.tFar[i], coherent);
     c.unshadowed.visible[c.shadows.slot[i]] = blocked ? 0.0f : 1.0f;
   }
   embreeMs += millisecondsSince(start);
@@ -47,10 +49,11 @@ std::size_t traceShadowsSingly(const EmbreeScene& scene, const Chunk& c, double&
 }  // namespace
 
 void Accel::checkShadows(Chunk& c) const noexcept {
-  RayTally& tally = c.meter->tally[static_cast<std::size_t>(RayKind::shadow)];
+  const RayKind kind = c.lightIsAmbient() ? RayKind::occlusion : RayKind::shadow;
+  RayTally& tally = c.meter->tally[static_cast<std::size_t>(kind)];
   double& embreeMs = c.meter->embreeMs;
   tally.rays += c.shadowCount;
-  const int packet = parts_->shadowPacket(c.coherent);
+  const int packet = parts_->shadowPacket(c.shadowsAreCoherent());
   tally.lanes += packet == 16  ? traceShadows<16>(*parts_, c, embreeMs)
                  : packet == 8 ? traceShadows<8>(*parts_, c, embreeMs)
                  : packet == 4 ? traceShadows<4>(*parts_, c, embreeMs)

@@ -91,6 +91,7 @@ void writeErrors(CsvWriter& csv, const Point& point) {
   writeDifference(csv, "algorithm", &point.algorithm);
   const ArithmeticError* a = point.arithmetic ? &*point.arithmetic : nullptr;
   writeDifference(csv, "arithmetic", a ? &a->samePath : nullptr);
+  writeDifference(csv, "transport", point.transport ? &*point.transport : nullptr);
   const auto optional = [&](const char* name, double value) {
     csv.text(name, a ? formatted("%.6g", value) : "");
   };
@@ -101,7 +102,22 @@ void writeErrors(CsvWriter& csv, const Point& point) {
   optional("worst_ulp", a ? a->worstUlp : 0);
   csv.text("nonfinite", std::to_string(point.total.nonFinite));
   csv.text("front", point.onFront ? "yes" : "no");
+  csv.text("covers_neighbor", point.coversNeighbor ? "yes" : "no");
   csv.text("front_same_samples", point.onFrontSameSamples ? "yes" : "no");
+}
+
+void writeTruth(CsvWriter& csv, const SceneSweep& sweep) {
+  csv.text("truth", kTruthNames[static_cast<std::size_t>(sweep.truth())]);
+  const TransportFacts* t = sweep.transport ? &*sweep.transport : nullptr;
+  const auto put = [&](const char* name, double value) {
+    csv.text(name, t ? formatted("%.7g", value) : "");
+  };
+  put("truth_passes", t ? t->passes : 0);
+  put("truth_samples", t ? t->samples : 0);
+  put("truth_standard_error", t ? t->standardError : 0);
+  put("truth_mean_radiance", t ? t->meanRadiance : 0);
+  put("truth_noise_flip", t ? t->noiseFlip : 0);
+  csv.text("truth_digest", t ? t->digest : "");
 }
 
 void writeRun(CsvWriter& csv, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
@@ -113,6 +129,7 @@ void writeRun(CsvWriter& csv, const SceneSweep& sweep, const Point& point, const
   csv.number("reference_samples", sweep.referenceSamples);
   csv.text("reference_cutoff", formatted("%g", static_cast<double>(sweep.referenceCutoff)));
   csv.text("reference_digest", sweep.referenceDigest);
+  writeTruth(csv, sweep);
   csv.text("sweep", facts.full ? "full" : "quick");
   csv.number("seed", facts.seed);
   csv.text("cpu", facts.cpu);
@@ -164,6 +181,9 @@ std::string keyOf(const CsvRow& row) {
   for (const char* name : {"scene", "width", "height", "kind", "knob", "value"}) {
     key += field(row, name) + (std::string(name) == "width" ? "x" : " ");
   }
+  if (field(row, "truth") == kTruthNames[1]) {
+    key += "(all transport, " + field(row, "truth_samples") + " samples) ";
+  }
   return key + "(reference of " + field(row, "reference_samples") + " samples, cutoff " +
          field(row, "reference_cutoff") + ")";
 }
@@ -189,7 +209,8 @@ void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance&
     grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
                     (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
   };
-  for (const char* group : {"total", "same_samples", "sampling", "algorithm", "arithmetic"}) {
+  for (const char* group :
+       {"total", "same_samples", "sampling", "algorithm", "arithmetic", "transport"}) {
     const std::string prefix = group;
     compare(prefix + "_rmse", tolerance.rmse);
     compare(prefix + "_flip", tolerance.flip);

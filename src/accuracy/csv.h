@@ -18,8 +18,8 @@ struct RunFacts {
   std::string hardCases;  // a <table> of what `whit stress` found; empty: it did not run
 };
 
-// One row a point. Errors come in groups: total_ (against the reference of all), same_samples_,
-// sampling_, algorithm_ and arithmetic_; those that were not measured are empty. Times are in
+// One row a point. Errors come in groups: total_ (against the truth), same_samples_, sampling_,
+// algorithm_, arithmetic_ and transport_; those that were not measured are empty. Times are in
 // milliseconds, shares in per cent.
 std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
 

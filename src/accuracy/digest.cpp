@@ -104,13 +104,13 @@ void add(Digester& d, const InstanceRecord& instance) {
   add(d, geometry), add(d, toWorld);
 }
 void add(Digester& d, const Material& material) {
-  const auto& [name, diffuse, diffuseMap, specular, specularMap, roughness, roughnessMap,
-               glossyReflection, emission, emissionMap, normalMap, emissionBySecondUvs,
-               normalBySecondUvs, alphaMap, alphaCutoff, coverage, coverageMap, mirror,
-               mirrorGrazing, transmission, thin, ior, absorption, priority, vertexTint,
+  const auto& [name, diffuse, diffuseMap, diffuseReflection, specular, specularMap, roughness,
+               roughnessMap, glossyReflection, emission, emissionMap, normalMap,
+               emissionBySecondUvs, normalBySecondUvs, alphaMap, alphaCutoff, coverage, coverageMap,
+               mirror, mirrorGrazing, transmission, thin, ior, absorption, priority, vertexTint,
                doubleSided, castsShadow, pointer] = material;
   add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
-  add(d, roughnessMap);
+  add(d, roughnessMap), add(d, diffuseReflection);
   add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
   add(d, emissionBySecondUvs), add(d, normalBySecondUvs);
   add(d, coverage), add(d, coverageMap), add(d, thin);
@@ -159,7 +159,8 @@ std::string digestOf(const Scene& scene) {
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
                instancedSpheres, items, flush, motion, effects, reasons] = scene;
   Digester d;
-  addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down);
+  addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down),
+      add(d, ambient.occlusion);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);

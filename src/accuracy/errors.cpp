@@ -22,6 +22,12 @@ double ulpsApart(const Rgb& a, const Rgb& b) {
   return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
 }
 
+ImageDifference noDifference() {
+  ImageDifference none;
+  none.psnrDb = std::numeric_limits<double>::infinity();
+  return none;
+}
+
 void runTogether(const std::vector<std::function<void()>>& tasks) {
   parallelFor(static_cast<int>(tasks.size()), tasks.size(),
               [&](std::size_t i, int) { tasks[i](); });
@@ -53,17 +59,33 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
 
 ErrorMeter::ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
                        const Exactness& exactness, ReferenceCache& cache, int samples,
-                       Progress* progress)
+                       const TransportPicture* transport, Progress* progress)
     : scene_(scene),
       camera_(camera),
       base_(base),
       exactness_(exactness),
-      reference_(&cache.get(referenceOptions(base, samples, exactness), progress)),
+      reference_(&cache.get(
+          referenceOptions(transport ? withoutTransport(base) : base, samples, exactness),
+          progress)),
       exact_(&cache.get(exactAtSameSamples(base, exactness), progress)),
-      hdrFlip_(reference_->image) {}
+      transport_(transport),
+      hdrFlip_(truth()) {
+  if (transport_) leftOut_ = against(reference_->image, truth(), SrgbEncoding::exact);
+}
+
+ImageDifference ErrorMeter::against(const Image& a, const Image& b, SrgbEncoding encoding) const {
+  return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
+}
+
+// What more samples of the point lead to.
+const Image& ErrorMeter::limitOf(const Point& point) const {
+  return transport_ && hasTransport(point.options) ? truth() : reference_->image;
+}
 
 const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& own) {
-  const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness_);
+  const Exactness exactness =
+      hasTransport(point.options) ? Exactness{kTransportCutoff} : exactness_;
+  const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness);
   const std::string digest = digestOf(exact);
   if (digest == digestOf(point.options)) return own;
   const auto found = exactPackets_.find(digest);
@@ -76,24 +98,24 @@ const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& 
 void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   point.stats = frames.stats;
   const Image& image = frames.film.image;
-  const auto against = [&](const Image& a, const Image& b) {
-    const SrgbEncoding encoding = &a == &image ? point.options.srgb : SrgbEncoding::exact;
-    return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
+  const auto differenceOf = [&](const Image& a, const Image& b) {
+    return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
   };
   std::vector<std::function<void()>> comparisons;
   comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
-  comparisons.emplace_back([&] { point.total = against(image, reference_->image); });
+  comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
   // The sampling of the point is the baseline's where the exact options are.
   if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
       digestOf(exactAtSameSamples(base_, exactness_))) {
-    comparisons.emplace_back([&] { point.sameSamples = against(image, exact_->image); });
+    comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_->image); });
   }
   runTogether(comparisons);
   if (point.cause != Cause::arithmetic) {
     const Image& unapproximated = withoutApproximations(point, image);
-    runTogether({[&] { point.sampling = against(unapproximated, reference_->image); },
-                 [&] { point.algorithm = against(image, unapproximated); }});
+    runTogether({[&] { point.sampling = differenceOf(unapproximated, limitOf(point)); },
+                 [&] { point.algorithm = differenceOf(image, unapproximated); }});
   }
+  if (transport_) point.transport = hasTransport(point.options) ? noDifference() : *leftOut_;
   if (!arithmetic) return;
   point.arithmetic =
       arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
@@ -119,7 +141,7 @@ std::string ErrorMeter::pngOf(const Image& image) const {
 
 void ErrorMeter::depict(Point& point, const Image& image) const {
   point.imagePng = pngOf(image);
-  point.totalMapPng = encodePng(heatMap(image, reference_->image));
+  point.totalMapPng = encodePng(heatMap(image, truth()));
   if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_->image));
 }
 

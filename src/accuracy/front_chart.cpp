@@ -13,7 +13,7 @@ namespace whit::accuracy {
 namespace {
 
 constexpr double kHeight = 420;
-constexpr Box kPlot{52, 62, 470, 374};
+constexpr Box kPlot{52, 92, 470, 374};
 constexpr double kZeroY = 362;  // where an error of 0 stands
 constexpr double kRadius = 4.5, kCharWidth = 8.2, kLineHeight = 16;
 constexpr std::size_t kMostTicks = 8;     // on a scale
@@ -100,6 +100,8 @@ constexpr const char* kFrontStyle =
     ".pareto .h{font-size:16px;font-weight:600}.pareto .s,.pareto .d{fill:#59636e}\n"
     ".pareto .back{fill:#fff}.pareto .grid{stroke:#d8dee4}.pareto .axis{stroke:#8c959f}\n"
     ".pareto .front{fill:none;stroke:#1f5fa8;stroke-width:2}.pareto .p{fill:#1f5fa8}\n"
+    ".pareto .tie{fill:#fff;stroke:#1f5fa8;stroke-width:2}\n"
+    ".pareto .tied{stroke-dasharray:3 3}.pareto .noise{stroke:#c4501b;stroke-dasharray:6 3}\n"
     ".pareto .q{fill:#afb8c1}.pareto .lead{stroke:#8c959f;stroke-width:.7}\n"
     ".pareto .one{fill:none;stroke:#8c959f;stroke-width:1.5;stroke-dasharray:2 1.5}\n"
     ".pareto .w{stroke:#1f5fa8}.pareto .f{font-weight:600}.pareto .area{fill:transparent}\n"
@@ -108,20 +110,53 @@ constexpr const char* kFrontStyle =
     "@media(prefers-color-scheme:dark){.pareto text{fill:#f0f6fc}\n"
     ".pareto .s,.pareto .d{fill:#9da7b1}.pareto .back{fill:#0d1117}\n"
     ".pareto .grid{stroke:#262c36}.pareto .front{stroke:#79b8ff}.pareto .p{fill:#79b8ff}\n"
+    ".pareto .tie{fill:#0d1117;stroke:#79b8ff}.pareto .noise{stroke:#ff9a62}\n"
     ".pareto .q{fill:#59636e}.pareto .w{stroke:#79b8ff}\n"
     ".pareto .f,.pareto .d{stroke:#0d1117}}\n"
     "@media print{.pareto text{fill:#000}.pareto .back{fill:#fff}.pareto .f,.pareto "
     ".d{stroke:#fff}\n"
-    ".pareto .front{stroke:#1f5fa8}.pareto .p{fill:#1f5fa8}.pareto .q{fill:#afb8c1}}\n";
+    ".pareto .front{stroke:#1f5fa8}.pareto .p{fill:#1f5fa8}.pareto .q{fill:#afb8c1}\n"
+    ".pareto .tie{fill:#fff;stroke:#1f5fa8}}\n";
 
-std::string head(const SceneSweep& sweep, Against against) {
-  const char* const what =
-      against == Against::reference ? "error over time" : "error at equal samples";
+// How many times have no spread, and of how many frames they are: "12 of 31 times are of one
+// frame".
+std::string spreadWords(const std::vector<Mark>& marks) {
+  std::size_t without = 0;
+  int most = 0;
+  for (const Mark& mark : marks) {
+    const Timing& t = mark.point->timing;
+    if (t.hasSpread()) continue;
+    ++without;
+    most = std::max(most, t.frames);
+  }
+  if (without == 0) return {};
+  return formatted("dashed: %zu of %zu times, of %s, are without a spread", without, marks.size(),
+                   most <= 1 ? "one frame" : "few frames");
+}
+
+bool coversNeighbor(const Mark& mark, Against against) {
+  return against == Against::reference && mark.front && mark.point->coversNeighbor;
+}
+
+std::string head(const SceneSweep& sweep, Against against, const std::vector<Mark>& marks) {
+  const char* const what = against == Against::sameSamples ? "error at equal samples"
+                           : sweep.transport               ? "off all transport, over time"
+                                                           : "error over time";
   const std::string title = sweep.scene + ": " + what;
-  return beginChart("pareto", kHeight, kFrontStyle, title) +
-         formatted("<text class=\"h\" x=\"12\" y=\"24\">%s</text>\n", escaped(title).c_str()) +
-         "<text class=\"s\" x=\"12\" y=\"44\">mean FLIP; gray: beaten in both; "
-         "dashed: too few frames</text>\n";
+  std::vector<std::string> lines{"mean FLIP; gray: beaten in both"};
+  if (const std::string words = spreadWords(marks); !words.empty()) lines.push_back(words);
+  const auto covers = [&](const Mark& mark) { return coversNeighbor(mark, against); };
+  if (std::any_of(marks.begin(), marks.end(), covers)) {
+    lines.emplace_back("rings: the spread of the time reaches a neighbor's");
+  }
+  std::string svg =
+      beginChart("pareto", kHeight, kFrontStyle, title) +
+      formatted("<text class=\"h\" x=\"12\" y=\"24\">%s</text>\n", escaped(title).c_str());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    svg += formatted("<text class=\"s\" x=\"12\" y=\"%zu\">%s</text>\n", 44 + 18 * i,
+                     lines[i].c_str());
+  }
+  return svg;
 }
 
 std::string axes(const LogScale& x, const LogScale& y, bool zeros) {
@@ -153,8 +188,11 @@ std::string axes(const LogScale& x, const LogScale& y, bool zeros) {
 
 // A dot and its numbers; a ring around nothing where the time has no spread. The area makes it as
 // easy to hit as a finger is wide.
-std::string dot(const Mark& mark) {
-  const char* const kind = mark.front ? "p" : mark.point->timing.hasSpread() ? "q" : "one";
+std::string dot(const Mark& mark, Against against) {
+  const char* const kind = coversNeighbor(mark, against)    ? "tie"
+                           : mark.front                     ? "p"
+                           : mark.point->timing.hasSpread() ? "q"
+                                                            : "one";
   return formatted("<g data-point=\"%s\"><title>%s</title>", escaped(mark.point->label()).c_str(),
                    escaped(numbersOf(*mark.point)).c_str()) +
          formatted("<circle class=\"area\" cx=\"%.1f\" cy=\"%.1f\" r=\"9\"/>", mark.x, mark.y) +
@@ -179,11 +217,29 @@ std::vector<Mark> frontOf(std::vector<Mark> marks) {
   return marks;
 }
 
-std::string frontPath(const std::vector<Mark>& marks) {
-  std::string path;
-  for (const Mark& m : frontOf(marks))
-    path += formatted("%s%.1f %.1f", path.empty() ? "M" : "L", m.x, m.y);
-  return path.empty() ? path : "<path class=\"front\" d=\"" + path + "\"/>\n";
+// From point to point: dashed where it is not known which of the two takes longer.
+std::string frontPath(const std::vector<Mark>& marks, Against against) {
+  const std::vector<Mark> line = frontOf(marks);
+  std::string svg;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Timing &a = line[i].point->timing, &b = line[i + 1].point->timing;
+    const bool tied = against == Against::reference && (a.reaches(b) || b.reaches(a));
+    svg += formatted("<path class=\"front%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", tied ? " tied" : "",
+                     line[i].x, line[i].y, line[i + 1].x, line[i + 1].y);
+  }
+  return svg;
+}
+
+// Below it errors are no smaller than what the truth is off by itself.
+std::string noiseLine(const SceneSweep& sweep, Against against, const LogScale& y) {
+  if (against != Against::reference || !sweep.transport || !(sweep.transport->noiseFlip > 0)) {
+    return {};
+  }
+  const double at = y.at(sweep.transport->noiseFlip);
+  return formatted("<line class=\"noise\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.1f\" y2=\"%.1f\"/>\n",
+                   kPlot.left, kPlot.right, at, at) +
+         formatted("<text class=\"s\" x=\"%.0f\" y=\"%.1f\">noise of the truth</text>\n",
+                   kPlot.left + 4, at - 5);
 }
 
 std::string labels(const std::vector<Mark>& marks) {
@@ -235,15 +291,19 @@ std::string frontSvg(const SceneSweep& sweep, Against against, const ChartLinks&
   }
   const bool zeros = errors.size() < marks.size();
   const LogScale x = scaleFor(times, kPlot.left, kPlot.right);
+  if (against == Against::reference && sweep.transport && sweep.transport->noiseFlip > 0) {
+    errors.push_back(sweep.transport->noiseFlip);
+  }
   const LogScale y = scaleFor(errors, zeros ? kZeroY - 24 : kPlot.bottom, kPlot.top);
   for (Mark& m : marks) {
     m.x = x.at(m.point->timing.settledMs);
     m.y = m.error > 0 ? y.at(m.error) : kZeroY;
   }
-  std::string svg = head(sweep, against) + axes(x, y, zeros) + frontPath(marks);
+  std::string svg = head(sweep, against, marks) + axes(x, y, zeros) + noiseLine(sweep, against, y) +
+                    frontPath(marks, against);
   // Gray points first, so that none hides the front.
   for (auto m = marks.rbegin(); m != marks.rend(); ++m)
-    svg += whisker(*m, x) + linkToPicture(links, sweep, *m->point, dot(*m)) + "\n";
+    svg += whisker(*m, x) + linkToPicture(links, sweep, *m->point, dot(*m, against)) + "\n";
   return svg + labels(marks) + "</svg>\n";
 }
 

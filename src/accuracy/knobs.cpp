@@ -1,6 +1,7 @@
 #include "accuracy/knobs.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "core/error.h"
@@ -131,6 +132,40 @@ RenderOptions referenceOptions(const RenderOptions& options, int samples,
   RenderOptions exact = exactAtSameSamples(options, exactness);
   exact = exactIn(exact, Cause::sampling, exactness);
   exact.spp = samples;
+  return exact;
+}
+
+bool hasTransport(const RenderOptions& options) {
+  const RenderOptions defaults;
+  return std::any_of(allKnobs().begin(), allKnobs().end(), [&](const Knob& knob) {
+    return knob.cause == Cause::transport &&
+           optionText(options, knob.name) != optionText(defaults, knob.name);
+  });
+}
+
+double transportPaths(const RenderOptions& options) {
+  double ofSurfel = 0;
+  for (const Knob& knob : allKnobs()) {
+    if (knob.cause != Cause::transport) continue;
+    ofSurfel = std::max(ofSurfel, std::strtod(optionText(options, knob.name).c_str(), nullptr));
+  }
+  return options.spp * ofSurfel;
+}
+
+RenderOptions withoutTransport(RenderOptions options) {
+  const RenderOptions defaults;
+  for (const Knob& knob : allKnobs()) {
+    if (knob.cause == Cause::transport)
+      setOption(options, knob.name, optionText(defaults, knob.name));
+  }
+  return options;
+}
+
+RenderOptions transportOptions(const RenderOptions& options, int samples) {
+  const Exactness exactness{kTransportCutoff};
+  RenderOptions exact = referenceOptions(options, samples, exactness);
+  exact = exactIn(exact, Cause::transport, exactness);
+  exact.mode = Mode::packets;
   return exact;
 }
 

@@ -9,7 +9,7 @@
 
 namespace whit::accuracy {
 
-inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling"};
+inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling", "transport"};
 
 // Why something does nothing, or cannot be done, in scenes with these effects; empty where it can.
 using Idle = std::function<std::string(EffectSet)>;
@@ -52,5 +52,16 @@ RenderOptions exactAtSameSamples(const RenderOptions& options, const Exactness& 
 // The same with `samples` samples in every pixel: the reference of all.
 RenderOptions referenceOptions(const RenderOptions& options, int samples,
                                const Exactness& exactness);
+
+// Whether they ask for light that Whitted's model leaves out; and the same options without it.
+bool hasTransport(const RenderOptions& options);
+RenderOptions withoutTransport(RenderOptions options);
+// How many paths of such light a pixel has: its samples, times those of a surfel.
+double transportPaths(const RenderOptions& options);
+// What contributes less is left out of the picture with all transport: paths from diffuse surface
+// to diffuse surface end nowhere by themselves.
+inline constexpr float kTransportCutoff = 1e-4f;
+// By packets, exact and with all transport, `samples` samples in every pixel.
+RenderOptions transportOptions(const RenderOptions& options, int samples);
 
 }  // namespace whit::accuracy

@@ -34,6 +34,10 @@ struct Timing {
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
+  // Whether the other's time is within the spread of this one's.
+  bool reaches(const Timing& other) const {
+    return ratioLow <= other.ratio && other.ratio <= ratioHigh;
+  }
   bool noisy() const { return rounds < kConfidentRounds || spreadPct() > kNoisyPct; }
 };
 
@@ -46,6 +50,11 @@ struct ArithmeticError {
   double medianUlp = 0, ulp999 = 0, worstUlp = 0;  // ulp999: 99.9 % are at most that far off
 };
 
+// What all points are measured against: the scalar reference of Whitted's model, or the picture
+// with all transport.
+enum class Truth { model, transport };
+inline constexpr const char* kTruthNames[] = {"model", "transport"};
+
 struct Point {
   PointKind kind = PointKind::knob;
   std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
@@ -55,18 +64,23 @@ struct Point {
 
   Timing timing;
   FrameStats stats;       // of the last frame: rays by kind
-  ImageDifference total;  // against the reference of all
+  ImageDifference total;  // against the truth
   double totalHdrFlip = 0;
-  ImageDifference sampling;   // of the pipeline without approximations, against that reference
+  // Of the pipeline without approximations, against what more samples of it lead to: the reference,
+  // or where the point has all transport the picture with that.
+  ImageDifference sampling;
   ImageDifference algorithm;  // against the same pipeline without approximations
+  // Of what more samples lead to, against the truth; where that has all transport.
+  std::optional<ImageDifference> transport;
   // Against the scalar reference, exact, with as many samples; where those are the baseline's.
   std::optional<ImageDifference> sameSamples;
   std::optional<ArithmeticError> arithmetic;
-  bool onFront = false;             // of `total` over time
+  bool onFront = false;  // of `total` over time
+  // On that front, and its time has the time of a neighbor there within its spread.
+  bool coversNeighbor = false;
   bool onFrontSameSamples = false;  // of `sameSamples` over time
-  // PNG files: the image as it is displayed, its difference from the reference of
-  // all, and from that with as many samples. Empty where the picture is the baseline's, and of
-  // combinations off the front.
+  // PNG files: the image as it is displayed, its difference from the truth, and from that with as
+  // many samples. Empty where the picture is the baseline's, and of combinations off the front.
   std::string imagePng, totalMapPng, sameSamplesMapPng;
 
   // "depth=4", "standard"
@@ -75,6 +89,15 @@ struct Point {
 
 struct IdleKnob {
   std::string name, because;
+};
+
+// The picture with all transport, but for its pixels.
+struct TransportFacts {
+  int passes = 0, samples = 0;
+  double standardError = 0, meanRadiance = 0, noiseFlip = 0;  // see TransportPicture
+  double renderMs = 0;
+  bool fromFile = false;
+  std::string digest;
 };
 
 struct SceneSweep {
@@ -91,7 +114,9 @@ struct SceneSweep {
   std::vector<std::string> order;  // labels in the order in which they were measured
   std::vector<IdleKnob> idle;
   std::vector<StageDifference> stages;  // of the baseline
-  std::string referencePng;
+  std::string truthPng;
+  std::optional<TransportFacts> transport;  // there: it is the truth
+  Truth truth() const { return transport ? Truth::transport : Truth::model; }
 };
 
 }  // namespace whit::accuracy

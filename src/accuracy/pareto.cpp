@@ -25,11 +25,24 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
   return front;
 }
 
+namespace {
+
+// Those of a front, in order, whose time may be that of the one before or behind.
+void markCovering(const std::vector<Point*>& front) {
+  for (std::size_t i = 0; i + 1 < front.size(); ++i) {
+    Point &a = *front[i], &b = *front[i + 1];
+    a.coversNeighbor |= a.timing.reaches(b.timing);
+    b.coversNeighbor |= b.timing.reaches(a.timing);
+  }
+}
+
+}  // namespace
+
 void markFronts(std::vector<Point>& points) {
   std::vector<CostAndError> total, same;
   std::vector<Point*> timed, withSame;
   for (Point& point : points) {
-    point.onFront = point.onFrontSameSamples = false;
+    point.onFront = point.onFrontSameSamples = point.coversNeighbor = false;
     if (!point.timing.hasSpread()) continue;
     total.push_back({point.timing.settledMs, point.total.flipMean});
     timed.push_back(&point);
@@ -37,7 +50,10 @@ void markFronts(std::vector<Point>& points) {
     same.push_back({point.timing.settledMs, point.sameSamples->flipMean});
     withSame.push_back(&point);
   }
-  for (const std::size_t i : paretoFront(total)) timed[i]->onFront = true;
+  std::vector<Point*> front;
+  for (const std::size_t i : paretoFront(total)) front.push_back(timed[i]);
+  for (Point* point : front) point->onFront = true;
+  markCovering(front);
   for (const std::size_t i : paretoFront(same)) withSame[i]->onFrontSameSamples = true;
 }
 

@@ -17,8 +17,8 @@ struct CostAndError {
 // finite are never on the front.
 std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points);
 
-// Sets onFront and onFrontSameSamples. A point whose time has no spread is on no front, and beats
-// none.
+// Sets onFront, coversNeighbor and onFrontSameSamples. A point whose time has no spread is on no
+// front, and beats none.
 void markFronts(std::vector<Point>& points);
 
 }  // namespace whit::accuracy

@@ -1,5 +1,6 @@
 // Which options a sweep measures.
 #include <algorithm>
+#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -26,7 +27,9 @@ RenderOptions presetOf(const RenderOptions& base, Quality quality) {
 // Keeps the first of points with the same options.
 class PointCollector {
  public:
-  explicit PointCollector(std::vector<Point>& points) : points_(points) {}
+  explicit PointCollector(std::vector<Point>& points) : points_(points) {
+    for (const Point& point : points) seen_.insert(digestOf(point.options));
+  }
   void add(PointKind kind, const std::string& knob, const std::string& value,
            std::optional<Cause> cause, const RenderOptions& options, bool spare = false) {
     if (!seen_.insert(digestOf(options)).second) return;
@@ -44,6 +47,24 @@ class PointCollector {
   std::vector<Point>& points_;
   std::set<std::string> seen_;
 };
+
+// Whether its values are numbers of samples, of pixels, lobes or lights, and nothing else.
+bool countsSamples(const Knob& knob) {
+  return std::all_of(knob.values.begin(), knob.values.end(), [](const KnobValue& value) {
+    const bool whole = value.label.find_first_not_of("0123456789") == std::string::npos;
+    return whole && value.alongside.empty();
+  });
+}
+
+// The value of a number of samples that is nearest to another's, from below.
+const KnobValue& asManyAs(const Knob& knob, const KnobValue& other) {
+  const auto number = [](const KnobValue& v) { return std::strtod(v.label.c_str(), nullptr); };
+  const KnobValue* as = &knob.values.front();
+  for (const KnobValue& value : knob.values) {
+    if (number(value) <= number(other) && number(value) > number(*as)) as = &value;
+  }
+  return *as;
+}
 
 // All combinations of the knobs' crossed values, named by what differs from `base`.
 std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
@@ -114,6 +135,50 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
     collector.add(PointKind::joint, "", label, {}, options);
   }
   return list;
+}
+
+std::vector<Knob> knobsTowardsTransport() {
+  std::vector<Knob> knobs;
+  for (const Knob& knob : allKnobs()) {
+    if (knob.cause == Cause::transport || (knob.cause == Cause::sampling && countsSamples(knob))) {
+      knobs.push_back(knob);
+    }
+  }
+  return knobs;
+}
+
+void addTransportPoints(const RenderOptions& base, EffectSet effects,
+                        const std::vector<Knob>& knobs, PointList& list) {
+  PointCollector collector(list.points);
+  const auto activeOf = [&](Cause cause) {
+    std::vector<Knob> chosen;
+    for (const Knob& knob : knobs) {
+      const bool active = knob.cause == cause && countsSamples(knob) && knob.idle(effects).empty();
+      if (active && knob.name != "spp") chosen.push_back(knob);
+    }
+    return chosen;
+  };
+  const std::vector<Knob> samplings = activeOf(Cause::sampling);
+  for (const Knob& transport : activeOf(Cause::transport)) {
+    for (const KnobValue& light : transport.values) {
+      for (const auto& [name, quality] : kPresets) {
+        RenderOptions options = base;
+        options.spp = presetOf(base, quality).spp;
+        light.apply(options);
+        if (!hasTransport(options)) continue;
+        const std::string samples =
+            options.spp == base.spp ? "" : "spp=" + std::to_string(options.spp) + " ";
+        std::string label = samples + transport.name + "=" + light.label;
+        collector.add(PointKind::joint, "", label, {}, options);
+        for (const Knob& knob : samplings) {
+          const KnobValue& as = asManyAs(knob, light);
+          as.apply(options);
+          label += " " + knob.name + "=" + as.label;
+        }
+        collector.add(PointKind::joint, "", label, {}, options);
+      }
+    }
+  }
 }
 
 }  // namespace whit::accuracy

@@ -4,8 +4,11 @@
 #include <filesystem>
 
 #include "accuracy/digest.h"
+#include "accuracy/pass_mean.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "io/image_file.h"
+#include "metrics/metrics.h"
 #include "render/renderer.h"
 
 namespace whit::accuracy {
@@ -15,32 +18,36 @@ namespace {
 constexpr const char* kDigestKey = "digest";
 constexpr const char* kTimeKey = "renderMs";
 constexpr const char* kRaysKey = "rays";
+constexpr const char* kErrorKey = "standardError";
+constexpr const char* kRadianceKey = "meanRadiance";
+constexpr const char* kNoiseKey = "noiseFlip";
 
-// False: there is none, or it is not what it claims to be.
-bool readPicture(const std::string& path, const Image& shape, ReferencePicture& picture) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  try {
-    Warnings warnings;
-    Image image = readImage(path, ImageLimits(), warnings);
-    if (image.width != shape.width || image.height != shape.height ||
-        image.window != shape.window) {
-      return false;
+// A picture from a file, and what is written beside it.
+class KeptPicture {
+ public:
+  KeptPicture(const std::string& path, const Image& shape, const std::string& digest) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return;
+    try {
+      Warnings warnings;
+      image_ = readImage(path, ImageLimits(), warnings);
+      for (const auto& [name, text] : readExrMetadata(path)) facts_[name] = text;
+    } catch (const Error&) {
+      return;
     }
-    bool same = false;
-    for (const auto& [name, text] : readExrMetadata(path)) {
-      if (name == kDigestKey) same = text == picture.digest;
-      if (name == kTimeKey) picture.renderMs = std::strtod(text.c_str(), nullptr);
-      if (name == kRaysKey) picture.rays = std::strtod(text.c_str(), nullptr);
-    }
-    if (!same) return false;
-    picture.image = std::move(image);
-    picture.fromFile = true;
-    return true;
-  } catch (const Error&) {
-    return false;
+    isThere_ = image_.width == shape.width && image_.height == shape.height &&
+               image_.window == shape.window && facts_[kDigestKey] == digest;
   }
-}
+
+  bool isThere() const { return isThere_; }  // and is what it claims to be
+  Image takeImage() { return std::move(image_); }
+  double number(const char* key) { return std::strtod(facts_[key].c_str(), nullptr); }
+
+ private:
+  bool isThere_ = false;
+  Image image_;
+  std::map<std::string, std::string> facts_;
+};
 
 }  // namespace
 
@@ -80,19 +87,72 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   picture.digest = digest;
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
-  const std::string path = (std::filesystem::path(folder_) / (digest + ".exr")).string();
-  if (!readPicture(path, film.image, picture)) {
+  KeptPicture kept(pathOf(digest), film.image, digest);
+  if (kept.isThere()) {
+    picture.image = kept.takeImage();
+    picture.renderMs = kept.number(kTimeKey);
+    picture.rays = kept.number(kRaysKey);
+    picture.fromFile = true;
+  } else {
     Renderer renderer(scene_, options);
     const FrameStats stats = renderer.renderReference(camera_, film, progress);
     picture.renderMs = stats.frameMs;
     picture.rays = static_cast<double>(stats.allRays());
     picture.image = std::move(film.image);
-    writeExr(path, picture.image,
+    writeExr(pathOf(digest), picture.image,
              {{kDigestKey, digest},
               {kTimeKey, std::to_string(picture.renderMs)},
               {kRaysKey, std::to_string(picture.rays)}});
   }
   return pictures_.emplace(digest, std::move(picture)).first->second;
+}
+
+std::string ReferenceCache::pathOf(const std::string& digest) const {
+  return (std::filesystem::path(folder_) / (digest + ".exr")).string();
+}
+
+TransportPicture ReferenceCache::transport(const RenderOptions& options, Progress* progress) const {
+  TransportPicture picture;
+  Digester d;
+  d.text(digest(options));
+  d.text("passes");
+  d.bytes(&kTransportPasses, sizeof kTransportPasses);
+  picture.digest = d.hex();
+  picture.passes = kTransportPasses;
+  picture.samples = kTransportPasses * options.spp;
+  Film film = makeFilm(scene_, options);
+  film.wantDisplay = false;
+  KeptPicture kept(pathOf(picture.digest), film.image, picture.digest);
+  if (kept.isThere()) {
+    picture.image = kept.takeImage();
+    picture.standardError = kept.number(kErrorKey);
+    picture.meanRadiance = kept.number(kRadianceKey);
+    picture.noiseFlip = kept.number(kNoiseKey);
+    picture.renderMs = kept.number(kTimeKey);
+    picture.fromFile = true;
+    return picture;
+  }
+  Renderer renderer(scene_, options);
+  PassMean passes(film.image);
+  for (int pass = 0; pass < kTransportPasses; ++pass) {
+    renderer.setSeed(static_cast<std::uint32_t>(pass));
+    picture.renderMs += renderer.render(camera_, film).frameMs;
+    passes.add(film.image);
+    reportProgress(progress, "all transport", static_cast<double>(pass + 1) / kTransportPasses);
+  }
+  picture.image = passes.mean();
+  picture.standardError = passes.standardError();
+  picture.meanRadiance = passes.meanRadiance();
+  picture.noiseFlip =
+      compareImages(passes.half(false), passes.half(true), options.exposure.ev, options.toneCurve)
+          .flipMean;
+  writeExr(pathOf(picture.digest), picture.image,
+           {{kDigestKey, picture.digest},
+            {kErrorKey, formatted("%.9g", picture.standardError)},
+            {kRadianceKey, formatted("%.9g", picture.meanRadiance)},
+            {kNoiseKey, formatted("%.9g", picture.noiseFlip)},
+            {kTimeKey, formatted("%.9g", picture.renderMs)}});
+  return picture;
 }
 
 }  // namespace whit::accuracy

@@ -1,4 +1,5 @@
-// Pictures of the scalar reference, rendered once and kept in files.
+// Pictures that others are measured against, rendered once and kept in files: those of the scalar
+// reference, and those with all transport.
 #pragma once
 
 #include <map>
@@ -19,6 +20,21 @@ struct ReferencePicture {
   bool fromFile = false;  // rendered by an earlier run
 };
 
+// With all light that whit can transport, by packets in several passes of independent noise. The
+// reference, in double, would take a hundred times as long: it would have that much more noise,
+// which is far above what rounding does (compare standardError with the arithmetic error of a
+// sweep).
+struct TransportPicture {
+  Image image;
+  std::string digest;
+  int passes = 0, samples = 0;  // samples a pixel, of all passes together
+  double standardError = 0;     // PassMean's
+  double meanRadiance = 0;
+  double noiseFlip = 0;  // mean FLIP between the even passes and the odd ones
+  double renderMs = 0;
+  bool fromFile = false;
+};
+
 // A file is used only if its digest covers the same scene tables, camera, options, image window and
 // program, bit for bit. One that cannot be read is rendered again.
 class ReferenceCache {
@@ -31,9 +47,15 @@ class ReferenceCache {
   // `options` must be of Mode::reference. Throws Error(io) when the folder cannot be written.
   const ReferencePicture& get(const RenderOptions& options, Progress* progress);
 
+  // The mean of kTransportPasses passes with these options, of Mode::packets, each with
+  // options.spp samples. Throws likewise.
+  TransportPicture transport(const RenderOptions& options, Progress* progress) const;
+
   std::string digest(const RenderOptions& options) const;
 
  private:
+  std::string pathOf(const std::string& digest) const;
+
   const Scene& scene_;
   Camera camera_;
   std::string folder_, sceneDigest_;

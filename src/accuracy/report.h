@@ -17,8 +17,10 @@ inline constexpr std::size_t kTableColumns = 100;
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
 // What was left out, by reason: "depth=8, bvh" because "...".
 std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle);
-// One line about the reference that everything is measured against.
+// One line about the scalar reference; and one about the picture with all transport, with its
+// standard error, empty where that is not the truth.
 std::string referenceText(const SceneSweep& sweep);
+std::string transportText(const SceneSweep& sweep);
 
 // One self-contained HTML page: charts, pictures and tables of every scene, nothing loaded from
 // anywhere. Light and dark as the reader has it; prints.

@@ -1,6 +1,8 @@
 // A scene's section of the report: verdicts, charts, pictures.
 #include <algorithm>
 
+#include "accuracy/cause_chart.h"
+#include "accuracy/choice.h"
 #include "accuracy/front_chart.h"
 #include "accuracy/knob_chart.h"
 #include "accuracy/report.h"
@@ -62,10 +64,11 @@ std::string pictures(const SceneSweep& sweep) {
   const Point& base = sweep.points.front();
   if (base.imagePng.empty()) return {};
   std::string html = "<figure class=\"beside\">\n";
-  html += "<div class=\"wipe\"><img alt=\"reference\" src=\"" + dataUri(sweep.referencePng) +
+  const std::string truth = sweep.transport ? "all transport" : "reference";
+  html += "<div class=\"wipe\"><img alt=\"" + truth + "\" src=\"" + dataUri(sweep.truthPng) +
           "\"><img class=\"over\" alt=\"result\" src=\"" + dataUri(base.imagePng) +
-          "\"><span class=\"l\">" + escaped(base.label()) +
-          "</span><span class=\"r\">reference</span></div>\n"
+          "\"><span class=\"l\">" + escaped(base.label()) + "</span><span class=\"r\">" + truth +
+          "</span></div>\n"
           "<div class=\"screen\"><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
           "aria-label=\"wipe between result and reference\">"
           "<label class=\"toggle\"><input type=\"checkbox\"> let them blink in turn</label></div>\n"
@@ -117,7 +120,8 @@ std::string numbersOf(const Point& point) {
   std::string text = formatted("%s: %.2f ms, %.2f times the baseline", point.label().c_str(),
                                t.settledMs, t.ratio);
   text += " (" + spreadText(t) + ")";
-  text += formatted("; FLIP %.5f against the reference", point.total.flipMean);
+  text += formatted("; FLIP %.5f against %s", point.total.flipMean,
+                    point.transport ? "all transport" : "the reference");
   if (point.sameSamples) {
     text += formatted("; at equal samples FLIP %.5f, and %.2f %% of pixels off by a code or more",
                       point.sameSamples->flipMean, point.sameSamples->pixelsGe1CodePct);
@@ -167,6 +171,10 @@ std::string sceneSection(const SceneSweep& sweep, std::size_t number) {
       formatted("<section id=\"s%zu\"><h2>%s</h2>\n", number, escaped(sweep.scene).c_str());
   html += formatted("<p class=\"soft\">%dx%d pixels; %s</p>\n", sweep.width, sweep.height,
                     escaped(referenceText(sweep)).c_str());
+  if (sweep.transport) {
+    html += "<p class=\"soft\">" + escaped(transportText(sweep)) + "</p>\n<p class=\"choice\">" +
+            escaped(choiceText(sweep)) + "</p>\n";
+  }
   html += knobCharts(sweep, number) + verdictList(sweep);
   const ChartLinks links{number, ""};
   html +=
@@ -181,7 +189,7 @@ std::string sceneSection(const SceneSweep& sweep, std::size_t number) {
   html += "<h3>Every point</h3>\n";
   if (number == 0) html += kReportWords;
   html += pointTable(sweep);
-  html += "<h3>Errors by cause</h3>\n" + causeTable(sweep);
+  html += "<h3>Errors by cause</h3>\n" + causeSvg(sweep, links) + causeTable(sweep);
   if (!sweep.stages.empty())
     html += "<h3>Stages against their scalar twins</h3>\n" + stageTable(sweep);
   if (!sweep.idle.empty()) {

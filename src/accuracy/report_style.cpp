@@ -15,9 +15,10 @@ h1{font-size:1.9rem;margin:.2em 0}h2{font-size:1.5rem;margin:2.2em 0 .3em;paddin
 border-top:1px solid var(--line)}h3{font-size:1.1rem;margin:1.8em 0 .5em}
 p{max-width:52rem}p code{white-space:nowrap}.soft,figcaption,caption{color:var(--soft)}
 nav a{margin-right:1em}a{color:var(--blue)}
+.choice{font-weight:600}
 .verdicts{list-style:none;padding:0}.verdicts li{margin:.25em 0;padding-left:1.7em;
 text-indent:-1.7em}.holds b{color:var(--good)}.fails b{color:var(--bad)}
-svg.pareto,svg.knobs{width:100%;height:auto;border:1px solid var(--line);border-radius:8px;
+svg.pareto,svg.knobs,svg.causes{width:100%;height:auto;border:1px solid var(--line);border-radius:8px;
 display:block}
 .glance,.pair{display:grid;grid-template-columns:1fr 1fr;gap:1.2rem;align-items:start}
 .glance>*,.pair>*{min-width:0}.beside{position:sticky;top:.5rem}.beside .pair{margin-top:.8rem}

@@ -67,7 +67,9 @@ std::string rowOf(const Point& point, const LogRange& times, const LogRange& err
 std::string pointTable(const SceneSweep& sweep) {
   const std::string head =
       "<thead><tr class=\"groups\"><th></th><th colspan=\"4\">time</th>"
-      "<th colspan=\"4\">thousand rays</th><th colspan=\"8\">against the reference</th>"
+      "<th colspan=\"4\">thousand rays</th><th colspan=\"8\">against " +
+      std::string(sweep.transport ? "all transport" : "the reference") +
+      "</th>"
       "<th colspan=\"4\">at equal samples</th><th></th></tr>\n"
       "<tr><th>point</th><th>ms</th><th>&plusmn; %</th><th>frames</th><th>&times; base</th>"
       "<th>primary</th><th>shadow</th><th>reflected</th><th>refracted</th><th>FLIP</th>"
@@ -103,9 +105,12 @@ std::string causeTable(const SceneSweep& sweep) {
   std::string html =
       "<div class=\"scroll\"><table><thead><tr class=\"groups\"><th></th>"
       "<th colspan=\"3\">sampling</th><th colspan=\"3\">algorithm</th>"
-      "<th colspan=\"3\">arithmetic, same path</th><th colspan=\"3\">ulps of a pixel</th>"
+      "<th colspan=\"3\">arithmetic, same path</th>" +
+      std::string(sweep.transport ? "<th colspan=\"3\">transport</th>" : "") +
+      "<th colspan=\"3\">ulps of a pixel</th>"
       "<th colspan=\"2\">other path</th></tr><tr><th>point</th>";
-  for (int i = 0; i < 3; ++i) html += "<th>FLIP</th><th>RMSE</th><th>max code</th>";
+  for (int i = 0; i < (sweep.transport ? 4 : 3); ++i)
+    html += "<th>FLIP</th><th>RMSE</th><th>max code</th>";
   html +=
       "<th>median</th><th>99.9 %</th><th>worst</th><th>pixels</th><th>in a million</th></tr>"
       "</thead><tbody>\n";
@@ -114,11 +119,12 @@ std::string causeTable(const SceneSweep& sweep) {
     return cell("%.5f", d->flipMean) + cell("%.2e", d->rmse) + cell("%d", d->maxCode);
   };
   for (const Point& point : sweep.points) {
-    if (point.kind == PointKind::joint) continue;
+    if (point.kind == PointKind::joint && !point.onFront) continue;
     const ArithmeticError* a = point.arithmetic ? &*point.arithmetic : nullptr;
     html += point.kind == PointKind::baseline ? "<tr class=\"base\">" : "<tr>";
     html += cell(escaped(point.label())) + group(&point.sampling) + group(&point.algorithm) +
             group(a ? &a->samePath : nullptr);
+    if (sweep.transport) html += group(point.transport ? &*point.transport : nullptr);
     html += a ? cell("%.3g", a->medianUlp) + cell("%.3g", a->ulp999) + cell("%.3g", a->worstUlp) +
                     cell("%llu", static_cast<unsigned long long>(a->divergences)) +
                     cell("%.1f", a->divergencesPerMpx)
@@ -127,11 +133,17 @@ std::string causeTable(const SceneSweep& sweep) {
   }
   return html +
          "</tbody><caption>Sampling: the pipeline without approximations, at the point's samples, "
-         "against the reference. Algorithm: the point against the same without approximations. "
-         "Arithmetic: packets in single against the scalar reference in double precision, same "
+         "against what more of them lead to. Algorithm: the point against the same without "
+         "approximations. Arithmetic: packets in single against the scalar reference in double "
+         "precision, same "
          "options, same samples; pixels that saw another triangle, shadow or impulse anywhere on "
          "their way are counted as another path and left out of the rest. Empty: not measured, "
-         "because the knob does not touch arithmetic.</caption></table></div>\n";
+         "because the knob does not touch arithmetic." +
+         (sweep.transport ? " Transport, what the model leaves out: what more samples of the point "
+                            "lead to, the reference or where it has all transport that picture, "
+                            "against the picture with all transport."
+                          : "") +
+         "</caption></table></div>\n";
 }
 
 std::string stageTable(const SceneSweep& sweep) {

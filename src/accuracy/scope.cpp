@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "accuracy/pass_mean.h"
+
 namespace whit::accuracy {
 
 int Scope::samples() const {
@@ -12,6 +14,12 @@ int Scope::samples() const {
   return samples;
 }
 
+int Scope::transportSamples(double rays) const {
+  int count = samples();
+  while (count > 1 && kTransportPasses * count * rays > limits.transportRays) count /= 2;
+  return count;
+}
+
 std::string Scope::leavesOut(const Point& point) const {
   if (point.kind == PointKind::baseline) return {};
   if (point.options.mode == Mode::reference &&
@@ -20,6 +28,9 @@ std::string Scope::leavesOut(const Point& point) const {
   }
   if (point.options.spp > std::max(samples() / 2, baselineSpp)) {
     return "more than half of the reference's samples";
+  }
+  if (transportPaths > 0 && whit::accuracy::transportPaths(point.options) > transportPaths / 2) {
+    return "more than half of the paths that the picture with all transport has";
   }
   return {};
 }

@@ -28,7 +28,7 @@ class SceneSweeper {
       : scenes_(scenes),
         base_(base),
         settings_(settings),
-        scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp},
+        scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0},
         camera_(chooseCamera(scenes.given(), base)),
         effects_(scenes.with(0).effects.without(base.disable)),
         exactness_(exactnessFor(effects_, settings.full)),
@@ -42,6 +42,7 @@ class SceneSweeper {
     chooseSamples();
     timer_.emplace(*baseline_, 1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds),
                    scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline);
+    renderTransport();
     choosePoints();
     ErrorMeter meter = renderReferences();
     measureBaseline(meter);
@@ -72,10 +73,24 @@ class SceneSweeper {
     sweep_.referenceSamples = scope_.samples();
   }
 
+  std::vector<Knob> sweptKnobs() {
+    const bool transport = settings_.truth == Truth::transport;
+    if (transport && settings_.knobs.empty() && !settings_.full) return knobsTowardsTransport();
+    std::vector<Knob> knobs = chooseKnobs(settings_.knobs);
+    if (transport) return knobs;
+    std::erase_if(knobs, [&](const Knob& knob) {
+      if (knob.cause != Cause::transport) return false;
+      sweep_.idle.push_back({knob.name, "the model leaves it out: --truth transport measures it"});
+      return true;
+    });
+    return knobs;
+  }
+
   void choosePoints() {
-    PointList list = makePoints(base_, effects_, chooseKnobs(settings_.knobs), scope_.limits.joint,
-                                settings_.seed);
-    sweep_.idle = std::move(list.idle);
+    const std::vector<Knob> knobs = sweptKnobs();
+    PointList list = makePoints(base_, effects_, knobs, scope_.limits.joint, settings_.seed);
+    if (settings_.truth == Truth::transport) addTransportPoints(base_, effects_, knobs, list);
+    sweep_.idle.insert(sweep_.idle.end(), list.idle.begin(), list.idle.end());
     for (Point& point : list.points) {
       std::string because = scope_.leavesOut(point);
       if (because.empty()) because = scenes_.leavesOut(point.options.sphereSegments);
@@ -92,13 +107,28 @@ class SceneSweeper {
     sweep_.idle.push_back({"stages", "in the middle quarter of the picture alone: likewise"});
   }
 
+  void renderTransport() {
+    if (settings_.truth == Truth::model) return;
+    pace_.begin("all transport", 0);
+    FrameSource one(scenes_.with(0), camera_, transportOptions(base_, 1));
+    const double rays = static_cast<double>(one.render().allRays());
+    const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
+    transport_ = cache_.transport(options, &pace_);
+    scope_.transportPaths = transport_->passes * transportPaths(options);
+    sweep_.transport = {transport_->passes,       transport_->samples,   transport_->standardError,
+                        transport_->meanRadiance, transport_->noiseFlip, transport_->renderMs,
+                        transport_->fromFile,     transport_->digest};
+    pace_.end();
+    transportSeconds_ = pace_.seconds();
+  }
+
   ErrorMeter renderReferences() {
     const double work = sweep_.referenceSamples;
     pace_.plan(work + base_.spp);
     for (const Point& point : sweep_.points) pace_.plan(workOf(point));
     pace_.begin("reference", work);
     ErrorMeter meter(scenes_.with(0), camera_, base_, exactness_, cache_, sweep_.referenceSamples,
-                     &pace_);
+                     transport_ ? &*transport_ : nullptr, &pace_);
     const ReferencePicture& reference = meter.reference();
     reference.fromFile ? pace_.skip() : pace_.end();
     sweep_.referenceDigest = reference.digest;
@@ -122,7 +152,7 @@ class SceneSweeper {
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
     meter.depict(point, baseline_->film.image);
-    sweep_.referencePng = meter.pngOf(meter.reference().image);
+    sweep_.truthPng = meter.pngOf(meter.truth());
     pace_.end();
   }
 
@@ -151,7 +181,7 @@ class SceneSweeper {
     for (std::size_t k = 0; k < order.size(); ++k) {
       Point& point = sweep_.points[order[k]];
       pace_.begin(point.label(), workOf(point));
-      if (scope_.isOver(pace_.seconds())) {
+      if (scope_.isOver(pace_.seconds() - transportSeconds_)) {
         unmeasured[point.label()] = Scope::kOverBecause;
         pace_.skip();
         continue;
@@ -205,6 +235,7 @@ class SceneSweeper {
   static void takeErrorsOfRays(Point& point, const Point& from) {
     point.sampling = from.sampling;
     point.algorithm = from.algorithm;
+    point.transport = from.transport;
   }
 
   bool isBaseline(const FrameSource& frames) const {
@@ -260,6 +291,8 @@ class SceneSweeper {
   Pace pace_;
   std::unique_ptr<FrameSource> baseline_;
   std::optional<PointTimer> timer_;
+  std::optional<TransportPicture> transport_;  // where it is the truth
+  double transportSeconds_ = 0;                // when it was there
   SceneSweep sweep_;
 };
 

@@ -23,10 +23,20 @@ struct PointList {
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
                      std::size_t jointLimit, std::uint32_t seed);
 
+// The knobs whose values lead from a draft to all transport: more samples of a pixel, a lobe or a
+// light, and light that the model leaves out.
+std::vector<Knob> knobsTowardsTransport();
+// Likewise combinations of the presets' samples a pixel with each value of the knobs of transport,
+// alone and with as many samples of lobes and lights. Of these knobs, and not those in `list`.
+void addTransportPoints(const RenderOptions& base, EffectSet effects,
+                        const std::vector<Knob>& knobs, PointList& list);
+
 struct SweepSettings {
+  Truth truth = Truth::model;
   bool full = false;
-  std::vector<std::string> knobs;  // none: all
-  std::uint32_t seed = 1;          // of the order of the points
+  // None: all; of a quick sweep with Truth::transport, knobsTowardsTransport().
+  std::vector<std::string> knobs;
+  std::uint32_t seed = 1;  // of the order of the points
   // For timing the points of a scene; none: 20, 600 where full.
   std::optional<double> timingSeconds;
   std::string cacheFolder;
@@ -35,7 +45,9 @@ struct SweepSettings {
 
 // `base` is the baseline, and scenes.given() has its --sphere-segments. The reference has 256
 // samples (full) or 64; fewer, but at least 8 or 2, where its rays would exceed 400 or 30 million.
-// Throws Error(io) when the cache cannot be written.
+// The picture with all transport, if that is the truth, has as many in each of its passes, or fewer
+// for it to take no more than 4e9 or 400 million rays. Throws Error(io) when the cache cannot be
+// written.
 SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
                       const SweepSettings& settings, Progress* progress);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "accuracy/choice.h"
 #include "accuracy/report.h"
 #include "core/formatted.h"
 
@@ -90,6 +91,9 @@ std::string causesOf(const Point& point) {
   std::string text = wrapped("errors of '" + point.label() + "' by cause");
   text += line("sampling", "without approximations, against the reference", point.sampling);
   text += line("algorithm", "against the same without approximations", point.algorithm);
+  if (point.transport) {
+    text += line("transport", "what more samples lead to, against all transport", *point.transport);
+  }
   if (point.arithmetic) {
     const ArithmeticError& a = *point.arithmetic;
     text += line("arithmetic", "packets against doubles, pixels of the same path", a.samePath);
@@ -139,6 +143,24 @@ std::string referenceText(const SceneSweep& sweep) {
       sweep.referenceDigest.c_str());
 }
 
+std::string transportText(const SceneSweep& sweep) {
+  if (!sweep.transport) return {};
+  const TransportFacts& t = *sweep.transport;
+  std::string text = formatted(
+      "truth: all transport, by packets, depth %d, cutoff %g, %d samples a pixel in %d independent "
+      "passes, %.1f s%s, %.8s; standard error of a pixel, root mean square: %.2e",
+      kDepthLimit, static_cast<double>(kTransportCutoff), t.samples, t.passes, t.renderMs / 1e3,
+      t.fromFile ? " (by an earlier run)" : "", t.digest.c_str(), t.standardError);
+  if (t.meanRadiance > 0)
+    text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);
+  text += formatted("; half of its passes differ from the others by a FLIP of %.4f", t.noiseFlip);
+  const auto& arithmetic = sweep.points.front().arithmetic;
+  if (arithmetic) {
+    text += formatted("; single precision is off by %.1e", arithmetic->samePath.rmse);
+  }
+  return text;
+}
+
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   std::size_t width = 12;
   for (const Point& point : sweep.points) {
@@ -148,10 +170,13 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
       wrapped(formatted("%s, %dx%d, %d thread%s, %s, Embree %s", sweep.scene.c_str(), sweep.width,
                         sweep.height, sweep.machine.threads, sweep.machine.threads == 1 ? "" : "s",
                         sweep.machine.simd.c_str(), sweep.machine.embree.c_str()));
-  text += wrapped(referenceText(sweep)) + wrapped(kWords);
+  text += wrapped(referenceText(sweep));
+  if (sweep.transport) text += wrapped(transportText(sweep));
+  text += wrapped(kWords);
   const int label = static_cast<int>(width);
   text += formatted("\n%-*s %22s %8s  %23s  %15s\n", label, "", "time", "thousand",
-                    "against the reference", "equal samples");
+                    sweep.transport ? "against all transport" : "against the reference",
+                    "equal samples");
   text += formatted("%-*s %9s %4s %7s %8s  %7s %7s %7s  %7s %7s\n", label, "", "ms", "+-%",
                     "x base", "rays", "FLIP", "RMSE", "off %", "FLIP", "off %");
   for (const Point& point : sweep.points) text += rowOf(point, width);
@@ -161,6 +186,7 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
                         "%u; more columns are in sweep.csv",
                         kNoisyPct, kLeastRounds, seed)) +
       "\n";
+  if (sweep.transport) text += wrapped(choiceText(sweep)) + "\n";
   text += causesOf(sweep.points.front()) + notFinite(sweep);
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     text += wrapped("not swept: " + group.name + ": " + group.because);

@@ -42,6 +42,7 @@ std::string materialName(const Scene& scene, std::uint32_t material) {
 }
 
 std::string lightName(const Scene& scene, std::uint32_t light) {
+  if (light == kAmbientLight) return "ambient light";
   return nameOf(scene.lights[light].name, "light", light);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "accuracy/cause_chart.h"
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
 #include "accuracy/front_chart.h"
@@ -34,16 +35,17 @@ constexpr const char* kAccuracyUsage =
     "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
 constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
-    "time and in error against a double-precision reference. Writes DIR/report.html,\n"
-    "DIR/sweep.csv and the charts DIR/knobs-SCENE.svg and DIR/pareto-SCENE.svg; references are "
-    "kept\n"
-    "in DIR/cache.";
+    "time and in error against a double-precision reference, or against a picture with all light\n"
+    "that can be transported. Writes DIR/report.html, DIR/sweep.csv and the charts\n"
+    "DIR/knobs-SCENE.svg, DIR/pareto-SCENE.svg and DIR/causes-SCENE.svg; references are kept in\n"
+    "DIR/cache.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string out, knobs, check;
+  accuracy::Truth truth = accuracy::Truth::model;
   bool quick = false, full = false;
   int seed = 1;
   std::optional<double> timeBudget;
@@ -69,6 +71,10 @@ OptionList listOptions(AccuracyJob& job) {
   OptionList list;
   list.group("Measuring");
   list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
+  list.value({"truth", "model|transport"},
+             "what errors are measured against: Whitted's model without approximations, or all "
+             "transport of light, with points from a draft to that",
+             job.truth);
   list.flag("quick",
             "256x256 pixels, up to 64 reference samples, what fits into a minute (the default)",
             job.quick);
@@ -139,6 +145,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
                                               const accuracy::RunFacts& facts) {
   auto progress = makeProgressBar(job.common);
   accuracy::SweepSettings settings;
+  settings.truth = job.truth;
   settings.full = job.full;
   settings.knobs = job.knobNames();
   settings.seed = facts.seed;
@@ -175,6 +182,7 @@ void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep
                   accuracy::knobSvg(sweep, accuracy::chosenPoints(sweep), links));
     writeTextFile((folder / ("pareto-" + name)).string(),
                   accuracy::frontSvg(sweep, accuracy::Against::reference, links));
+    writeTextFile((folder / ("causes-" + name)).string(), accuracy::causeSvg(sweep, links));
   }
 }
 

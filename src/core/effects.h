@@ -11,29 +11,31 @@
 namespace whit {
 
 // name, what it stands for
-#define WHIT_EFFECTS(X)                                        \
-  X(textures, "color textures")                                \
-  X(normalMaps, "tangent-space normal maps")                   \
-  X(alphaMasks, "holes cut by alpha masks")                    \
-  X(coverage, "surfaces that are there in part")               \
-  X(smoothNormals, "interpolated vertex normals")              \
-  X(glossy, "glossy lobe")                                     \
-  X(glossyReflection, "sampled reflections of rough surfaces") \
-  X(emission, "emitting surfaces")                             \
-  X(emissionMaps, "textures of emission")                      \
-  X(vertexColors, "vertex colors")                             \
-  X(sky, "sky that is not black")                              \
-  X(skyImage, "sky from an image")                             \
-  X(ambient, "ambient light")                                  \
-  X(lights, "point, spot or directional lights")               \
-  X(spotLights, "cones of spot lights")                        \
-  X(directionalLights, "directional lights")                   \
-  X(shadows, "shadows of lights")                              \
-  X(softShadows, "penumbras of lights with a radius")          \
-  X(mirror, "reflected impulses")                              \
-  X(transmission, "refracted impulses")                        \
-  X(absorption, "absorption inside dielectrics")               \
-  X(spheres, "exact spheres")                                  \
+#define WHIT_EFFECTS(X)                                            \
+  X(textures, "color textures")                                    \
+  X(normalMaps, "tangent-space normal maps")                       \
+  X(alphaMasks, "holes cut by alpha masks")                        \
+  X(coverage, "surfaces that are there in part")                   \
+  X(smoothNormals, "interpolated vertex normals")                  \
+  X(glossy, "glossy lobe")                                         \
+  X(glossyReflection, "sampled reflections of rough surfaces")     \
+  X(emission, "emitting surfaces")                                 \
+  X(emissionMaps, "textures of emission")                          \
+  X(vertexColors, "vertex colors")                                 \
+  X(sky, "sky that is not black")                                  \
+  X(skyImage, "sky from an image")                                 \
+  X(ambient, "ambient light")                                      \
+  X(ambientOcclusion, "ambient light that things nearby hold off") \
+  X(lights, "point, spot or directional lights")                   \
+  X(spotLights, "cones of spot lights")                            \
+  X(directionalLights, "directional lights")                       \
+  X(shadows, "shadows of lights")                                  \
+  X(softShadows, "penumbras of lights with a radius")              \
+  X(mirror, "reflected impulses")                                  \
+  X(transmission, "refracted impulses")                            \
+  X(indirect, "light from one diffuse surface to the next")        \
+  X(absorption, "absorption inside dielectrics")                   \
+  X(spheres, "exact spheres")                                      \
   X(instances, "instanced geometry")
 
 enum class Effect : std::uint32_t {

@@ -21,8 +21,9 @@ enum class Rebuild {
 };
 
 // What an inexact value costs the picture: rounding (the same rays, computed otherwise), rays and
-// terms that are left out or approximated, or too few samples of a pixel.
-enum class Cause { arithmetic, algorithm, sampling };
+// terms that are left out or approximated within Whitted's model, too few samples of a pixel, or
+// light that the model leaves out.
+enum class Cause { arithmetic, algorithm, sampling, transport };
 
 // What a scene must have for an option to do anything there: one of these effects.
 struct Need {
@@ -37,6 +38,10 @@ inline constexpr Need kNeedsTransmission{EffectSet().with(Effect::transmission),
                                          "nothing in the scene is transparent"};
 inline constexpr Need kNeedsGlossyReflection{EffectSet().with(Effect::glossyReflection),
                                              "no glossy lobe in the scene reflects it"};
+inline constexpr Need kNeedsDiffuseReflection{EffectSet().with(Effect::indirect),
+                                              "no diffuse surface reflects the scene"};
+inline constexpr Need kNeedsAmbientOcclusion{EffectSet().with(Effect::ambientOcclusion),
+                                             "the ambient light has no radius of occlusion"};
 inline constexpr Need kNeedsLights{EffectSet().with(Effect::lights), "the scene has no light"};
 inline constexpr Need kNeedsShadows{EffectSet().with(Effect::shadows),
                                     "nothing in the scene casts a shadow"};

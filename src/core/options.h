@@ -65,9 +65,13 @@ struct RenderOptions {
   bool adaptive = false;
   int contrast = 8;  // neighbors that differ by more in some 8-bit code show an edge
   int depth = kDepthLimit;
-  int glossy = 0;  // samples of a rough surface's lobe; 0: it reflects lights only
+  int glossy = 0;    // samples of a rough surface's lobe; 0: it reflects lights only
+  int indirect = 0;  // samples of what a diffuse surface reflects of the scene; 0: lights only
   float cutoff = 1.0e-4f;
-  int lightSamples = 1;  // points of a light with a radius; 1: its center
+  float roulette =
+      0;  // throughput below which impulses survive by chance; 0: all that are worth it
+  int lightSamples = 1;    // points of a light with a radius; 1: its center
+  int ambientSamples = 0;  // rays that look for what occludes ambient light; 0: nothing does
   ShadingChoices shading;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
@@ -177,6 +181,16 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 4 16", .needs = {kNeedsGlossyReflection}}},
              o.glossy},
+      Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
+              .help = "rays that sample the light which a diffuse surface gets from others, from "
+                      "emission and sky, one where it is seen by such a ray or by an impulse, in "
+                      "place of the ambient light; 0: it reflects lights and ambient light only",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "0",
+              .everyday = true,
+              .knob = KnobSpec{.cause = Cause::transport, .exact = "4", .values = "0 1 4 16 64",
+                               .needs = {kNeedsDiffuseReflection}}},
+             o.indirect},
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
               .help = "smallest contribution of an impulse that is still traced",
               .cheapest = "0.004",
@@ -185,6 +199,14 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .crossed = "1e-4 1e-3 4e-3", .spare = "3e-4", .endless = true,
                                .needs = {kNeedsImpulses}}},
              o.cutoff},
+      Option{{.name = "roulette", .words = "X", .low = 0, .high = 1,
+              .help = "contribution below which an impulse is traced by chance only, and then counts "
+                      "for more, so that the mean is right; in place of --cutoff; 0: never",
+              .rebuilds = Rebuild::tables,
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "0", .values = "0 0.01 0.1 0.5",
+                               .spare = "0.01 0.1 0.5",
+                               .needs = {kNeedsImpulses}}},
+             o.roulette},
       Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
               .help = "points of a light with a radius that a surface is lit from, each with its "
                       "shadow ray; 1: its center",
@@ -194,6 +216,15 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
                                .needs = {kNeedsSoftShadows}}},
              o.lightSamples},
+      Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
+              .help = "rays from a surface that look for what occludes its ambient light, where the "
+                      "scene says how far they reach; 0: nothing does",
+              .rebuilds = Rebuild::tables,
+              .cheapest = "0",
+              .everyday = true,
+              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
+                               .spare = "1 16", .needs = {kNeedsAmbientOcclusion}}},
+             o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "smallest contribution of a light to the pixel that is still added, and its "
                       "shadow traced",
@@ -372,9 +403,11 @@ struct AskedFor {
   bool asked;
   std::string_view otherwise;  // what is said where it is not
 };
-inline std::array<AskedFor, 2> effectsAskedFor(const RenderOptions& o) {
+inline std::array<AskedFor, 4> effectsAskedFor(const RenderOptions& o) {
   return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
-           {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"}}};
+           {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"},
+           {Effect::indirect, o.indirect > 0, "but --indirect is 0"},
+           {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"}}};
 }
 // Those that the options do not ask for.
 inline EffectSet notAskedFor(const RenderOptions& o) {

@@ -86,8 +86,11 @@ Json describe(const Camera& camera) {
 }
 
 Json describe(const Ambient& ambient) {
-  if (ambient.ofSky > 0) return {{"fromSky", ambient.ofSky}};
-  return {{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
+  Json json = ambient.ofSky > 0
+                  ? Json{{"fromSky", ambient.ofSky}}
+                  : Json{{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
+  if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
+  return json;
 }
 
 Json describe(const std::vector<Light>& lights) {

@@ -63,7 +63,8 @@ void readParameters(JsonObject& file, const std::map<std::string, double>& given
 void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyStrength) {
   context.textures.finish(context.scene);
   if (ambientFromSkyStrength) {
-    context.scene.ambient = ambientFromSky(context.scene.sky, *ambientFromSkyStrength);
+    context.scene.ambient =
+        ambientFromSky(context.scene.sky, *ambientFromSkyStrength, context.scene.ambient.occlusion);
   }
 }
 

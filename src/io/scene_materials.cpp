@@ -203,6 +203,8 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   if (const auto priority = object.find("priority")) {
     m.priority = priority->integer(-kLargestPriority, kLargestPriority);
   }
+  if (const auto reflects = object.find("diffuseReflection"))
+    m.diffuseReflection = reflects->flag();
   if (const auto reflects = object.find("glossyReflection")) {
     m.glossyReflection = reflects->flag();
   } else if (mirrorGiven || object.has("mirrorGrazing") || transmissionGiven) {

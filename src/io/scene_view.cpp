@@ -190,6 +190,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   const auto value = file.find("ambient");
   if (!value) return std::nullopt;
   JsonObject object(*value);
+  scene.ambient.occlusion = object.number("occlusion", 0, 0);
   std::optional<double> fromSky;
   if (const auto strength = object.find("fromSky")) {
     fromSky = strength->number(0);

@@ -250,7 +250,8 @@ struct FrameStatistics {
     double ms = 0;
   };
   struct Rays {
-    std::string_view name;  // "primary", "shadow", "reflection", "refraction"
+    // "primary", "shadow", "reflection", "refraction", "indirect", "occlusion"
+    std::string_view name;
     std::uint64_t count = 0;
   };
   double frameMs = 0;

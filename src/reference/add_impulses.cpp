@@ -6,6 +6,7 @@
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
+#include "sampling/cosine_lobe.h"
 
 namespace whit::reference {
 
@@ -75,7 +76,20 @@ struct LobeChild {
   int rays = 1;  // that share the lobe
 };
 
-LobeChild sampledChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
+LobeChild diffuseChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
+  const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
+  const LobeSampling sampling =
+      lobeSampling(chunk.depth, chunk.options().indirect, chunk.sampleNumber);
+  for (std::uint32_t k = 0; k < sampling.count; ++k) {
+    if (chunk.children.path[child] != childStream(path, kFirstIndirectBranch + k)) continue;
+    const UnitPoint at = indirectPoint(path, sampling, k);
+    return {indirectImpulse(surfel, mediaOf(chunk, slot), at, chunk.options().shading),
+            static_cast<int>(sampling.count)};
+  }
+  return {};
+}
+
+LobeChild glossyChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
   const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
   const LobeSampling sampling =
       lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber);
@@ -175,17 +189,39 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   return {fresnel * (passes * s.coverage), {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 
+Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
+                        const ShadingChoices& choices) {
+  const Vec3d drawn = cosineDirection(s.shadingNormal, at);
+  const double elevation = std::min(0.9 * dot(s.shadingNormal, drawn), 0.01);
+  const Vec3d r = choices.bend ? lifted(drawn, s.geometricNormal, elevation) : drawn;
+  return {s.diffuse * s.coverage, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
+}
+
+bool survives(const RenderOptions& options, double contribution, std::uint32_t path) {
+  // Written so that a NaN ends the path.
+  if (options.roulette == 0) return contribution >= double{options.cutoff};
+  return double{rouletteDraw(path)} * double{options.roulette} < contribution;
+}
+
+double growthOfSurvivors(const RenderOptions& options, double contribution) {
+  return contribution < double{options.roulette} ? double{options.roulette} / contribution : 1;
+}
+
 RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t slot = chunk.children.parent[child];
   const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
   const Surfel surfel = surfelOf(chunk, slot);
-  const bool refracted = kindOf(chunk, child) == RayKind::refraction;
+  const RayKind kind = kindOf(chunk, child);
+  const bool refracted = kind == RayKind::refraction;
   std::uint32_t branch = refracted ? kRefractedBranch : kMirroredBranch;
   LobeChild twin;
   RayRow row;
   row.path = childStream(path, branch);
-  if (!refracted && chunk.has(Feature::streams) && chunk.children.path[child] != row.path) {
-    twin = sampledChild(chunk, child, surfel);
+  if (kind == RayKind::indirect) {
+    twin = diffuseChild(chunk, child, surfel);
+    row.path = chunk.children.path[child];
+  } else if (!refracted && chunk.has(Feature::streams) && chunk.children.path[child] != row.path) {
+    twin = glossyChild(chunk, child, surfel);
     row.path = chunk.children.path[child];
   } else {
     const std::uint32_t stack = mediaOf(chunk, slot);
@@ -196,12 +232,17 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
     twin.impulse = refracted ? both.refracted : both.reflected;
   }
   const Impulse& impulse = twin.impulse;
-  const double share =
-      isHidden(chunk, slot) ? 1 : double{world.scene.materials[surfel.material].impulseShare()};
+  const Material& material = world.scene.materials[surfel.material];
+  const double share = isHidden(chunk, slot)
+                           ? 1
+                           : double{material.impulseShare(world.effects.has(Effect::indirect))};
+  const double contribution =
+      double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight) * share;
+  const double grows = growthOfSurvivors(chunk.options(), contribution);
   put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
   put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);
-  put(impulse.weight / twin.rays, row.weightR, row.weightG, row.weightB);
-  row.throughput = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight) * share;
+  put(impulse.weight * (grows / twin.rays), row.weightR, row.weightG, row.weightB);
+  row.throughput = contribution * grows;
   row.parent = slot;
   row.media = impulse.media;
   row.cone = impulse.ray.cone.width;

@@ -1,8 +1,9 @@
 // addImpulses: the rays that a surfel sends on, mirrored and refracted (Whitted 1980, "An improved
-// illumination model for shaded display"), and samples of the GGX lobe of a rough one.
+// illumination model for shaded display"), samples of the GGX lobe of a rough one and
+// of what a diffuse one sees.
 #pragma once
 
-#include "core/shading_choices.h"
+#include "core/options.h"
 #include "reference/media.h"
 #include "reference/twin.h"
 #include "sampling/random_streams.h"
@@ -51,6 +52,18 @@ int lobeRays(const Surfel& surfel, const LobeSampling& sampling);
 // `stack` is that of the incoming ray.
 Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                       const ShadingChoices& choices = {});
+
+// A ray drawn by the cosine to the shading normal, with the weight of the albedo: its mean over the
+// unit square is what the diffuse surface reflects of the radiance around it. `stack` is that of
+// the incoming ray.
+Impulse indirectImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
+                        const ShadingChoices& choices = {});
+
+// Whether an impulse of this contribution is traced, whose path has this number: by --cutoff, or by
+// Russian roulette at --roulette (sampling/random_streams.h).
+bool survives(const RenderOptions& options, double contribution, std::uint32_t path);
+// By how much its weight grows then, and its contribution.
+double growthOfSurvivors(const RenderOptions& options, double contribution);
 
 // The twin, of a child. Throughput is what decides whether it is worth tracing; samples of a lobe
 // count there as if each were the whole.

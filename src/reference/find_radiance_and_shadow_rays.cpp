@@ -7,6 +7,8 @@
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
+#include "reference/write_emitted_and_reflective_ambient.h"
+#include "sampling/cosine_lobe.h"
 
 namespace whit::reference {
 
@@ -101,7 +103,26 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   return arrival;
 }
 
+LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
+                            const ShadingChoices& choices, const UnitPoint& at) {
+  const Vec3d way = cosineDirection(surfel.shadingNormal, at);
+  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
+  if (!lifted && !(dot(surfel.geometricNormal, way) > 0)) return {};
+  Surfel start = surfel;
+  if (lifted) start.position += surfel.lift;
+  return {reflectedAmbient(scene, effects, surfel) * surfel.coverage,
+          {rayOrigin(choices.offset, start, 1), way},
+          double{scene.ambient.occlusion}};
+}
+
 LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot) {
+  if (chunk.lightIsAmbient()) {
+    const LobeSampling sampling =
+        lightSampling(chunk.depth, chunk.lightSamples, chunk.sampleNumber);
+    return ambientArrival(
+        world.scene, world.effects, surfelOf(chunk, slot), chunk.options().shading,
+        lightPoint(chunk.rays.path[slot], sampling, kAmbientLight, chunk.lightSample));
+  }
   LightPoint point;
   if (chunk.lightSamples > 1) {
     const LobeSampling sampling =
@@ -120,7 +141,7 @@ std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk
   UnshadowedRow row;
   put(arrival.radiance / chunk.lightSamples, row.r, row.g, row.b);
   // Shadow rays have yet to find out.
-  row.visible = chunk.has(Feature::shadows) ? 0 : 1;
+  row.visible = chunk.tracesShadows() ? 0 : 1;
   return row;
 }
 

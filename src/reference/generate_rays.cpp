@@ -28,7 +28,7 @@ RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot) {
   row.throughput = 1;
   row.parent = static_cast<std::uint32_t>(slot);
   row.media = mediaAtStart(world.scene, world.effects, world.intersector, world.camera, ray);
-  row.path = streamOfPixel(pixel, chunk.sampleNumber);
+  row.path = streamOfPixel(pixel, chunk.sampleNumber, chunk.frame->seed);
   row.cone = ray.cone.width;
   return row;
 }

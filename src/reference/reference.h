@@ -24,11 +24,13 @@ struct Settings {
 };
 
 struct RayCounts {
-  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0, indirect = 0,
+                occlusion = 0;
 
   RayCounts& operator+=(const RayCounts& b) {
     primary += b.primary, shadow += b.shadow;
     reflection += b.reflection, refraction += b.refraction;
+    indirect += b.indirect, occlusion += b.occlusion;
     return *this;
   }
 };
@@ -45,7 +47,7 @@ struct Path {
 };
 
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
-// multiplied with on its way to the eye, for the cutoff; `path` draws the samples of glossy lobes.
+// multiplied with on its way to the eye, for the cutoff; `path` draws the samples of lobes.
 class Tracer {
  public:
   Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
@@ -69,8 +71,11 @@ class Tracer {
   Surfel surfelAt(const Ray& ray, const Settled& met, const TriangleHit& hit) const;
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
+  RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
   RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
                        std::uint32_t media, RayCounts& counts, Path path) const;
+  RgbD reflectDiffusely(const Surfel& surfel, const Crossing& crossing, int depth,
+                        double throughput, std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD follow(const Impulse& impulse, RayKind kind, int depth, double throughput, RayCounts& counts,
               Path path) const;
 

@@ -21,13 +21,20 @@ Path childOf(const Path& path, std::uint32_t branch) {
   return {childStream(path.number, branch), path.sample};
 }
 
+// Of the kinds that impulses are of.
+std::uint64_t& countOf(RayCounts& counts, RayKind kind) {
+  return kind == RayKind::reflection   ? counts.reflection
+         : kind == RayKind::refraction ? counts.refraction
+                                       : counts.indirect;
+}
+
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
     : scene_(scene),
       intersector_(intersector),
       options_(settings.options),
-      effects_(settings.effects),
+      effects_(settings.effects.without(notAskedFor(options_))),
       samples_(samplePattern(options_.spp)) {
   if (options_.shading.textureFilter == TextureFilter::trilinear) {
     maps_.emplace(scene, settings.threads);
@@ -55,6 +62,9 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
+    if (isOccluded(scene_.ambient, effects_)) {
+      radiance += radianceFromAmbient(surfel, depth, counts, path);
+    }
     if (effects_.has(Effect::lights)) {
       radiance += radianceFromLights(surfel, depth, left, counts, path);
     }
@@ -62,7 +72,10 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (depth < options_.depth) {
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
-    const float kept = crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare();
+    const float kept =
+        crossing.hidden
+            ? 1
+            : scene_.materials[surfel.material].impulseShare(effects_.has(Effect::indirect));
     const double counted = left * double{kept};
     RgbD reflected = follow(children.reflected, RayKind::reflection, depth + 1, counted, counts,
                             childOf(path, kMirroredBranch));
@@ -71,6 +84,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
                                   counts, childOf(path, kRefractedBranch));
     radiance += reflected;
     radiance += refracted;
+    radiance += reflectDiffusely(surfel, crossing, depth, counted, media, counts, path);
   }
   return radiance * arrives;
 }
@@ -102,7 +116,7 @@ std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
 RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth,
                              double throughput, std::uint32_t media, RayCounts& counts,
                              Path path) const {
-  if (options_.glossy == 0 || !effects_.has(Effect::glossyReflection)) return {};
+  if (!effects_.has(Effect::glossyReflection)) return {};
   if (crossing.hidden || !scene_.materials[surfel.material].hasGlossyReflection()) return {};
   const LobeSampling sampling = lobeSampling(depth, options_.glossy, path.sample);
   const int rays = lobeRays(surfel, sampling);
@@ -116,17 +130,52 @@ RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int
   return sum / rays;
 }
 
+// Likewise of what a diffuse surface sees.
+RgbD Tracer::reflectDiffusely(const Surfel& surfel, const Crossing& crossing, int depth,
+                              double throughput, std::uint32_t media, RayCounts& counts,
+                              Path path) const {
+  if (!effects_.has(Effect::indirect)) return {};
+  if (crossing.hidden || !scene_.materials[surfel.material].hasDiffuseReflection()) return {};
+  const LobeSampling sampling = lobeSampling(depth, options_.indirect, path.sample);
+  RgbD sum;
+  for (std::uint32_t k = 0; k < sampling.count; ++k) {
+    const UnitPoint at = indirectPoint(path.number, sampling, k);
+    sum += follow(indirectImpulse(surfel, media, at, options_.shading), RayKind::indirect,
+                  depth + 1, throughput, counts, childOf(path, kFirstIndirectBranch + k));
+  }
+  return sum / sampling.count;
+}
+
 // What an impulse brings back, if it is worth following.
 RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
                     RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
-  if (!(largest > 0 && contribution >= options_.cutoff)) return {};
-  ++(kind == RayKind::reflection ? counts.reflection : counts.refraction);
-  intersector_.began(impulse, kind);
-  const RgbD radiance = traceImpulse(impulse.ray, depth, contribution, impulse.media, counts, path);
+  if (!(largest > 0 && survives(options_, contribution, path.number))) return {};
+  ++countOf(counts, kind);
+  const double grows = growthOfSurvivors(options_, contribution);
+  const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
+  intersector_.began(followed, kind);
+  const RgbD radiance =
+      traceImpulse(impulse.ray, depth, contribution * grows, impulse.media, counts, path);
   intersector_.ended(radiance);
-  return impulse.weight * radiance;
+  return followed.weight * radiance;
+}
+
+// The mean over directions of what nothing nearby holds off.
+RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts,
+                                 Path path) const {
+  const LobeSampling points =
+      lightSampling(depth, static_cast<std::uint32_t>(options_.ambientSamples), path.sample);
+  RgbD sum;
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const LightArrival arrival = ambientArrival(scene_, effects_, surfel, options_.shading,
+                                                lightPoint(path.number, points, kAmbientLight, k));
+    if (!(maxComponent(arrival.radiance) > 0)) continue;
+    ++counts.occlusion;
+    if (isVisible(intersector_, arrival.shadowRay, arrival.tFar)) sum += arrival.radiance;
+  }
+  return sum / points.count;
 }
 
 // Each point of a light is looked at as if it were the whole light, so that their number does not

@@ -8,15 +8,20 @@ RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
   return skyRadiance(scene.sky, direction);
 }
 
+RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
+  if (!effects.has(Effect::ambient)) return {};
+  const Material& material = scene.materials[surfel.material];
+  if (effects.has(Effect::indirect) && material.hasDiffuseReflection()) return {};
+  const RgbD up(scene.ambient.up), down(scene.ambient.down);
+  return surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+}
+
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
   RgbD radiance;
   if (effects.has(Effect::emission)) {
     radiance = RgbD(scene.materials[surfel.material].emission) * surfel.emission;
   }
-  if (effects.has(Effect::ambient)) {
-    const RgbD up(scene.ambient.up), down(scene.ambient.down);
-    radiance += surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
-  }
+  if (!isOccluded(scene.ambient, effects)) radiance += reflectedAmbient(scene, effects, surfel);
   return radiance * surfel.coverage;
 }
 

@@ -8,7 +8,11 @@ namespace whit::reference {
 // Radiance of the sky along the unit direction, black where the effects leave it out.
 RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction);
 
-// Emission, and the ambient light reflected by the diffuse color.
+// Ambient light reflected by the diffuse color, of the part of the surface that is there: black
+// where that reflects the scene instead.
+RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
+
+// Emission, and ambient light that nothing is looked for to hold off.
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
 
 // The twin.

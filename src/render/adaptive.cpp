@@ -90,6 +90,7 @@ FrameStats AdaptiveSampler::traceCenters(const Frame& frame, const Scheduler::Wa
   SurfaceRecorder recorder(first_.image, surfaces_);
   centers.samples = samplePattern(1);
   centers.constants.channels.sample = 0;
+  centers.endSample = 1;
   centers.film = &first_;
   centers.observer = &recorder;
   return scheduler_.trace(centers, scheduler_.allPixels(), watch);
@@ -107,6 +108,7 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame, const Scheduler::Wat
   Frame probes = frame;
   probes.constants.channels = {};
   probes.samples.resize(std::min<std::size_t>(samples_, kProbeSamples));
+  probes.endSample = probes.samples.size();
   probes.film = &first_;
   probes.probes = &*probes_;
   const Image& image = frame.film->image;

@@ -20,7 +20,7 @@ class RayLogger : public StageObserver {
         log_.append(advanced(c.rays, segment.begin), segment.end - segment.begin, c.coherent);
       }
     } else if (stage == Stage::checkShadows) {
-      log_.append(c.shadows, c.shadowCount, c.coherent);
+      log_.append(c.shadows, c.shadowCount, c.shadowsAreCoherent());
     }
   }
   const RayLog& log() const { return log_; }

@@ -1,11 +1,12 @@
-// A frame: what all workers that trace it share. Read-only while it is traced, but for the film and
-// the probe samples, of which each pixel is written by one worker.
+// A frame: what all workers that trace it share. Read-only while it is traced, but for the film,
+// the probe samples and the sums, of which each pixel is written by one worker.
 #pragma once
 
 #include <vector>
 
 #include "render/film.h"
 #include "render/observer.h"
+#include "render/sample_sums.h"
 #include "sampling/probe_samples.h"
 #include "stages/chunk.h"
 
@@ -14,10 +15,13 @@ namespace whit {
 struct Frame {
   FrameConstants constants;
   std::vector<Vec2f> samples;   // of each pixel, in the order of the pattern
-  std::size_t firstSample = 0;  // those before it were traced for the probes
+  std::size_t firstSample = 0;  // those before it were traced for the probes, or are in `sums`
+  std::size_t endSample = 0;    // the first that is not traced
   Film* film = nullptr;
   // Of adaptive sampling: where the first samples go, or whence their sum comes.
   ProbeSamples* probes = nullptr;
+  // Of accumulating: whence the sums of the samples before come, and where they go.
+  SampleSums* sums = nullptr;
   // Part of the frame's work: sees the chunks of all workers, at the same time.
   StageObserver* observer = nullptr;
 };

@@ -24,6 +24,7 @@ EffectSet consistent(EffectSet e) {
     if (!e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
   }
   if (!e.has(Effect::shadows)) e = e.without(Effect::softShadows);
+  if (!e.has(Effect::ambient)) e = e.without(Effect::ambientOcclusion);
   if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption).without(Effect::coverage);
   if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
@@ -34,7 +35,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
   const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps) || e.has(Effect::coverage);
   const bool emission = e.has(Effect::emission);
   return FeatureSet()
-      .with(Feature::ambient, e.has(Effect::ambient))
+      .with(Feature::ambient, e.has(Effect::ambient) && !isOccluded(scene.ambient, e))
       .with(Feature::emission, emission)
       .with(Feature::emissionFactors,
             e.has(Effect::emissionMaps) || (emission && e.has(Effect::vertexColors)))
@@ -46,13 +47,16 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::coverage, e.has(Effect::coverage))
-      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows))
+      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows) ||
+                                  e.has(Effect::indirect) || isOccluded(scene.ambient, e) ||
+                                  options.roulette > 0)
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
       .with(Feature::spheres, e.has(Effect::spheres))
       .with(Feature::flush, !scene.flush.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
+      .with(Feature::occlusion, isOccluded(scene.ambient, e))
       // Where no vertex normal differs from its triangle's there is nothing to lift.
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
@@ -116,6 +120,7 @@ class Planner {
     }
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
+    if (plan_.features.has(Feature::occlusion)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
@@ -178,6 +183,23 @@ class Planner {
                                        {Part::rayCounts}, {Part::channels}));
   }
 
+  void addAmbientLight() {
+    const auto samples = static_cast<std::uint32_t>(options_.ambientSamples);
+    for (std::uint32_t k = 0; k < samples; ++k) {
+      plan_.perLight.push_back(
+          {.light = kAmbientLight,
+           .sample = k,
+           .samples = samples,
+           .steps = {stepOf(simd::kFindAmbientAndOcclusionRays, plan_.effects), checkShadowsStep(),
+                     stepOf(simd::kAddShading, plan_.effects)}});
+    }
+  }
+
+  Step checkShadowsStep() const {
+    return embreeStep("checkShadows", "occluded", checkShadows, simd::kPackShadowRays,
+                      simd::kUnpackVisibility, inPackets());
+  }
+
   void addSamplesOf(std::size_t index) {
     const bool soft = has(Effect::softShadows) && hasExtent(scene_.lights[index]);
     const auto count = static_cast<std::uint32_t>(soft ? options_.lightSamples : 1);
@@ -209,9 +231,7 @@ class Planner {
         lightSteps.steps.push_back(stepOf(simd::kDecideShadows, plan_.effects));
         if (options_.verdicts == Verdicts::audit) lightSteps.steps.back().run = auditShadows;
       }
-      lightSteps.steps.push_back(embreeStep("checkShadows", "occluded", checkShadows,
-                                            simd::kPackShadowRays, simd::kUnpackVisibility,
-                                            inPackets()));
+      lightSteps.steps.push_back(checkShadowsStep());
     }
     lightSteps.steps.push_back(stepOf(simd::kAddShading, effects));
     plan_.perLight.push_back(std::move(lightSteps));
@@ -229,6 +249,10 @@ class Planner {
     if (has(Effect::transmission)) {
       addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
     }
+    if (has(Effect::indirect)) {
+      addImpulse(simd::kAddIndirect, kMaterialDiffuses, RayKind::indirect,
+                 static_cast<std::size_t>(options_.indirect));
+    }
     if (options_.depth == 0) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
@@ -238,7 +262,7 @@ class Planner {
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting
     // them by origin and direction before they are packed gains nothing on AVX2 (glass, whitted,
     // tiles of 32 to 256): Embree then leads the rays of a packet one by one.
-    plan_.coherentDepth = has(Effect::glossyReflection) ? 0 : 2;
+    plan_.coherentDepth = has(Effect::glossyReflection) || has(Effect::indirect) ? 0 : 2;
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {

@@ -58,7 +58,7 @@ struct Step {
 
 // All that one light, or one sample of it, goes through.
 struct LightSteps {
-  std::size_t light = 0;                  // index into the tables' lights
+  std::size_t light = 0;                  // index into the tables' lights, or kAmbientLight
   std::uint32_t sample = 0, samples = 1;  // which part of it, of how many
   std::vector<Step> steps;
 };

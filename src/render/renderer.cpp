@@ -110,7 +110,13 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
   return {&scene_,        &tables_, &*accel_,           verdicts, plan_.effects,
-          plan_.features, options_, cameraRays(camera), asking_, {}};
+          plan_.features, options_, cameraRays(camera), asking_, {}, seed_};
+}
+
+const std::vector<Vec2f>& Renderer::pattern() {
+  const auto samples = static_cast<std::size_t>(options_.spp);
+  if (pattern_.size() != samples) pattern_ = samplePattern(options_.spp);
+  return pattern_;
 }
 
 Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
@@ -118,7 +124,8 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
   sizeDisplay(film);
   Frame frame;
   frame.constants = constantsOf(lookFrom(camera, film));
-  frame.samples = samplePattern(options_.spp);
+  frame.samples = pattern();
+  frame.endSample = frame.samples.size();
   film.channels.resize(plan_.channels, film.image.pixels.size());
   if (!plan_.channels.empty()) {
     frame.constants.channels = {&film.channels, film.image.window,
@@ -135,6 +142,21 @@ FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::W
   const Stopwatch stopwatch;
   FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
                                 : scheduler_.trace(frame, scheduler_.allPixels(), watch);
+  stats.frameMs = stopwatch.ms();
+  stats.workers = machine_.threads;
+  ++asking_.turn;
+  requireRightVerdicts(stats, scene_);
+  return stats;
+}
+
+FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
+                                SampleSums& sums) {
+  Frame frame = frameOf(camera, film, film.image.window);
+  frame.firstSample = static_cast<std::size_t>(samples.first);
+  frame.endSample = static_cast<std::size_t>(samples.end);
+  frame.sums = &sums;
+  const Stopwatch stopwatch;
+  FrameStats stats = scheduler_.trace(frame, scheduler_.allPixels());
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
   ++asking_.turn;

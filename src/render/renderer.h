@@ -46,6 +46,12 @@ class Renderer {
   // change. `watch`, if any, looks on (render/scheduler.h).
   FrameStats render(const Camera& camera, Film& film, const Scheduler::Watch& watch = {});
 
+  // Traces some of the samples of the film's pixels, without adaptive sampling, and adds them to
+  // `sums`, which has those before them. The film shows the mean of all so far: with the last of
+  // options().spp samples it is render()'s, bit for bit. The window of `sums` holds the film's.
+  FrameStats accumulate(const Camera& camera, Film& film, const SampleRange& samples,
+                        SampleSums& sums);
+
   // Traces all samples of the film's pixels, without adaptive sampling, each observer looking on at
   // a worker of its own; no more of them than machine().threads.
   FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers);
@@ -61,6 +67,11 @@ class Renderer {
   // Whether setOptions() is enough for frames with these options. Otherwise they need a renderer of
   // their own: what differs is part of the acceleration structure or of the workers.
   bool canSetOptions(const RenderOptions& options) const;
+
+  // For frames to come: random numbers of their own, so that pictures of several seeds have noise
+  // that is independent. Seed 0, that of all pictures, until another is set; the reference has no
+  // other.
+  void setSeed(std::uint32_t seed) { seed_ = seed; }
 
   // For frames to come, after materials or lights of the scene were changed (editShading). Plans
   // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
@@ -105,6 +116,7 @@ class Renderer {
  private:
   bool adaptive() const { return options_.adaptive && options_.spp > 1; }
   Frame frameOf(const Camera& camera, Film& film, const Crop& window);
+  const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   bool wantsVerdicts(const RenderOptions& options) const;
   void renewVerdicts();
@@ -121,6 +133,8 @@ class Renderer {
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;
+  std::vector<Vec2f> pattern_;  // of options_.spp samples, once it was asked for
+  std::uint32_t seed_ = 0;
   Box dielectrics_;        // around the surfaces of all of them
   bool enclosed_ = false;  // the scene is closed around its cameras, and rays are to be retried
   std::optional<Vec3f> lookedFrom_;  // where the last frame's eye was

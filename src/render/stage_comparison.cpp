@@ -80,7 +80,7 @@ double distance(const Values& got, const Values& wanted, const std::vector<std::
 
 // Where the step has found light: there is a shadow ray, or without shadows all is visible.
 std::vector<std::size_t> litSlots(const Chunk& c) {
-  if (c.has(Feature::shadows)) return {c.shadows.slot, c.shadows.slot + c.shadowCount};
+  if (c.tracesShadows()) return {c.shadows.slot, c.shadows.slot + c.shadowCount};
   std::vector<std::size_t> slots;
   for (std::size_t i = 0; i < c.n; ++i) {
     if (c.unshadowed.visible[i] > 0) slots.push_back(i);

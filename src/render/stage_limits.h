@@ -185,6 +185,7 @@ inline double byPointOfLight(const Chunk& chunk) { return chunk.lightSamples > 1
 // What the radiance would be without the cosine to the light's point, whose rounding error is
 // absolute. An ulp of the half vector, over the width of the lobe, is how much a highlight moves.
 inline double byGrazing(const Place<UnshadowedRow>& p) {
+  if (p.chunk.lightIsAmbient()) return 0;
   const Light& light = *p.chunk.light;
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
   const Vec3d l = normalized(reference::arrivalAt(p.world, p.chunk, p.slot).shadowRay.direction);
@@ -196,8 +197,9 @@ inline double byGrazing(const Place<UnshadowedRow>& p) {
   const SpotCone cone = coneOf(light);
   return scale * std::max(1.0, 2 * cone.scale / std::max(std::sqrt(cone.falloff(l)), 1e-4));
 }
-// A difference of two positions.
+// A difference of two positions; or of ambient light by a sine, a cosine and a change of frame.
 inline double byBothEnds(const Place<ShadowRow>& p) {
+  if (p.chunk.lightIsAmbient()) return 4;
   const Light& light = *p.chunk.light;
   if (light.kind == Light::Kind::directional) return 1;
   return byPointOfLight(p.chunk) *

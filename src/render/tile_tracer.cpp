@@ -11,7 +11,9 @@ namespace whit {
 TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
     : plan_(plan), work_(plan, capacity) {}
 
-std::size_t TileTracer::bytes() const { return work_.bytes() + sums_.capacity() * sizeof(RgbD); }
+std::size_t TileTracer::bytes() const {
+  return work_.bytes() + sums_.capacity() * sizeof(SampleSum);
+}
 
 void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels, FrameStats& stats,
                        std::barrier<>* stageBarrier, StageObserver* observer) {
@@ -23,7 +25,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
   for (std::size_t begin = 0; begin < pixels.size(); begin += work_.capacity()) {
     chunk_.pixels = pixels.subspan(begin, std::min(work_.capacity(), pixels.size() - begin));
     work_.reserveCodes(chunk_.pixels.size());
-    if (frame.samples.size() == 1 && !frame.probes) {
+    if (frame.samples.size() == 1 && !frame.probes && !frame.sums) {
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
       traceSample(watch);
@@ -37,31 +39,54 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
   }
 }
 
-// The mean over the frame's samples.
+// The mean over the samples so far.
 void TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
-  const std::size_t n = chunk_.pixels.size(), count = frame.samples.size();
-  const auto probesOf = [&](std::size_t i) -> PixelProbes& {
-    return frame.probes->at(pixelX(chunk_.pixels[i]), pixelY(chunk_.pixels[i]));
-  };
-  sums_.assign(n, RgbD());
-  const bool goesOn = frame.firstSample > 0;
-  for (std::size_t i = 0; goesOn && i < n; ++i) sums_[i] = probesOf(i).total;
-  for (std::size_t s = frame.firstSample; s < count; ++s) {
+  const std::size_t n = chunk_.pixels.size();
+  sums_.assign(n, SampleSum());
+  takeUpSums(frame);
+  for (std::size_t s = frame.firstSample; s < frame.endSample; ++s) {
     chunk_.sample = frame.samples[s];
     chunk_.sampleNumber = static_cast<std::uint32_t>(s);
     traceSample(watch);
     work_.returnToPixels(chunk_);
-    const RadianceColumns& radiance = chunk_.radiance;
-    for (std::size_t i = 0; i < n; ++i) {
-      sums_[i] += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
-    }
-    if (frame.probes && !goesOn) keepProbeCodes(frame);
+    addSample(frame);
+    if (frame.probes && frame.firstSample == 0) keepProbeCodes(frame);
   }
+  leaveSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
   for (std::size_t i = 0; i < n; ++i) {
-    if (frame.probes && !goesOn) probesOf(i).total = sums_[i];
-    const Rgb mean(sums_[i] / static_cast<double>(count));
+    const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
     radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
+  }
+}
+
+void TileTracer::addSample(const Frame& frame) {
+  const RadianceColumns& radiance = chunk_.radiance;
+  const std::size_t n = chunk_.pixels.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    sums_[i].total += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
+  }
+  if (!frame.sums) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mean = (double{radiance.r[i]} + double{radiance.g[i]} + double{radiance.b[i]}) / 3;
+    sums_[i].squares += mean * mean;
+  }
+}
+
+void TileTracer::takeUpSums(const Frame& frame) {
+  for (std::size_t i = 0; frame.firstSample > 0 && i < chunk_.pixels.size(); ++i) {
+    const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
+    if (frame.probes) sums_[i].total = frame.probes->at(x, y).total;
+    if (frame.sums) sums_[i] = frame.sums->at(x, y);
+  }
+}
+
+void TileTracer::leaveSums(const Frame& frame) {
+  const bool toProbes = frame.probes && frame.firstSample == 0;
+  for (std::size_t i = 0; (toProbes || frame.sums) && i < chunk_.pixels.size(); ++i) {
+    const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
+    if (toProbes) frame.probes->at(x, y).total = sums_[i].total;
+    if (frame.sums) frame.sums->at(x, y) = sums_[i];
   }
 }
 

@@ -45,6 +45,10 @@ class TileTracer {
   };
 
   void traceSamples(const Frame& frame, const Watch& watch);
+  void addSample(const Frame& frame);
+  // Of the samples before these, and of those that will follow.
+  void takeUpSums(const Frame& frame);
+  void leaveSums(const Frame& frame);
   void keepProbeCodes(const Frame& frame);
   void traceSample(const Watch& watch);
   void shadeChunk(int depth, const Watch& watch);
@@ -56,8 +60,8 @@ class TileTracer {
 
   const Plan& plan_;
   Workspace work_;
-  Chunk chunk_;             // the one in hand
-  std::vector<RgbD> sums_;  // a pixel each, when there are several samples
+  Chunk chunk_;                  // the one in hand
+  std::vector<SampleSum> sums_;  // a pixel each, when there are several samples
 };
 
 }  // namespace whit

@@ -17,14 +17,19 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
 }
 
 // The first ray's: its pixel is packed (core/pixel.h), `sample` its place in the sample pattern.
-// The samples of a pixel are equal steps apart.
+// The samples of a pixel are equal steps apart. Frames of different seeds have noise of their own;
+// pictures have seed 0.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
-constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample) {
-  return mixed(pixel + kPixelSalt) + sample * kSampleStep;
+constexpr std::uint32_t pixelSalt(std::uint32_t seed) { return kPixelSalt ^ mixed(seed); }
+constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample,
+                                      std::uint32_t seed = 0) {
+  return mixed(pixel + pixelSalt(seed)) + sample * kSampleStep;
 }
 
-// A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe.
-inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2, kFirstGlossyBranch = 3;
+// A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe and
+// those of the diffuse one.
+inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2, kFirstGlossyBranch = 3,
+                               kFirstIndirectBranch = 128;
 inline constexpr std::uint32_t kBranchStep = 0x3c6ef35fu;
 constexpr std::uint32_t childStream(std::uint32_t path, std::uint32_t branch) {
   return mixed(path ^ (branch * kBranchStep));
@@ -78,6 +83,24 @@ constexpr std::uint32_t lightStream(std::uint32_t path, const LobeSampling& samp
 constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
                                std::uint32_t light, std::uint32_t k) {
   return lobePoint(lightStream(path, sampling, light), {sampling.count, sampling.first, 0}, k);
+}
+
+// Point k of the diffuse lobe, whose lattice has nothing to do with the glossy one's.
+inline constexpr std::uint32_t kIndirectSalt = 0x5851f42du;
+constexpr std::uint32_t indirectStream(std::uint32_t path, const LobeSampling& sampling) {
+  return mixed((path - sampling.unshift) ^ kIndirectSalt);
+}
+constexpr UnitPoint indirectPoint(std::uint32_t path, const LobeSampling& sampling,
+                                  std::uint32_t k) {
+  return lobePoint(indirectStream(path, sampling), {sampling.count, sampling.first, 0}, k);
+}
+
+// Russian roulette (Arvo and Kirk 1990, "Particle transport and image synthesis"): an impulse whose
+// contribution x is below the option's X survives with the probability x / X, if this number of its
+// path, in [0, 1), times X is less than x; it then counts for X instead.
+inline constexpr std::uint32_t kRouletteSalt = 0x14057b7eu;
+constexpr float rouletteDraw(std::uint32_t path) {
+  return static_cast<float>(mixed(path ^ kRouletteSalt) >> 8) * 0x1p-24f;
 }
 
 }  // namespace whit

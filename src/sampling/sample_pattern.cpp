@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -72,6 +74,59 @@ std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& sa
   return best;
 }
 
+// All indices, those of `first` before the others: of these always one that is far from all before
+// it, where pixels lie side by side (Eldar et al. 1997, "The farthest point strategy for
+// progressive image sampling"); of those at least 0.7 times as far as the farthest, the one that
+// brings the mean of all nearest to the center. In whole cells: the order is the same on every
+// machine.
+std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
+                                     const std::vector<std::size_t>& first) {
+  struct Cell {
+    std::int64_t x = 0, y = 0;
+  };
+  const auto n = static_cast<std::int64_t>(samples.size());
+  const auto cellOf = [&](float place) {
+    return static_cast<std::int64_t>(place * static_cast<float>(n));
+  };
+  std::vector<Cell> cells;
+  for (const Vec2f& sample : samples) cells.push_back({cellOf(sample.x), cellOf(sample.y)});
+  const auto squared = [](std::int64_t x, std::int64_t y) { return x * x + y * y; };
+  const auto apart = [&](std::int64_t a, std::int64_t b) {
+    return std::min(std::abs(a - b), n - std::abs(a - b));
+  };
+  constexpr std::int64_t kTaken = -1;
+  std::vector<std::int64_t> distance(samples.size(), std::numeric_limits<std::int64_t>::max() / 2);
+  std::vector<std::size_t> order;
+  Cell sum;  // of twice the way from the center
+  const auto summed = [&](const Cell& c) {
+    return Cell{sum.x + 2 * c.x + 1 - n, sum.y + 2 * c.y + 1 - n};
+  };
+  const auto take = [&](std::size_t taken) {
+    order.push_back(taken);
+    sum = summed(cells[taken]);
+    distance[taken] = kTaken;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::int64_t away =
+          squared(apart(cells[i].x, cells[taken].x), apart(cells[i].y, cells[taken].y));
+      distance[i] = std::min(distance[i], away);
+    }
+  };
+  const auto next = [&] {
+    const std::int64_t farthest = *std::max_element(distance.begin(), distance.end());
+    std::size_t best = samples.size();
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (distance[i] == kTaken || 2 * distance[i] < farthest) continue;
+      const Cell with = summed(cells[i]);
+      if (squared(with.x, with.y) < least) least = squared(with.x, with.y), best = i;
+    }
+    return best;
+  };
+  for (const std::size_t i : first) take(i);
+  while (order.size() < samples.size()) take(next());
+  return order;
+}
+
 }  // namespace
 
 std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
@@ -84,14 +139,13 @@ std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
 }
 
 std::vector<Vec2f> samplePattern(int spp) {
-  std::vector<Vec2f> samples = rooks(spp);
+  const std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kProbeSamples) return samples;
   const auto probes = chooseProbes(samples);
   std::vector<Vec2f> ordered;
   ordered.reserve(samples.size());
-  for (const std::size_t probe : probes) ordered.push_back(samples[probe]);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (std::find(probes.begin(), probes.end(), i) == probes.end()) ordered.push_back(samples[i]);
+  for (const std::size_t i : spreadOrder(samples, {probes.begin(), probes.end()})) {
+    ordered.push_back(samples[i]);
   }
   return ordered;
 }

@@ -16,7 +16,9 @@ namespace whit {
 // Carlo Methods", chapter 5).
 //
 // The first kProbeSamples lie near those of the pattern of as many, their mean in the center or
-// next to it, so that they stand for the pixel by themselves.
+// next to it, so that they stand for the pixel by themselves. Each further one lies far
+// from those before it, and their mean stays near the center: a picture of the first few shows the
+// whole pixel, only with more noise.
 std::vector<Vec2f> samplePattern(int spp);
 inline constexpr int kProbeSamples = 4;
 

@@ -16,7 +16,8 @@ bool sameKind(const Material& a, const Material& b) {
                                                 a.priority == b.priority);
   return sameMedium && a.boundsMedium() == b.boundsMedium() &&
          a.hasTransmission() == b.hasTransmission() && a.hasGlossy() == b.hasGlossy() &&
-         a.hasGlossyReflection() == b.hasGlossyReflection() && a.hasMirror() == b.hasMirror() &&
+         a.hasGlossyReflection() == b.hasGlossyReflection() &&
+         a.hasDiffuseReflection() == b.hasDiffuseReflection() && a.hasMirror() == b.hasMirror() &&
          isBlack(a.emission) == isBlack(b.emission) && isBlack(a.diffuse) == isBlack(b.diffuse);
 }
 

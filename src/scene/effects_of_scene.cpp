@@ -99,6 +99,8 @@ void Gatherer::materials() {
   byMaterial(Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); });
   byMaterial(Effect::glossyReflection, "whose glossy lobe reflects the scene",
              [](const Material& m) { return m.hasGlossyReflection(); });
+  byMaterial(Effect::indirect, "whose diffuse color reflects the scene",
+             [](const Material& m) { return m.hasDiffuseReflection(); });
   byMaterial(Effect::emission, "with emission",
              [](const Material& m) { return !isBlack(m.emission); });
 }
@@ -134,8 +136,11 @@ void Gatherer::surroundings() {
   set(Effect::sky, sky, "the sky is not black", "the sky is black");
   set(Effect::skyImage, image, "the sky is an image",
       sky ? "the sky is not an image" : "the sky is black");
-  set(Effect::ambient, !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down),
-      "the ambient light is not black", "the ambient light is black");
+  const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
+  set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
+  set(Effect::ambientOcclusion, ambient && scene_.ambient.occlusion > 0,
+      "the ambient light has a radius of occlusion",
+      ambient ? "the ambient light has no radius of occlusion" : "the ambient light is black");
 }
 
 void Gatherer::lights() {

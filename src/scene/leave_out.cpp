@@ -21,6 +21,7 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   }
   if (effects.has(Effect::glossy)) m.specular = kBlack;
   if (effects.has(Effect::glossyReflection)) m.glossyReflection = false;
+  if (effects.has(Effect::indirect)) m.diffuseReflection = false;
   if (effects.has(Effect::emission)) m.emission = kBlack;
   if (effects.has(Effect::shadows)) m.castsShadow = false;
   if (effects.has(Effect::mirror)) {
@@ -90,6 +91,7 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
   if (fewerMaps) dropUnusedTexels(d);
   leaveOutOfSky(d.sky, effects);
   if (effects.has(Effect::ambient)) d.ambient = Ambient();
+  if (effects.has(Effect::ambientOcclusion)) d.ambient.occlusion = 0;
   leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::instances)) keepFirstUses(d);
   for (Object& object : d.objects) {

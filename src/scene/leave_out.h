@@ -12,11 +12,12 @@ namespace whit {
 
 // Takes out what turns each effect on (see effects_of_scene.cpp): textures and normal maps, whose
 // texels go too when no material is left that uses them; alpha masks, so that masked surfaces
-// become solid; vertex normals; lobes, emission, lights; the sky, or of a sky image only the image,
-// in whose place comes a gradient; mirrors, transmission (glass becomes opaque), absorption,
-// coverage (what is there in part becomes whole); all uses of an object but the first; of a sphere
-// that it is round: it becomes triangles. Without shadows nothing casts any. Without mirror
-// dielectrics get the refractive index of the vacuum, because others reflect.
+// become solid; vertex normals; lobes, emission, lights; that diffuse surfaces reflect the scene;
+// the sky, or of a sky image only the image, in whose place comes a gradient; mirrors, transmission
+// (glass becomes opaque), absorption, coverage (what is there in part becomes whole); all uses of
+// an object but the first; of a sphere that it is round: it becomes triangles. Without shadows
+// nothing casts any. Without mirror dielectrics get the refractive index of the vacuum, because
+// others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
 // What the matte scene starts with: primary and shadow rays, lights that shine all around.
@@ -29,7 +30,7 @@ inline constexpr std::array kAddedEffects{
     Effect::textures,    Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
     Effect::glossy,      Effect::glossyReflection,  Effect::instances,     Effect::spheres,
     Effect::mirror,      Effect::transmission,      Effect::absorption,    Effect::coverage,
-    Effect::softShadows,
+    Effect::softShadows, Effect::ambientOcclusion,  Effect::indirect,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

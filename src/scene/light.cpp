@@ -113,9 +113,10 @@ Ambient meansOf(const Sky& sky, double factor) {
 
 }  // namespace
 
-Ambient ambientFromSky(const Sky& sky, double strength) {
+Ambient ambientFromSky(const Sky& sky, double strength, float occlusion) {
   Ambient ambient = meansOf(sky, strength * sky.scale);
   ambient.ofSky = strength;
+  ambient.occlusion = occlusion;
   return ambient;
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/effects.h"
 #include "core/vec3.h"
 #include "scene/texture.h"
 
@@ -61,18 +62,27 @@ struct Sky {
   float rotation = 0;
 };
 
-// Constant-time ambient: irradiance / pi as a function of the normal's y alone,
+// Ambient light: irradiance / pi as a function of the normal's y alone,
 // down + (up - down) * (1 + n.y) / 2.
 struct Ambient {
   Rgb up{0, 0, 0}, down{0, 0, 0};
   double ofSky = 0;  // the strength by which ambientFromSky() made it; 0: given by itself
+  // What is no further away than this holds off its share of the light; 0: nothing does. Frames
+  // take --ambient-samples of it.
+  float occlusion = 0;
 };
+
+// Whether frames with these effects look for what holds it off.
+inline bool isOccluded(const Ambient& ambient, EffectSet effects) {
+  return effects.has(Effect::ambient) && effects.has(Effect::ambientOcclusion) &&
+         ambient.occlusion > 0;
+}
 
 // What it is called: none, color, gradient, studio, or the name of its image's file.
 std::string skyName(const Sky& sky);
 // Radiance of the sky along the unit direction `d` (double precision; the kernels' oracle).
 RgbD skyRadiance(const Sky& sky, const Vec3d& d);
 // Cosine-weighted means of the sky over the upper and the lower hemisphere, times `strength`.
-Ambient ambientFromSky(const Sky& sky, double strength);
+Ambient ambientFromSky(const Sky& sky, double strength, float occlusion = 0);
 
 }  // namespace whit

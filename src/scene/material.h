@@ -7,6 +7,8 @@
 // (Whitted 1980, with physical units):
 //   emission
 //   + diffuse * ambient(n)
+//   or, under --indirect, + diffuse * mean of radiance along rays drawn by the cosine to n (where
+//   diffuseReflection)
 //   + sum over lights of (diffuse / pi + glossy lobe) * biradiance * max(0, n.l)
 //   + reflectance * radiance along the mirrored ray
 //   + mean of radiance along rays that sample the glossy lobe (where glossyReflection)
@@ -40,8 +42,10 @@ enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 struct Material {
   std::string name;
 
-  Rgb diffuse{0.8f, 0.8f, 0.8f};           // albedo, times diffuseMap
-  std::int32_t diffuseMap = kNoTexture;    // color
+  Rgb diffuse{0.8f, 0.8f, 0.8f};         // albedo, times diffuseMap
+  std::int32_t diffuseMap = kNoTexture;  // color
+  // Whether it reflects the scene under --indirect, not only lights and ambient light.
+  bool diffuseReflection = true;
   Rgb specular{0, 0, 0};                   // glossy lobe's reflectance at normal incidence (F0)
   std::int32_t specularMap = kNoTexture;   // color, multiplies `specular`
   float roughness = 0.5f;                  // GGX; alpha = roughness^2, at least kMinRoughness
@@ -87,6 +91,7 @@ struct Material {
   bool hasGlossy() const { return maxComponent(specular) > 0; }
   bool variesRoughness() const { return hasGlossy() && roughnessMap != kNoTexture; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
+  bool hasDiffuseReflection() const { return maxComponent(diffuse) > 0 && diffuseReflection; }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool isPartlyThere() const { return coverage < 1 || coverageMap != kNoTexture; }
@@ -115,16 +120,18 @@ struct Material {
   // What --cutoff counts of the weights of the impulses that start here: 1, or less where they can
   // add up to more than 1 (a glossy lobe on glass). So a pixel's paths never count for more than 1
   // together, and a cutoff c leaves 1/c of them at most, whatever the materials and the depth;
-  // times the number of samples where a lobe is sampled several times.
-  float impulseShare() const;
+  // times the number of samples where a lobe is sampled several times. `indirect`: diffuse
+  // reflection is sampled too.
+  float impulseShare(bool indirect) const;
 };
 
-inline float Material::impulseShare() const {
+inline float Material::impulseShare(bool indirect) const {
   const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
   // What is not mirrored is refracted.
   const float both = hasTransmission() ? std::max(1.0f, coat) : coat;
   const float lobe = hasGlossyReflection() ? 1.0f : 0.0f;
-  return 1 / std::max(1.0f, both + lobe);
+  const float scattered = indirect && hasDiffuseReflection() ? maxComponent(diffuse) : 0.0f;
+  return 1 / std::max(1.0f, both + lobe + scattered);
 }
 
 inline constexpr float kMinRoughness = 0.03f;

@@ -58,6 +58,7 @@ struct FrameConstants {
   CameraRays camera;
   AskingTurn asking;
   ChannelTarget channels;
+  std::uint32_t seed = 0;  // of the random numbers
 };
 
 // Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
@@ -80,6 +81,9 @@ struct WrongVerdict {
   Vec3f origin, direction;
   explicit operator bool() const { return found; }
 };
+
+// In place of a light's number: the ambient light.
+inline constexpr std::uint32_t kAmbientLight = 0xffffffffu;
 
 // What tracing adds up to.
 struct TraceMeter {
@@ -108,8 +112,8 @@ struct Chunk {
   RadianceColumns radiance;
 
   // From findRadianceAndShadowRays to addShading.
-  const Light* light = nullptr;
-  std::uint32_t lightNumber = 0;                    // of the light, in the tables
+  const Light* light = nullptr;                     // null: none, or the ambient light
+  std::uint32_t lightNumber = 0;                    // of the light, in the tables; kAmbientLight
   std::uint32_t lightSample = 0, lightSamples = 1;  // which part of it, of how many
   UnshadowedColumns unshadowed;
   ShadowColumns shadows;
@@ -134,9 +138,16 @@ struct Chunk {
   const ShadingTables& tables() const { return *frame->tables; }
   const RenderOptions& options() const { return frame->options; }
 
+  bool lightIsAmbient() const { return lightNumber == kAmbientLight; }
+  // Whether rays find out what is visible of the light in hand.
+  bool tracesShadows() const { return lightIsAmbient() || has(Feature::shadows); }
+
+  // Rays to one light travel close together, those about normals do not.
+  bool shadowsAreCoherent() const { return coherent && !lightIsAmbient(); }
+
   // Takes a light, or one of so many samples of it, in hand.
   void turnTo(std::size_t number, std::uint32_t sample, std::uint32_t samples) {
-    light = &tables().lights[number];
+    light = number == kAmbientLight ? nullptr : &tables().lights[number];
     lightNumber = static_cast<std::uint32_t>(number);
     lightSample = sample;
     lightSamples = samples;

@@ -41,7 +41,9 @@ Probe::Probe(const Scene& scene, const Setup& setup)
                  renderer_.plan().features,
                  renderer_.options(),
                  {},
-                 {}} {
+                 {},
+                 {},
+                 0} {
   chunk_.frame = &constants_;
   chunk_.meter = &meter_;
 }

@@ -136,6 +136,38 @@ TEST(AccuracyProgram, SweepsATinyScene) {
   EXPECT_NE(again.out.find("earlier"), std::string::npos) << again.out;
 }
 
+// Against all transport: four causes, the truth's own error, a sentence about what to choose.
+TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
+  const cli::TemporaryFolder folder;
+  const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
+  const std::vector<std::string> words{"accuracy",      scene,       "--out",  out,
+                                       "--truth",       "transport", "--size", "24x16",
+                                       "--time-budget", "1"};
+  const cli::Outcome outcome = runWhit(words);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("truth: all transport, by packets"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("standard error of a pixel"), std::string::npos);
+  EXPECT_NE(outcome.out.find("tiny at 24x16 pixels: in 16 ms "), std::string::npos);
+  std::istringstream table(outcome.out);
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
+  std::map<std::string, CsvRow> rows;
+  for (const CsvRow& row : parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv")) {
+    EXPECT_EQ(row.at("truth"), "transport");
+    rows[row.at("knob") + row.at("value")] = row;
+  }
+  const auto number = [&](const char* point, const char* column) {
+    return rows.contains(point) ? std::stod(rows.at(point).at(column)) : -1;
+  };
+  EXPECT_GT(number("standard", "truth_standard_error"), 0);
+  EXPECT_GT(number("standard", "transport_rmse"), 0) << "the floor lights the sphere";
+  EXPECT_EQ(number("indirect4", "transport_rmse"), 0);
+  EXPECT_LT(number("spp=16 indirect=16", "total_rmse"), number("standard", "total_rmse"));
+  EXPECT_LT(number("spp=16 indirect=16", "total_rmse"), number("indirect1", "total_rmse"));
+  EXPECT_GT(expectLinksResolve(out, "causes-tiny.svg"), 1u);
+  EXPECT_GT(expectLinksResolve(out, "report.html"), 5u);
+  EXPECT_NE(runWhit(words).out.find("by an earlier run"), std::string::npos);
+}
+
 // Passes against the errors that it has just measured, fails against smaller ones.
 TEST(AccuracyProgram, CheckTellsGrowth) {
   const cli::TemporaryFolder folder;
@@ -180,6 +212,7 @@ TEST(AccuracyProgram, WrongUsageSaysWhatWasExpected) {
   EXPECT_EQ(status({"mirrors"}, "--out DIR"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--quick", "--full"}, "exclude each other"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--time-budget", "-1"}, "--time-budget"), 2);
+  EXPECT_EQ(status({"mirrors", "--out", out, "--truth", "life"}, "--truth"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--knobs", "dept"}, "nearest: 'depth'"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--mode", "reference"}, "leave out --mode"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--check", folder / "none.csv"}, "none.csv"), 4);

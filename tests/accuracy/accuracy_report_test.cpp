@@ -1,10 +1,13 @@
 // The report and the chart: well-formed, self-contained, and true to the numbers.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <regex>
 #include <set>
 
+#include "accuracy/cause_chart.h"
 #include "accuracy/front_chart.h"
+#include "accuracy/pareto.h"
 #include "accuracy/report.h"
 
 namespace whit::accuracy {
@@ -29,7 +32,7 @@ SceneSweep sweepOfThree() {
   sweep.scene = "a<b & \"c\"";
   sweep.width = 32, sweep.height = 20;
   sweep.referenceSamples = 64;
-  sweep.referencePng = "png";
+  sweep.truthPng = "png";
   sweep.points = {pointOf(PointKind::baseline, "", "standard", 10, 0.02),
                   pointOf(PointKind::knob, "depth", "2", 8, 0.03),
                   pointOf(PointKind::knob, "depth", "16", 12, 0.025)};
@@ -171,6 +174,97 @@ TEST(FrontChart, APointWithoutASpreadIsARing) {
   EXPECT_NE(svg.find("(one frame)"), std::string::npos);
   EXPECT_EQ(frontSvg(sweepOfThree(), Against::reference, {}).find("class=\"one\""),
             std::string::npos);
+}
+
+// Of how many frames times are is in the chart itself.
+TEST(FrontChart, SaysHowManyTimesHaveNoSpread) {
+  SceneSweep sweep = sweepOfThree();
+  EXPECT_EQ(frontSvg(sweep, Against::reference, {}).find("without a spread"), std::string::npos);
+  sweep.points[2].timing.rounds = 0, sweep.points[2].timing.frames = 1;
+  EXPECT_NE(frontSvg(sweep, Against::reference, {})
+                .find("1 of 3 times, of one frame, are without a spread"),
+            std::string::npos);
+  sweep.points[1].timing.rounds = 2, sweep.points[1].timing.frames = 2;
+  EXPECT_NE(frontSvg(sweep, Against::reference, {})
+                .find("2 of 3 times, of few frames, are without a spread"),
+            std::string::npos);
+}
+
+// Of 8 and 10 ms, the first known within 7.5 to 10.5: it may be the slower of the two.
+TEST(FrontChart, APointWhoseSpreadReachesItsNeighborIsARing) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[0].total.flipMean = 0.02, sweep.points[1].total.flipMean = 0.03;
+  sweep.points[1].timing.ratioLow = 0.75, sweep.points[1].timing.ratioHigh = 1.05;
+  markFronts(sweep.points);
+  EXPECT_TRUE(sweep.points[1].coversNeighbor);
+  EXPECT_FALSE(sweep.points[0].coversNeighbor);
+  const std::string svg = frontSvg(sweep, Against::reference, {});
+  expectBalanced(svg);
+  EXPECT_NE(svg.find("<circle class=\"tie\""), std::string::npos);
+  EXPECT_NE(svg.find("<path class=\"front tied\""), std::string::npos);
+  EXPECT_NE(svg.find("reaches a neighbor's"), std::string::npos);
+  sweep.points[1].timing.ratioHigh = 0.99;
+  markFronts(sweep.points);
+  const std::string apart = frontSvg(sweep, Against::reference, {});
+  EXPECT_EQ(apart.find("\"tie\""), std::string::npos);
+  EXPECT_EQ(apart.find("front tied"), std::string::npos);
+}
+
+// With all transport as the truth: what it is off by itself, and what to choose.
+TEST(AccuracyReport, SaysHowFarOffTheTruthIs) {
+  SceneSweep sweep = sweepOfThree();
+  EXPECT_EQ(transportText(sweep), "");
+  EXPECT_EQ(reportHtml({sweep}, RunFacts()).find("all transport"), std::string::npos);
+  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000, false, "0123456789"};
+  for (Point& point : sweep.points) point.transport.emplace().flipMean = 0.0777;
+  sweep.points[0].arithmetic->samePath.rmse = 1e-7;
+  const std::string text = transportText(sweep);
+  for (const char* said :
+       {"512 samples a pixel in 8 independent passes, 4.0 s, 01234567;",
+        "2.00e-03, 0.4 % of the mean", "a FLIP of 0.0123", "single precision is off by 1.0e-07"}) {
+    EXPECT_NE(text.find(said), std::string::npos) << said << " in " << text;
+  }
+  const std::string html = reportHtml({sweep}, RunFacts());
+  expectBalanced(html);
+  for (const char* said : {"noise of the truth", "in 16 ms choose", "0.07770"})
+    EXPECT_NE(html.find(said), std::string::npos) << said;
+}
+
+// A bar a cause that was measured, as long as its error; all on one scale.
+TEST(CauseChart, HasABarACauseInItsColor) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[0].sampling.flipMean = 0.04, sweep.points[0].algorithm.flipMean = 0.02;
+  sweep.points[0].arithmetic->samePath.flipMean = 0.01;
+  const std::regex bar("<rect class=\"([a-z]+)\" x=\"12\" y=\"[0-9.]+\" width=\"([0-9.]+)\"");
+  const auto bars = [&] {
+    const std::string svg = causeSvg(sweep, {});
+    expectBalanced(svg);
+    std::map<std::string, double> longest;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), bar), end; it != end; ++it) {
+      double& length = longest[(*it)[1]];
+      length = std::max(length, std::stod((*it)[2]));
+    }
+    return longest;
+  };
+  std::map<std::string, double> longest = bars();
+  EXPECT_FALSE(longest.contains("transport"));
+  EXPECT_NEAR(longest["sampling"], 456, 0.01);
+  EXPECT_NEAR(longest["algorithm"], 228, 0.01);
+  EXPECT_NEAR(longest["arithmetic"], 114, 0.01);
+  for (Point& point : sweep.points) point.transport.emplace().flipMean = 0.08;
+  sweep.transport.emplace();
+  longest = bars();
+  EXPECT_NEAR(longest["transport"], 456, 0.01);
+  EXPECT_NEAR(longest["sampling"], 228, 0.01);
+}
+
+TEST(CauseChart, ShowsPresetsAndTheFrontFastestFirst) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[0].onFront = false;
+  const std::vector<const Point*> points = pointsByCause(sweep);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0]->label(), "depth=2");
+  EXPECT_EQ(points[1]->label(), "standard");
 }
 
 // The scale is logarithmic: equal ratios are equal distances; what is better is lower, what is

@@ -127,5 +127,24 @@ TEST(Knobs, ExactnessKeepsACutoffWhereRaysBranch) {
   EXPECT_LT(exactnessFor(glass, false).cutoff, RenderOptions().cutoff);
 }
 
+// What the picture with all transport is made with, and what the model's reference leaves out.
+TEST(Knobs, TransportIsWhatTheModelLeavesOut) {
+  RenderOptions options;
+  EXPECT_FALSE(hasTransport(options));
+  options.spp = 4, options.indirect = 16;
+  EXPECT_TRUE(hasTransport(options));
+  EXPECT_EQ(transportPaths(options), 64);
+  EXPECT_EQ(withoutTransport(options).indirect, 0);
+  EXPECT_EQ(withoutTransport(options).spp, 4);
+  const RenderOptions all = transportOptions(RenderOptions(), 32);
+  EXPECT_TRUE(hasTransport(all));
+  EXPECT_EQ(all.spp, 32);
+  EXPECT_EQ(all.mode, Mode::packets);
+  EXPECT_EQ(all.depth, kDepthLimit);
+  EXPECT_EQ(all.cutoff, kTransportCutoff);
+  const RenderOptions reference = referenceOptions(RenderOptions(), 32, {0});
+  EXPECT_FALSE(hasTransport(reference));
+}
+
 }  // namespace
 }  // namespace whit::accuracy

@@ -58,6 +58,53 @@ TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {
   EXPECT_TRUE(find(list, "standard")) << "now a preset among others";
 }
 
+const EffectSet kSoftAndRough =
+    kMirrored.with(Effect::indirect).with(Effect::glossyReflection).with(Effect::softShadows);
+
+// From a draft to all transport: each number of its samples, alone and with more of a pixel, and
+// with as many of lobes and lights, as far as their knobs go.
+TEST(TransportPoints, LeadToAllTransport) {
+  PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), 0, 1);
+  addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
+  for (const char* label :
+       {"standard", "draft", "indirect=1", "indirect=4", "indirect=16", "indirect=64",
+        "spp=4 indirect=16", "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
+        "spp=4 indirect=64 glossy=16 light-samples=16"}) {
+    EXPECT_TRUE(find(list, label)) << label;
+  }
+  const Point* rough = find(list, "spp=4 indirect=64 glossy=16 light-samples=16");
+  ASSERT_TRUE(rough);
+  EXPECT_EQ(rough->options.spp, 4);
+  EXPECT_EQ(rough->options.indirect, 64);
+  EXPECT_EQ(rough->options.glossy, 16);
+  EXPECT_EQ(rough->options.lightSamples, 16);
+  EXPECT_EQ(rough->kind, PointKind::joint);
+  std::set<std::string> digests, labels;
+  for (const Point& point : list.points) {
+    digests.insert(digestOf(point.options));
+    labels.insert(point.label());
+  }
+  EXPECT_EQ(digests.size(), list.points.size());
+  EXPECT_EQ(labels.size(), list.points.size());
+}
+
+TEST(TransportPoints, HaveNoLobesWhereTheSceneHasNone) {
+  const EffectSet effects = kMirrored.with(Effect::indirect);
+  PointList list;
+  addTransportPoints(RenderOptions(), effects, knobsTowardsTransport(), list);
+  EXPECT_EQ(list.points.size(), 12u) << "1, 4, 16 and 64, with 1, 4 and 16 samples";
+  for (const Point& point : list.points) {
+    EXPECT_EQ(point.options.glossy, 0);
+    EXPECT_EQ(point.options.lightSamples, 1);
+  }
+}
+
+TEST(TransportPoints, AreNoneWhereNothingIsLeftOut) {
+  PointList list;
+  addTransportPoints(RenderOptions(), kMirrored, knobsTowardsTransport(), list);
+  EXPECT_TRUE(list.points.empty());
+}
+
 TEST(Points, CombinationsAreLimitedAndRepeatable) {
   const auto labels = [](std::uint32_t seed) {
     std::vector<std::string> all;

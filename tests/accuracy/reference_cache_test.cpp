@@ -9,7 +9,9 @@
 
 #include "accuracy/digest.h"
 #include "accuracy/knobs.h"
+#include "accuracy/pass_mean.h"
 #include "cli/run_program.h"
+#include "render/renderer.h"
 #include "unit/scene_builder.h"
 
 namespace whit::accuracy {
@@ -181,6 +183,62 @@ TEST_F(Cache, ABrokenFileIsRenderedAgain) {
 TEST_F(Cache, AFolderThatCannotBeMadeIsAnError) {
   std::ofstream(folder_ / "file") << "x";
   EXPECT_THROW(ReferenceCache(scene_, camera_, folder_ / "file/cache", "1"), Error);
+}
+
+// By packets, of several seeds; kept with what is known of its error.
+class TransportCache : public Cache {
+ protected:
+  TransportCache() {
+    options_ = transportOptions(RenderOptions(), 2);
+    options_.size = ImageSize{8, 6};
+    options_.threads = 1;
+  }
+  TransportPicture get(const RenderOptions& options, const std::string& program = "1") {
+    ReferenceCache cache(scene_, camera_, folder_ / "cache", program);
+    return cache.transport(options, nullptr);
+  }
+};
+
+TEST_F(TransportCache, GivesTheSameBackWithItsError) {
+  const TransportPicture first = get(options_), again = get(options_);
+  EXPECT_FALSE(first.fromFile);
+  EXPECT_TRUE(again.fromFile);
+  EXPECT_EQ(again.image.pixels, first.image.pixels);
+  EXPECT_EQ(again.samples, 2 * kTransportPasses);
+  EXPECT_EQ(again.passes, kTransportPasses);
+  EXPECT_GT(first.standardError, 0) << "the sky lights the square";
+  EXPECT_NEAR(again.standardError, first.standardError, 1e-8 * first.standardError);
+  EXPECT_NEAR(again.meanRadiance, first.meanRadiance, 1e-8 * first.meanRadiance);
+  EXPECT_NEAR(again.noiseFlip, first.noiseFlip, 1e-8);
+}
+
+// The mean of frames of seeds 0 to 7, and no other picture.
+TEST_F(TransportCache, IsTheMeanOfItsPasses) {
+  const TransportPicture picture = get(options_);
+  Renderer renderer(scene_, options_);
+  Film film = makeFilm(scene_, options_);
+  PassMean passes(film.image);
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    renderer.setSeed(seed);
+    renderer.render(camera_, film);
+    passes.add(film.image);
+  }
+  EXPECT_EQ(picture.image.pixels, passes.mean().pixels);
+  EXPECT_EQ(picture.standardError, passes.standardError());
+}
+
+TEST_F(TransportCache, WhatItDependsOnMisses) {
+  get(options_);
+  RenderOptions other = options_;
+  other.indirect = 1;
+  EXPECT_FALSE(get(other).fromFile);
+  other = options_;
+  other.spp = 3;
+  EXPECT_FALSE(get(other).fromFile);
+  EXPECT_FALSE(get(options_, "2").fromFile);
+  other = options_;
+  other.threads = 2;
+  EXPECT_TRUE(get(other).fromFile);
 }
 
 }  // namespace

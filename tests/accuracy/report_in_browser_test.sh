@@ -11,12 +11,15 @@ if [ -z "$browser" ]; then
 fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$whit" accuracy mirrors --size 48x32 --knobs depth,cutoff,spp,packet --time-budget 2 --quiet \
-  --out "$folder" > /dev/null
 
-# The page as it is, and behind it what measures it. It stands in a frame of the wanted width, as
-# windows cannot be that narrow, and tells what is wrong to the page around it.
-cat "$folder/report.html" - > "$folder/checked.html" <<'HTML'
+# measured TRUTH KNOBS: its page as it is, and behind it what measures it. It stands in a frame of the
+# wanted width, as windows cannot be that narrow, and tells what is wrong to the page around it.
+measured() {
+  "$whit" accuracy mirrors --truth "$1" --knobs "$2" --size 48x32 --time-budget 2 --quiet \
+    --out "$folder" > /dev/null
+  cat "$folder/report.html" "$folder/measures.html" > "$folder/checked.html"
+}
+cat > "$folder/measures.html" <<'HTML'
 <script>
 const wrong = [], page = document.documentElement, leastLetter = 10;
 const say = text => wrong.push(text);
@@ -62,7 +65,9 @@ chrome() {
 }
 
 status=0
-for width in 400 1280; do
+# looked TRUTH WIDTH
+looked() {
+  local truth=$1 width=$2 found
   cat > "$folder/frame.html" <<HTML
 <body style="margin:0"><iframe src="checked.html" style="border:0;width:${width}px;height:2600px">
 </iframe><pre id="found"></pre><script>
@@ -71,14 +76,17 @@ addEventListener('message', event => document.getElementById('found').textConten
 HTML
   found=$(chrome --dump-dom "file://$folder/frame.html" | sed -n '/<pre id="found">/,/<\/pre>/p')
   if ! grep -q "<pre id=\"found\">fits $width</pre>" <<< "$found"; then
-    echo "at $width pixels:" "${found:-$(tail -n 3 "$folder/browser.log")}"
+    echo "$truth at $width pixels:" "${found:-$(tail -n 3 "$folder/browser.log")}"
     status=1
   fi
   if [ -n "$keep" ]; then
     mkdir -p "$keep"
     sed -i s/checked.html/report.html/ "$folder/frame.html"
-    chrome --window-size="$width,2600" --screenshot="$keep/report-$width.png" \
+    chrome --window-size="$width,2600" --screenshot="$keep/report-$truth-$width.png" \
       "file://$folder/frame.html"
   fi
-done
+}
+
+measured model depth,cutoff,spp,packet
+for width in 400 1280; do looked model $width; done
 exit $status

@@ -7,7 +7,7 @@ namespace whit::accuracy {
 namespace {
 
 Scope quick(double frameRays, double raysPerSample) {
-  return {kQuick, frameRays, raysPerSample, false, 1};
+  return {kQuick, frameRays, raysPerSample, false, 1, 0};
 }
 
 Point arithmeticPoint() {
@@ -21,7 +21,15 @@ TEST(Scope, TheReferenceHasAsManySamplesAsItsRaysAllow) {
   EXPECT_EQ(quick(1e5, 1e5).samples(), 64);  // 6.4 of 30 million rays
   EXPECT_EQ(quick(1e6, 1e6).samples(), 16);  // 32 samples would take 32 million
   EXPECT_EQ(quick(1e6, 30e6).samples(), 2);  // never fewer
-  EXPECT_EQ((Scope{kFull, 1e6, 1e6, false, 1}).samples(), 256);
+  EXPECT_EQ((Scope{kFull, 1e6, 1e6, false, 1, 0}).samples(), 256);
+}
+
+// 8 passes, of 400 million rays all together.
+TEST(Scope, APassHasAsManySamplesAsItsRaysAllow) {
+  EXPECT_EQ(quick(1e5, 1e5).transportSamples(7e5), 64);  // 358 million
+  EXPECT_EQ(quick(1e5, 1e5).transportSamples(8e5), 32);
+  EXPECT_EQ(quick(1e5, 1e5).transportSamples(1e9), 1);  // never fewer
+  EXPECT_EQ(quick(1e6, 1e6).transportSamples(1e5), 16) << "no more than the reference has";
 }
 
 TEST(Scope, LeavesOutWhatTheReferenceCannotJudge) {

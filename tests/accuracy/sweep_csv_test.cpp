@@ -121,6 +121,32 @@ TEST(CheckErrors, MissingPointsFailUnlessTheirKnobWasLeftOut) {
   EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {"cutoff"}).empty());
 }
 
+// Whether all transport is the truth, and how far that is off; of a sweep against the model
+// nothing.
+TEST(SweepCsv, SaysWhatTheTruthIs) {
+  SceneSweep sweep = sweepOfTwo();
+  EXPECT_EQ(rowsOf(sweep)[0].at("truth"), "model");
+  EXPECT_EQ(rowsOf(sweep)[0].at("truth_standard_error"), "");
+  EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "");
+  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000, false, "abc"};
+  sweep.points[1].transport.emplace().flipMean = 0.0777;
+  const CsvRow row = rowsOf(sweep)[1];
+  EXPECT_EQ(row.at("truth"), "transport");
+  EXPECT_EQ(row.at("truth_passes"), "8");
+  EXPECT_EQ(row.at("truth_samples"), "512");
+  EXPECT_EQ(row.at("truth_standard_error"), "0.002");
+  EXPECT_EQ(row.at("truth_noise_flip"), "0.0123");
+  EXPECT_EQ(row.at("transport_flip"), "0.0777");
+  EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "") << "not measured";
+}
+
+TEST(CheckErrors, AnotherTruthCannotBeCompared) {
+  SceneSweep now = sweepOfTwo();
+  now.transport = {8, 512, 0.002, 0.5, 0.0123, 4000, false, "abc"};
+  EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+  EXPECT_TRUE(grownErrors(rowsOf(now), rowsOf(now), {}).empty());
+}
+
 TEST(CheckErrors, AnotherReferenceCannotBeCompared) {
   SceneSweep now = sweepOfTwo();
   now.referenceSamples = 16;

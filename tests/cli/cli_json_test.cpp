@@ -40,7 +40,8 @@ void checkRun(const Json& run) {
                                 "writeEmittedAndReflectiveAmbient", "findRadianceAndShadowRays",
                                 "checkShadows", "addShading", "addImpulses", "updateImage"});
   EXPECT_EQ(run["stages_ms"].size(), 8u);
-  for (const char* kind : {"primary", "shadow", "reflection", "refraction"}) {
+  for (const char* kind :
+       {"primary", "shadow", "reflection", "refraction", "indirect", "occlusion"}) {
     EXPECT_GE(run["rays"][kind].get<double>(), 0) << kind;
     EXPECT_GE(run["lanes_filled"][kind].get<double>(), 0) << kind;
     EXPECT_LE(run["lanes_filled"][kind].get<double>(), 1) << kind;

@@ -72,9 +72,10 @@ TEST(EffectsTable, HasARowForEachStep) {
 TEST(EffectsCsv, HasThePromisedColumns) {
   EXPECT_EQ(effectsCsv(madeUpSteps()),
             "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
-            "reflection_rays,refraction_rays,added_rays,memory_mb,added_memory_mb\n"
-            "matte,10.0000,10.0000,6.0000,2048,0,0,0,2048,1.500,1.500\n"
-            "mirror,15.0000,5.0000,3.0000,2048,0,3000,0,3000,1.750,0.250\n");
+            "reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,memory_mb,"
+            "added_memory_mb\n"
+            "matte,10.0000,10.0000,6.0000,2048,0,0,0,0,0,2048,1.500,1.500\n"
+            "mirror,15.0000,5.0000,3.0000,2048,0,3000,0,0,0,3000,1.750,0.250\n");
 }
 
 TEST(EffectsSvg, ShowsEveryStepInLightAndDark) {

@@ -88,13 +88,15 @@ TEST_F(SceneSections, LightsThatAreNone) {
 
 TEST_F(SceneSections, SkyOfOneColorAndAmbientFromIt) {
   const SceneDescription scene = loadMembers(
-      "\"sky\": {\"color\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25}");
+      "\"sky\": {\"color\": [1,2,4], \"scale\": 0.5}, \"ambient\": {\"fromSky\": 0.25, "
+      "\"occlusion\": 2}");
   EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
   EXPECT_EQ(scene.sky.zenith, Rgb(1, 2, 4));
   // The mean of a constant is the constant: 0.5 * 0.25 of it. Quadrature in float gets this far.
   constexpr float kQuadrature = 1e-3f;
   EXPECT_NEAR(scene.ambient.up.x, 0.125f, kQuadrature);
   EXPECT_NEAR(scene.ambient.down.z, 0.5f, kQuadrature);
+  EXPECT_EQ(scene.ambient.occlusion, 2);
 }
 
 TEST_F(SceneSections, TheStudioIsAPreset) {
@@ -124,13 +126,15 @@ TEST_F(SceneSections, SkyGradientAndImage) {
   EXPECT_EQ(image.sky.image.b[1], 1);
   EXPECT_EQ(errorOfMembers("\"sky\": {\"zenith\": 1, \"ground\": 3}"),
             "3 s.json#/sky: expected a member \"horizon\"");
+  EXPECT_EQ(errorOfMembers("\"ambient\": {\"color\": 1, \"occlusion\": -1}"),
+            "3 s.json#/ambient/occlusion: expected a number from 0 to 1e+18, found -1");
   EXPECT_EQ(errorOfMembers("\"ambient\": {\"fromSky\": 1}"),
             "3 s.json#/ambient/fromSky: expected a scene with a sky, found 1");
 }
 
 TEST_F(SceneSections, MaterialsAndTheirDefaults) {
   const SceneDescription scene = loadMembers(
-      "\"materials\": {\"plain\": {\"diffuse\": 0.25},"
+      "\"materials\": {\"plain\": {\"diffuse\": 0.25, \"diffuseReflection\": false},"
       "\"glass\": {\"transmission\": 0.9, \"ior\": 1.33, \"absorption\": [0,1,2], \"priority\": 2},"
       "\"shadowGlass\": {\"transmission\": 0.9, \"castsShadow\": true},"
       "\"mirror\": {\"mirror\": [0.5,0.25,0.125], \"roughness\": 0.1, \"specular\": 0.5},"
@@ -148,6 +152,8 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
   EXPECT_EQ(glass.priority, 2);
   EXPECT_FALSE(glass.castsShadow);
   EXPECT_TRUE(scene.materials[2].castsShadow);
+  EXPECT_FALSE(plain.diffuseReflection);
+  EXPECT_TRUE(scene.materials[4].diffuseReflection);
   EXPECT_EQ(scene.materials[3].mirrorGrazing, Rgb(0.5f, 0.25f, 0.125f));
   EXPECT_EQ(scene.materials[4].mirrorGrazing, Rgb(1.0f));
   EXPECT_EQ(scene.materials[4].emission, Rgb(3, 2, 1));

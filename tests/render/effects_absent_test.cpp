@@ -34,6 +34,8 @@ EffectSet withDependents(Effect effect) {
       return set.with(Effect::absorption).with(Effect::coverage);
     case Effect::glossy:
       return set.with(Effect::glossyReflection);
+    case Effect::ambient:
+      return set.with(Effect::ambientOcclusion);
     default:
       return set;
   }
@@ -44,6 +46,8 @@ RenderOptions glossyOptions() {
   RenderOptions o = smallOptions();
   o.glossy = 2;
   o.lightSamples = 2;
+  o.indirect = 2;
+  o.ambientSamples = 2;
   return o;
 }
 
@@ -133,6 +137,7 @@ TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
   EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
   EXPECT_GT(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
   EXPECT_GT(cost.stats.callsOf(simd::kAddRefractions), 0u);
+  EXPECT_GT(cost.stats.callsOf(simd::kAddIndirect), 0u);
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.unshadowed, columnBytes<UnshadowedColumns>(cost, true, true, true));
@@ -143,7 +148,7 @@ TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
 }
 
 TEST(AbsentEffects, WithoutLightsNoLightKernelsNoShadowRaysNoBuffers) {
-  const Cost cost = costWithout(EffectSet().with(Effect::lights));
+  const Cost cost = costWithout(EffectSet().with(Effect::lights).with(Effect::ambientOcclusion));
   EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
   for (const Stage s : {Stage::findRadianceAndShadowRays, Stage::checkShadows, Stage::addShading}) {
     EXPECT_EQ(callsOf(cost, s), 0u) << kStageNames[static_cast<std::size_t>(s)];
@@ -153,7 +158,7 @@ TEST(AbsentEffects, WithoutLightsNoLightKernelsNoShadowRaysNoBuffers) {
 }
 
 TEST(AbsentEffects, WithoutShadowsNoShadowRaysAndNoBufferForThem) {
-  const Cost cost = costWithout(EffectSet().with(Effect::shadows));
+  const Cost cost = costWithout(EffectSet().with(Effect::shadows).with(Effect::ambientOcclusion));
   EXPECT_EQ(cost.stats.of(RayKind::shadow).rays, 0u);
   EXPECT_EQ(callsOf(cost, Stage::checkShadows), 0u);
   EXPECT_GT(callsOf(cost, Stage::addShading), 0u);
@@ -177,6 +182,20 @@ TEST(AbsentEffects, WithoutGlossyReflectionNoSamplesAndNoPaths) {
   EXPECT_LT(cost.buffers.rays, all.buffers.rays);
 }
 
+TEST(AbsentEffects, WithoutIndirectNoSamples) {
+  const Cost cost = costWithout(EffectSet().with(Effect::indirect));
+  EXPECT_EQ(cost.stats.of(RayKind::indirect).rays, 0u);
+  EXPECT_EQ(cost.stats.callsOf(simd::kAddIndirect), 0u);
+  EXPECT_GT(cost.stats.of(RayKind::occlusion).rays, 0u);
+}
+
+TEST(AbsentEffects, WithoutAmbientOcclusionNoRays) {
+  const Cost cost = costWithout(EffectSet().with(Effect::ambientOcclusion));
+  EXPECT_EQ(cost.stats.of(RayKind::occlusion).rays, 0u);
+  EXPECT_EQ(cost.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
+  EXPECT_GT(cost.stats.of(RayKind::shadow).rays, 0u);
+}
+
 TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
   const Cost cost = costWithout(EffectSet().with(Effect::transmission));
   EXPECT_EQ(cost.stats.of(RayKind::refraction).rays, 0u);
@@ -186,8 +205,11 @@ TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
 }
 
 TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
-  const Cost cost = costWithout(
-      EffectSet().with(Effect::transmission).with(Effect::mirror).with(Effect::glossyReflection));
+  const Cost cost = costWithout(EffectSet()
+                                    .with(Effect::transmission)
+                                    .with(Effect::mirror)
+                                    .with(Effect::glossyReflection)
+                                    .with(Effect::indirect));
   EXPECT_EQ(callsOf(cost, Stage::addImpulses), 0u);
   EXPECT_EQ(cost.buffers.rays, columnBytes<RayColumns>(cost, true, false, true));
   EXPECT_EQ(cost.buffers.radiance, columnBytes<RadianceColumns>(cost, true, true, true));

@@ -20,6 +20,7 @@ const char* sceneWith(Effect effect) {
       return "atrium";
     case Effect::instances:
       return "landscape?triangles=20000";
+    case Effect::ambientOcclusion:
     case Effect::skyImage:
     case Effect::glossyReflection:
     case Effect::coverage:
@@ -55,6 +56,8 @@ TEST_P(EffectLaw, DisablingAnEffectChangesASceneThatHasIt) {
   RenderOptions o = smallOptions();
   if (effect == Effect::glossyReflection) o.glossy = 2;
   if (effect == Effect::softShadows) o.lightSamples = 2;
+  if (effect == Effect::indirect) o.indirect = 2;
+  if (effect == Effect::ambientOcclusion) o.ambientSamples = 2;
   const Image with = render(scene, o).image;
   o.disable = EffectSet().with(effect);
   EXPECT_NE(firstDifference(render(scene, o).image, with), "") << name;

@@ -51,9 +51,9 @@ TEST(Scenes, AtriumIsLargeAndCallsForItsEffects) {
   }
 }
 
-// Penumbras have to be asked for.
+// Penumbras and light between surfaces have to be asked for.
 TEST(Scenes, MatteCallsForLightsAndShadowsOnly) {
-  EXPECT_EQ(load("matte").effects.without(Effect::softShadows),
+  EXPECT_EQ(load("matte").effects.without(Effect::softShadows).without(Effect::indirect),
             EffectSet().with(Effect::lights).with(Effect::shadows));
 }
 

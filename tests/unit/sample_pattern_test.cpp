@@ -138,6 +138,26 @@ TEST(SamplePattern, SamplesAreCenterd) {
   }
 }
 
+// However many samples have been taken, they are spread over the pixel: what is seen does not move
+// about while more come. In the order of columns half of them would lie 0.25 aside.
+TEST(SamplePattern, TheFirstSamplesStandForThePixel) {
+  for (const int n : {16, 64, 256}) {
+    const std::vector<Vec2f> samples = samplePattern(n);
+    double x = 0, y = 0, most = 0, mostOfHalf = 0;
+    for (int k = 1; k <= n; ++k) {
+      x += double{samples[static_cast<std::size_t>(k) - 1].x} - 0.5;
+      y += double{samples[static_cast<std::size_t>(k) - 1].y} - 0.5;
+      if (k < kProbeSamples) continue;
+      most = std::max(most, std::hypot(x, y) / k);
+      if (2 * k >= n) mostOfHalf = std::max(mostOfHalf, std::hypot(x, y) / k);
+    }
+    std::printf("of %d: the mean of the first lies up to %.4f aside, of half or more %.4f\n", n,
+                most, mostOfHalf);
+    EXPECT_LT(most, 0.1) << n;
+    EXPECT_LT(mostOfHalf, 0.04) << n;
+  }
+}
+
 TEST(SamplePattern, OneSampleIsTheCenter) {
   ASSERT_EQ(samplePattern(1).size(), 1u);
   EXPECT_EQ(samplePattern(1)[0].x, 0.5f);

@@ -28,6 +28,13 @@ void addLight(SceneDescription& d, const Rgb& intensity = {1, 1, 1}) {
 
 Material& first(SceneDescription& d) { return d.materials[0]; }
 
+// A square that reflects lights alone.
+SceneDescription plainScene() {
+  SceneDescription d = sceneOf(square());
+  first(d).diffuseReflection = false;
+  return d;
+}
+
 void useSky(SceneDescription& d, Sky::Kind kind) {
   d.sky.kind = kind;
   d.sky.zenith = {0, 0, 1};
@@ -74,6 +81,10 @@ const std::vector<Rule>& rules() {
       {Effect::glossyReflection, [](auto& d) { first(d).specular = Rgb(0.04f); },
        "1 material whose glossy lobe reflects the scene, 2 triangles use it",
        EffectSet().with(Effect::glossy)},
+      {Effect::indirect,
+       [](auto& d) { first(d).diffuseReflection = true; },
+       "1 material whose diffuse color reflects the scene, 2 triangles use it",
+       {}},
       {Effect::emission,
        [](auto& d) {
          first(d).emission = {0, 0, 1};
@@ -108,6 +119,12 @@ const std::vector<Rule>& rules() {
        },
        "the ambient light is not black",
        {}},
+      {Effect::ambientOcclusion,
+       [](auto& d) {
+         d.ambient.up = {0, 1, 0};
+         d.ambient.occlusion = 1;
+       },
+       "the ambient light has a radius of occlusion", EffectSet().with(Effect::ambient)},
       {Effect::lights,
        [](auto& d) {
          addLight(d);
@@ -168,7 +185,7 @@ const std::vector<Rule>& rules() {
 }
 
 TEST(SceneEffects, APlainSceneCallsForNothingAndSaysWhy) {
-  const Scene scene = finalized(sceneOf(square()));
+  const Scene scene = finalized(plainScene());
   EXPECT_EQ(scene.effects, EffectSet());
   for (const EffectReason& r : scene.reasons) {
     EXPECT_FALSE(r.on);
@@ -184,7 +201,7 @@ TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
   EXPECT_EQ(rules().size(), static_cast<std::size_t>(kEffectCount));
   for (const Rule& rule : rules()) {
     SCOPED_TRACE(kEffectNames[static_cast<std::size_t>(rule.effect)].name);
-    SceneDescription d = sceneOf(square());
+    SceneDescription d = plainScene();
     rule.add(d);
     const Scene scene = finalized(std::move(d));
     EXPECT_EQ(scene.effects.bits(), rule.also.with(rule.effect).bits());
@@ -196,7 +213,7 @@ TEST(SceneEffects, EachIsTurnedOnByWhatCallsForItAndNothingElse) {
 // What a scene has but does not show calls for nothing.
 TEST(SceneEffects, MapsOfRoughnessAreTexturesWhereThereIsALobe) {
   for (const float specular : {0.0f, 0.04f}) {
-    SceneDescription d = sceneOf(square());
+    SceneDescription d = plainScene();
     first(d).specular = Rgb(specular);
     first(d).roughnessMap = addTexture(d, TexelFormat::data);
     EXPECT_EQ(finalized(std::move(d)).effects.has(Effect::textures), specular > 0);
@@ -204,7 +221,8 @@ TEST(SceneEffects, MapsOfRoughnessAreTexturesWhereThereIsALobe) {
 }
 
 TEST(SceneEffects, UnusedMaterialsDoNotCount) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = plainScene();
+  d.ambient.occlusion = 1;  // of what is black
   for (int i = 1; i <= 2; ++i) d.materials.emplace_back().mirror = Rgb(1.0f);
   d.materials.emplace_back().transmission = Rgb(1.0f);
   d.objects.push_back({"never placed", {square()}});
@@ -219,7 +237,7 @@ TEST(SceneEffects, UnusedMaterialsDoNotCount) {
 }
 
 TEST(SceneEffects, CountsMaterialsAndTriangles) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = plainScene();
   d.materials.resize(3);
   d.materials[1].mirror = d.materials[2].mirror = Rgb(0.5f);
   d.objects[0].meshes[0].materials = {1, 2};
@@ -228,7 +246,7 @@ TEST(SceneEffects, CountsMaterialsAndTriangles) {
 }
 
 TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = plainScene();
   first(d).diffuse = {};
   first(d).diffuseMap = first(d).specularMap = addTexture(d, TexelFormat::color);
   first(d).alphaMap = addTexture(d, TexelFormat::data);
@@ -243,7 +261,7 @@ TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {
 }
 
 TEST(SceneEffects, DielectricsReflectUnlessAllIndicesAreOne) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = plainScene();
   d.materials.resize(2);
   for (Material& m : d.materials) m.transmission = Rgb(1.0f), m.ior = 1;
   d.materials[1].absorption = Rgb(1.0f);
@@ -254,7 +272,7 @@ TEST(SceneEffects, DielectricsReflectUnlessAllIndicesAreOne) {
 }
 
 TEST(SceneEffects, DarkImageIsABlackSky) {
-  SceneDescription d = sceneOf(square());
+  SceneDescription d = plainScene();
   useSky(d, Sky::Kind::image);
   d.sky.image.b = {0, 0};
   EXPECT_EQ(finalized(std::move(d)).effects, EffectSet());

@@ -132,6 +132,15 @@ TEST(ResolutionControl, ComparedPicturesHaveTheSamplesAskedFor) {
   EXPECT_EQ(control.still(false), (Sharpness{1, 1}));
 }
 
+TEST(ResolutionControl, SampledRaysGetMoreSamples) {
+  ResolutionControl control = learned(10);
+  control.setSampled(true);
+  EXPECT_EQ(stepsAtRest(control, false).back(), (Sharpness{1, 1}));
+  EXPECT_EQ(stepsAtRest(control, true).back(), (Sharpness{1, 256}));
+  control.setSampled(false);
+  EXPECT_EQ(control.still(true), (Sharpness{1, 16}));
+}
+
 TEST(ResolutionControl, SamplesStayWithinTheirLimit) {
   ResolutionControl control(kDefaultRate, kSppLimit);
   const Sharpness last = stepsAtRest(control, true).back();

@@ -1,0 +1,79 @@
+// Ambient light at the surfels, as if nothing held it off, and rays that find out.
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/find_ambient_and_occlusion_rays.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/ambient-inl.h"
+#include "simd/compact-inl.h"
+#include "simd/cosine_lobe-inl.h"
+#include "simd/ray_origin-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+void FindAmbientAndOcclusionRays(Chunk& c) noexcept {
+  const FloatTag d;
+  const UintTag du;
+  const RayColumns rays = c.rays;
+  const SurfelColumns surfels = c.surfels;
+  const UnshadowedColumns unshadowed = c.unshadowed;
+  const ShadowColumns shadows = c.shadows;
+  const OffsetMethod offset = c.options().shading.offset;
+  const bool hidden = c.has(Feature::transmission), lifted = c.has(Feature::lift);
+  const bool coverage = c.has(Feature::coverage);
+  const VF zero = hn::Zero(d), share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
+  const VF radius = hn::Set(d, c.tables().ambient.occlusion);
+  const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
+  const ReflectedAmbient ambient(c);
+  size_t count = 0;
+  for (size_t i = 0; i < c.n; i += hn::Lanes(d)) {
+    hn::Store(zero, d, unshadowed.visible + i);
+    const VU material = hn::Load(du, surfels.material + i);
+    MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
+    if (hidden) live = hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), live);
+    if (hn::AllFalse(d, live)) continue;
+    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+    const VU path = hn::Load(du, rays.path + i);
+    const V3 way =
+        CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
+    V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+    MF front = hn::Gt(Dot(ng, way), zero);
+    if (lifted) {
+      const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
+      front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
+      start = Add3(start, lift);
+    }
+    V3 radiance = Scale3(ambient.At(i, live), share);
+    if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
+    live = hn::And(live, hn::And(front, hn::Gt(MaxComponent(radiance), zero)));
+    if (hn::AllFalse(d, live)) continue;
+    Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
+    const V3 origin = RayOrigin(offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
+                                LoadClearance(surfels, i), 1.0f);
+    const Compactor open(live);
+    open.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
+    open.Store(way, shadows.dirX, shadows.dirY, shadows.dirZ, count);
+    open.Store(radius, shadows.tFar + count);
+    open.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
+    count += open.Count();
+  }
+  c.shadowCount = count;
+}
+
+StepFunction FindFindAmbientAndOcclusionRays(size_t /*index*/) {
+  return FindAmbientAndOcclusionRays;
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(FindFindAmbientAndOcclusionRays);
+StepFunction findFindAmbientAndOcclusionRays(std::size_t index) {
+  return HWY_DYNAMIC_DISPATCH(FindFindAmbientAndOcclusionRays)(index);
+}
+}  // namespace whit::simd
+#endif

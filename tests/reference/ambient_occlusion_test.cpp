@@ -1,0 +1,130 @@
+// Ambient light that things nearby hold off, against closed forms: what is sampled holds within
+// three standard errors, which are measured over independent paths.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pi.h"
+#include "reference/find_radiance_and_shadow_rays.h"
+#include "reference/sample_mean.h"
+#include "reference/small_scenes.h"
+
+namespace whit::reference {
+namespace {
+
+using test::SampleMean;
+using test::SceneBuilder;
+
+constexpr std::uint32_t kPaths = 1000;
+
+Settings occluded(int samples) {
+  Settings settings = test::uncut();
+  settings.options.ambientSamples = samples;
+  return settings;
+}
+
+// Around a floor of albedo 1 at y = 0 the ambient light is 1.
+SceneBuilder floorInAmbientLight(float radius) {
+  SceneBuilder builder;
+  builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(1))));
+  builder.description.ambient = {Rgb(1), Rgb(1), 0, radius};
+  return builder;
+}
+
+// The share that the floor's point at `x` gets.
+SampleMean openShareAt(const Scene& scene, double x, const Settings& settings = occluded(16)) {
+  const BruteForce bruteForce(scene);
+  const Tracer tracer(scene, bruteForce, settings);
+  SampleMean mean;
+  for (std::uint32_t path = 0; path < kPaths; ++path) {
+    RayCounts counts;
+    mean.add(tracer.traceImpulse({{x, 1e-3, 0}, {0, -1, 0}}, 0, 1, 0, counts, {mixed(path), 0}).x);
+    EXPECT_EQ(counts.occlusion, static_cast<unsigned>(settings.options.ambientSamples));
+    EXPECT_EQ(counts.shadow, 0u);
+  }
+  return mean;
+}
+
+// The cosine-weighted share of directions whose horizontal part towards the wall is above
+// distance / radius: a segment of the unit disc.
+TEST(AmbientOcclusion, BesideAWallIsASegmentOfTheDisc) {
+  constexpr double kRadius = 2;
+  SceneBuilder builder = floorInAmbientLight(kRadius);
+  builder.add(test::quad({0, 0, -1000}, {0, 0, 1000}, {0, 1000, 1000}, {0, 1000, -1000}, 0));
+  const Scene scene = builder.build();
+  for (const double x : {0.01, 0.5, 1.0, 1.7}) {
+    const SampleMean mean = openShareAt(scene, x);
+    const double c = x / kRadius;
+    const double wanted = 1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / kPi;
+    EXPECT_NEAR(mean.value(), wanted, 3 * mean.error()) << x;
+    EXPECT_LT(mean.error(), 0.005);
+  }
+  EXPECT_EQ(openShareAt(scene, 2.01).value(), 1) << "further away than the radius";
+}
+
+// Rays nearer to the normal than the one that just reaches it: cosine^2 > (height / radius)^2.
+TEST(AmbientOcclusion, BelowACeilingIsTheSquareOfTheRatio) {
+  SceneBuilder builder = floorInAmbientLight(2);
+  builder.add(test::ceilingAt(1.2f, 1000, 0));
+  const SampleMean mean = openShareAt(builder.build(), 0);
+  EXPECT_NEAR(mean.value(), 0.36, 3 * mean.error());
+}
+
+// All that lies within the radius, and nothing else.
+TEST(AmbientOcclusion, InsideABoxDependsOnItsSizeAlone) {
+  for (const auto& [radius, wanted] : {std::pair{0.99f, 1.0}, std::pair{3.0f, 0.0}}) {
+    SceneBuilder builder = floorInAmbientLight(radius);
+    builder.add(test::box({-1, -1, -1}, {1, 1, 1}, 0));
+    EXPECT_EQ(openShareAt(builder.build(), 0).value(), wanted) << radius;
+  }
+}
+
+TEST(AmbientOcclusion, PassesWhatCastsNoShadow) {
+  SceneBuilder builder = floorInAmbientLight(10);
+  Material clear = test::glassMaterial(1.5f);
+  clear.castsShadow = false;
+  builder.add(test::ceilingAt(1, 1000, builder.add(clear)));
+  EXPECT_EQ(openShareAt(builder.build(), 0).value(), 1);
+}
+
+TEST(AmbientOcclusion, IsTheConstantWithoutRaysOrRadius) {
+  for (const float radius : {0.0f, 2.0f}) {
+    SceneBuilder builder = floorInAmbientLight(radius);
+    builder.add(test::ceilingAt(1, 1000, 0));
+    const Scene scene = builder.build();
+    Settings settings = occluded(radius > 0 ? 0 : 4);
+    RayCounts counts;
+    EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings, &counts), RgbD(1.0));
+    EXPECT_EQ(counts.occlusion, 0u);
+    settings = occluded(4);
+    settings.effects = settings.effects.without(Effect::ambientOcclusion);
+    EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings), RgbD(1.0));
+  }
+}
+
+// Under bent normals, what lies below the surface is hidden by it.
+TEST(AmbientOcclusion, OfASurfaceByItself) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.ambient = {Rgb(1), Rgb(1), 0, 1};
+  Surfel s;
+  s.diffuse = RgbD(1.0);
+  s.geometricNormal = s.view = {0, 1, 0};
+  s.shadingNormal = normalized(Vec3d(1, 1, 0));
+  SampleMean mean;
+  const LobeSampling points{1024, 0, 0};
+  const EffectSet effects = EffectSet::all().without(Effect::indirect);
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const LightArrival a = ambientArrival(scene, effects, s, {}, lobePoint(7, points, k));
+    mean.add(a.radiance.x);
+    if (a.radiance.x > 0) {
+      EXPECT_GT(a.shadowRay.direction.y, 0);
+    }
+    EXPECT_TRUE(a.radiance.x == 0 || a.tFar == 1);
+  }
+  // Of a half disc, and of the other one foreshortened.
+  EXPECT_NEAR(mean.value(), 0.5 + 0.5 * std::cos(kPi / 4), 3 * mean.error());
+}
+
+}  // namespace
+}  // namespace whit::reference

@@ -1,0 +1,28 @@
+// The mean of independent samples and its standard error.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace whit::test {
+
+class SampleMean {
+ public:
+  void add(double value) {
+    ++count_;
+    const double before = value - mean_;
+    mean_ += before / static_cast<double>(count_);
+    squares_ += before * (value - mean_);
+  }
+  double value() const { return mean_; }
+  double error() const {
+    const auto n = static_cast<double>(count_);
+    return std::sqrt(squares_ / ((n - 1) * n));
+  }
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0, squares_ = 0;
+};
+
+}  // namespace whit::test

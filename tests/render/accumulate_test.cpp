@@ -1,0 +1,113 @@
+// Pictures that get more samples over time: what they show at last, on the way, and how far off
+// they say they are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/pipeline_laws.h"
+#include "render/sample_sums.h"
+
+namespace whit::test {
+namespace {
+
+RenderOptions noisy(int spp) {
+  RenderOptions o = smallOptions();
+  o.spp = spp;
+  o.glossy = 1;
+  o.lightSamples = 2;
+  return o;
+}
+
+class Accumulating : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { scene_ = load(GetParam()); }
+  Scene scene_;
+};
+
+// Parts of any length, in crops of any size, by any number of threads.
+TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
+  const RenderOptions o = noisy(16);
+  const Picture expected = render(scene_, o);
+  Renderer renderer(scene_, o);
+  const Camera camera = chooseCamera(scene_, o);
+  Film whole = makeFilm(scene_, o);
+  SampleSums sums(whole.image.window);
+  const int middle = whole.image.width / 3;
+  for (const SampleRange& part : {SampleRange{0, 1}, SampleRange{1, 4}, SampleRange{4, 16}}) {
+    for (const auto& [left, right] : {std::pair{0, middle}, std::pair{middle, whole.image.width}}) {
+      Film band;
+      band.image =
+          Image(whole.image.width, whole.image.height, Crop{left, 0, right, whole.image.height});
+      renderer.accumulate(camera, band, part, sums);
+      for (int y = 0; y < whole.image.height; ++y) {
+        for (int x = left; x < right; ++x) whole.image.at(x, y) = band.image.at(x, y);
+      }
+    }
+  }
+  EXPECT_EQ(firstDifference(whole.image, expected.image), "");
+  SampleSums atOnce(whole.image.window);
+  renderer.accumulate(camera, whole, {0, 16}, atOnce);
+  EXPECT_EQ(sums.relativeError(16), atOnce.relativeError(16));
+}
+
+// The mean of half of them is a picture of the whole pixel: nearer to that of many samples than a
+// single one is, and not black.
+TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
+  const RenderOptions o = noisy(64);
+  const Picture best = render(scene_, o);
+  Renderer renderer(scene_, o);
+  const Camera camera = chooseCamera(scene_, o);
+  Film film = makeFilm(scene_, o);
+  SampleSums sums(film.image.window);
+  double last = HUGE_VAL, lastSaid = HUGE_VAL;
+  for (const SampleRange& part : {SampleRange{0, 4}, SampleRange{4, 16}, SampleRange{16, 48}}) {
+    renderer.accumulate(camera, film, part, sums);
+    double squares = 0;
+    for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+      const Rgb d = film.image.pixels[i] - best.image.pixels[i];
+      squares += double{d.x} * double{d.x} + double{d.y} * double{d.y} + double{d.z} * double{d.z};
+    }
+    const double said = sums.relativeError(part.end);
+    std::printf("%s: %d samples, RMSE %.5f, said to be within %.5f of the mean radiance\n",
+                GetParam().c_str(), part.end,
+                std::sqrt(squares / (3 * static_cast<double>(film.image.pixels.size()))), said);
+    EXPECT_LT(squares, last);
+    EXPECT_LT(said, lastSaid);
+    last = squares, lastSaid = said;
+  }
+}
+
+// Frames of several seeds differ by noise alone; without random numbers they do not.
+TEST_P(Accumulating, SeedsHaveNoiseOfTheirOwn) {
+  const RenderOptions o = noisy(1);
+  Renderer renderer(scene_, o);
+  const Camera camera = chooseCamera(scene_, o);
+  Film first = makeFilm(scene_, o), second = first, again = first;
+  renderer.render(camera, first);
+  renderer.setSeed(1);
+  renderer.render(camera, second);
+  renderer.setSeed(0);
+  renderer.render(camera, again);
+  EXPECT_EQ(firstDifference(first.image, again.image), "");
+  const bool random = renderer.plan().features.has(Feature::streams);
+  EXPECT_EQ(first.image.pixels != second.image.pixels, random);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Accumulating, testing::Values("glossy", "whitted", "matte"));
+
+// Two pixels of two samples: 1 and 3, 2 and 2. The standard errors of the means are 1 and 0, the
+// mean radiance is 2.
+TEST(SampleSums, TellsTheStandardError) {
+  SampleSums sums(Crop{5, 5, 7, 6});
+  for (const double value : {1.0, 3.0}) {
+    sums.at(5, 5).total += RgbD(value);
+    sums.at(5, 5).squares += value * value;
+    sums.at(6, 5).total += RgbD(2.0);
+    sums.at(6, 5).squares += 4;
+  }
+  EXPECT_DOUBLE_EQ(sums.relativeError(2), 0.25);
+  EXPECT_EQ(SampleSums(Crop{0, 0, 3, 3}).relativeError(2), 0);
+}
+
+}  // namespace
+}  // namespace whit::test

@@ -1,0 +1,100 @@
+// Light from one diffuse surface to the next: kernels against the reference, and what the picture's
+// bits must not depend on.
+#include <gtest/gtest.h>
+
+#include "metrics/metrics.h"
+#include "render/pipeline_laws.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+// Walls, a mirror and glass; textures, masks, coverage and instances.
+class Indirect : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { scene_ = load(GetParam()); }
+  void TearDown() override { simd::chooseTarget("auto"); }
+  static RenderOptions options() {
+    RenderOptions o = smallOptions();
+    o.indirect = 3;
+    o.depth = 5;
+    return o;
+  }
+  Scene scene_;
+};
+
+TEST_P(Indirect, EveryStageAgreesWithItsTwinOnEveryTarget) {
+  RenderOptions o = options();
+  o.spp = 2;
+  o.depth = 3;
+  o.glossy = 2;
+  for (const float roulette : {0.0f, 0.5f}) {
+    o.roulette = roulette;
+    expectStagesAgreeOnEveryTarget(scene_, o);
+  }
+}
+
+TEST_P(Indirect, PictureAgreesWithTheReference) {
+  RenderOptions o = options();
+  o.spp = 2;
+  for (const float roulette : {0.0f, 0.3f}) {
+    o.roulette = roulette;
+    Renderer renderer(scene_, o);
+    Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
+    renderer.render(chooseCamera(scene_, o), packets);
+    renderer.renderReference(chooseCamera(scene_, o), reference);
+    const ImageDifference d = compareImages(packets.image, reference.image);
+    std::printf("%s: %.4f %% off by two codes or more, FLIP %.6f\n", GetParam().c_str(),
+                d.pixelsGe2CodesPct, d.flipMean);
+    // Half a per cent: each pixel is the mean of dozens of paths, any of which may meet an edge.
+    EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
+    EXPECT_LE(d.flipMean, 0.01);
+    EXPECT_EQ(d.nonFinite, 0u);
+  }
+}
+
+TEST_P(Indirect, BitsDependOnTheSceneAlone) {
+  expectBitsWhateverTheQueues(scene_, options());
+  RenderOptions o = options();
+  o.roulette = 0.5f;
+  expectBitsWhateverTheQueues(scene_, o);
+}
+
+TEST_P(Indirect, ACropShowsTheSameNoise) {
+  RenderOptions o = options();
+  const Image whole = render(scene_, o).image;
+  o.crop = Crop{40, 30, 60, 41};
+  const Image part = render(scene_, o).image;
+  for (int y = 30; y < 41; ++y) {
+    for (int x = 40; x < 60; ++x) EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << "," << y;
+  }
+}
+
+TEST_P(Indirect, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
+  RenderOptions o = smallOptions();
+  const Picture plain = render(scene_, o);
+  EXPECT_EQ(plain.stats.callsOf(simd::kAddIndirect), 0u);
+  EXPECT_EQ(plain.stats.of(RayKind::indirect).rays, 0u);
+  EXPECT_FALSE(Renderer(scene_, o).plan().features.has(Feature::streams));
+  o.indirect = 2;
+  const Picture sampled = render(scene_, o);
+  EXPECT_GT(sampled.stats.callsOf(simd::kAddIndirect), 0u);
+  EXPECT_GT(sampled.stats.of(RayKind::indirect).rays, sampled.stats.of(RayKind::primary).rays);
+  o.disable = EffectSet().with(Effect::indirect);
+  EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");
+}
+
+TEST_P(Indirect, RouletteTracesLessAndNeedsThePathsNumbersAlone) {
+  RenderOptions o = options();
+  const std::uint64_t all = render(scene_, o).stats.of(RayKind::indirect).rays;
+  o.roulette = 0.5f;
+  EXPECT_LT(render(scene_, o).stats.of(RayKind::indirect).rays, all);
+  o.indirect = 0;
+  EXPECT_TRUE(Renderer(scene_, o).plan().features.has(Feature::streams));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Indirect, testing::Values("cornell", "effects"),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace whit::test

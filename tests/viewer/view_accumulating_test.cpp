@@ -1,0 +1,143 @@
+// Pictures at rest whose rays are sampled: more and more samples, and what they say of themselves.
+#include <gtest/gtest.h>
+
+#include "cli/run_program.h"
+#include "viewer/frame_tracer.h"
+#include "viewer/panel.h"
+#include "viewer_fixture.h"
+
+namespace whit::view {
+namespace {
+
+class Accumulating : public testing::Test {
+ protected:
+  Accumulating() {
+    common_.quiet = true;
+    common_.render.threads = 2;
+    scene_ = cli::openScene("glossy", common_, nullptr);
+    request_.camera = scene_->scene.cameras[0];
+    request_.options = common_.render;
+    request_.options.glossy = 1;
+    request_.options.size = request_.window = ImageSize{90, 60};
+    request_.interruptible = true;
+    request_.spp = 32;
+    calls_.superseded = calls_.leaving = [this] { return ++pieces_ > most_; };
+    calls_.publish = [](const TracedFrame&) {};
+    calls_.showUnfinished = [this](UnfinishedFrame sight) { sights_.push_back(std::move(sight)); };
+  }
+
+  Film rendered(int spp) const {
+    RenderOptions options = request_.options;
+    options.spp = spp;
+    Renderer renderer(scene_->scene, options);
+    Film film = makeFilm(scene_->scene, options);
+    renderer.render(request_.camera, film);
+    return film;
+  }
+
+  cli::CommonOptions common_;
+  std::shared_ptr<cli::OpenScene> scene_;
+  FrameRequest request_;
+  TraceCalls calls_;
+  std::vector<UnfinishedFrame> sights_;
+  int pieces_ = 0, most_ = 1'000'000;
+};
+
+TEST_F(Accumulating, EndsWithThePictureOfSoManySamplesBitForBit) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+  EXPECT_TRUE(frame.sampled);
+  const Film film = rendered(32);
+  EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
+  EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
+}
+
+// Nothing is known of what a sample takes: each pass has one.
+TEST_F(Accumulating, SightsHaveMoreSamplesAndLessError) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+  ASSERT_EQ(sights_.size(), 31u);
+  for (std::size_t i = 0; i < sights_.size(); ++i) {
+    const UnfinishedFrame& sight = sights_[i];
+    EXPECT_EQ(sight.samples, static_cast<int>(i) + 1);
+    EXPECT_EQ(sight.display.rgba.size(), std::size_t{90 * 60 * 4}) << "all pixels, in each";
+    EXPECT_DOUBLE_EQ(sight.done, (static_cast<double>(i) + 1) / 32);
+  }
+  EXPECT_EQ(sights_[0].sampleError, 0) << "nothing is known of it";
+  EXPECT_LT(sights_[15].sampleError, sights_[3].sampleError);
+  EXPECT_LT(frame.sampleError, sights_[15].sampleError);
+  EXPECT_GT(frame.sampleError, 0);
+}
+
+// The picture that is there stays until the next has more samples.
+TEST_F(Accumulating, NoSightHasFewerSamplesThanWhatIsShown) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  request_.spp = 8;
+  ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+  sights_.clear();
+  request_.spp = 32;
+  ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+  ASSERT_GE(sights_.size(), 7u);
+  for (const UnfinishedFrame& sight : sights_) {
+    EXPECT_EQ(sight.display.rgba.empty(), sight.samples <= 8) << sight.samples;
+  }
+}
+
+TEST_F(Accumulating, IsGivenUpInBetween) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  most_ = 3;
+  EXPECT_FALSE(tracer.trace(request_, frame, calls_));
+  EXPECT_EQ(pieces_, 4);
+}
+
+TEST_F(Accumulating, OnlyWhereRaysAreSampled) {
+  FrameTracer tracer(scene_, common_);
+  TracedFrame frame;
+  request_.options.glossy = 0;
+  ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+  EXPECT_FALSE(frame.sampled);
+  EXPECT_EQ(frame.sampleError, 0);
+  for (const UnfinishedFrame& sight : sights_) EXPECT_EQ(sight.samples, 0);
+  EXPECT_EQ(frame.film.image.pixels, rendered(32).image.pixels);
+}
+
+TEST(AccumulatingWords, SaySamplesAndError) {
+  UnfinishedFrame sight;
+  sight.request.spp = 256;
+  sight.samples = 100;
+  EXPECT_EQ(samplesText(sight), "100 of 256 samples");
+  sight.sampleError = 0.0123;
+  EXPECT_EQ(samplesText(sight), "100 of 256 samples, within about 1.2 %");
+}
+
+// In the window: what is on screen at last is what the printed command renders, of many samples.
+TEST_F(Viewer, AccumulatesAtRest) {
+  std::ofstream(folder_ / "rough.json") << R"({
+    "whit": 1, "size": [48, 32],
+    "cameras": {"front": {"eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40}},
+    "lights": [{"name": "lamp", "position": [3, 6, 4], "intensity": [60, 60, 60]}],
+    "materials": {"floor": {"diffuse": 0.5},
+                  "rough": {"diffuse": 0.1, "specular": 0.8, "roughness": 0.4,
+                            "glossyReflection": true}},
+    "scene": [{"shape": "quad", "width": 8, "depth": 8, "material": "floor"},
+              {"shape": "sphere", "radius": 1, "material": "rough",
+               "transform": {"translate": [0, 1, 0]}}]
+  })";
+  std::ofstream(folder_ / "script.txt") << "key H\nwait sharp\nscreenshot shown.png\nkey C\n";
+  const cli::Outcome outcome = runOn(
+      display_.name(), folder_.path().string(),
+      {WHIT_VIEW_PROGRAM, "rough.json", "--quiet", "--glossy", "1", "--script", "script.txt"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_NE(lines[0].find("--spp=256"), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+}  // namespace
+}  // namespace whit::view
