@@ -11,18 +11,18 @@ namespace whit {
 
 namespace {
 
-constexpr int kMost = 65535;
+constexpr int kWhite16 = 65535;
 constexpr double kCodesPerUnit = 1000;  // of depth
 
 // `share` of 1.
-std::uint16_t codeOf(double share) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMost));
+std::uint16_t codeOfShare(double share) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * kWhite16));
 }
 
 std::uint16_t depthCode(const std::string& path, double z) {
   if (std::isinf(z)) return 0;
   const double code = std::round(z * kCodesPerUnit);
-  if (!(code >= 0 && code <= kMost)) {
+  if (!(code >= 0 && code <= kWhite16)) {
     throwLimit(
         formatted("'%s': a depth of %g does not fit into 16 bits, which hold thousandths of "
                   "a unit up to 65.535: write an EXR",
@@ -33,8 +33,8 @@ std::uint16_t depthCode(const std::string& path, double z) {
 
 std::uint16_t numberCode(const std::string& path, Channel channel, std::uint32_t number) {
   const bool counts = channel == Channel::rays;
-  if (number == kNoNumber && !counts) return kMost;
-  if (number > static_cast<std::uint32_t>(counts ? kMost : kMost - 1)) {
+  if (number == kNoNumber && !counts) return kWhite16;
+  if (number > static_cast<std::uint32_t>(counts ? kWhite16 : kWhite16 - 1)) {
     throwLimit(formatted("'%s': %s number %u does not fit into 16 bits: write an EXR", path.c_str(),
                          std::string(infoOf(channel).name).c_str(), number));
   }
@@ -58,7 +58,7 @@ std::vector<std::uint16_t> colorCodes(std::span<const float> values, std::size_t
 // A normal of length 0 is none.
 std::vector<std::uint16_t> normalCodes(std::span<const float> values) {
   std::vector<std::uint16_t> codes =
-      colorCodes(values, 3, [](double n) { return codeOf((n + 1) / 2); });
+      colorCodes(values, 3, [](double n) { return codeOfShare((n + 1) / 2); });
   for (std::size_t i = 0; i < values.size(); i += 3) {
     if (values[i] != 0 || values[i + 1] != 0 || values[i + 2] != 0) continue;
     std::fill_n(codes.begin() + static_cast<std::ptrdiff_t>(i), 3, std::uint16_t{0});
@@ -80,11 +80,12 @@ std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers&
     case Channel::normal:
       return normalCodes(channels.floats(channel));
     case Channel::albedo:
-      return colorCodes(channels.floats(channel), 3,
-                        [](double x) { return codeOf(linearToSrgb(std::clamp(x, 0.0, 1.0))); });
+      return colorCodes(channels.floats(channel), 3, [](double x) {
+        return codeOfShare(linearToSrgb(std::clamp(x, 0.0, 1.0)));
+      });
     case Channel::uv:
       return colorCodes(channels.floats(channel), 2,
-                        [](double x) { return codeOf(x - std::floor(x)); });
+                        [](double x) { return codeOfShare(x - std::floor(x)); });
     case Channel::position:
       throwUsage("'" + path + "': positions do not fit into a PNG: write an EXR");
     default:

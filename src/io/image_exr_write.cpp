@@ -27,7 +27,7 @@ namespace {
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 
 const std::string kPrefix = "whit.";
-constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 
 // Attributes that mean something to OpenEXR itself, and so cannot carry our text.
 bool isReserved(const std::string& name) {
@@ -84,7 +84,7 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
   header.compression() = compressionOf(storage);
   const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
-  for (const char* name : kColors) header.channels().insert(name, channel);
+  for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
   for (const LayerView& layer : layers) {
     header.channels().insert(layer.name, Imf::Channel(layer.numbers ? Imf::UINT : Imf::FLOAT));
   }
@@ -113,9 +113,10 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
                  const std::vector<LayerView>& layers) {
   const auto width = static_cast<std::size_t>(image.windowWidth());
   Imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < kColors.size(); ++c) {
-    frame.insert(kColors[c], Imf::Slice::Make(type, first + c, exr.header().dataWindow(),
-                                              3 * sizeof(Value), width * 3 * sizeof(Value)));
+  for (std::size_t c = 0; c < kRadianceLayers.size(); ++c) {
+    frame.insert(kRadianceLayers[c],
+                 Imf::Slice::Make(type, first + c, exr.header().dataWindow(), 3 * sizeof(Value),
+                                  width * 3 * sizeof(Value)));
   }
   insertLayers(layers, exr, image, frame);
   exr.setFrameBuffer(frame);

@@ -109,8 +109,8 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
-  return {&scene_,        &tables_, &*accel_,           verdicts, plan_.effects,
-          plan_.features, options_, cameraRays(camera), asking_, {}, seed_};
+  return {&scene_,  &tables_,           &*accel_, verdicts, plan_.effects, plan_.features,
+          options_, cameraRays(camera), asking_,  {},       seed_};
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
