@@ -139,10 +139,10 @@ void drawRays(const FrameStats& stats) {
   }
   const auto& [lit, dark] = stats.meter.shadows;
   if (lit + dark > 0) {
-    drawCell("shadow, proved");
+    drawCell("%s", "shadow, proved");
     drawCell("%.1f", static_cast<double>(lit + dark) / 1e3);
-    drawCell("-");
-    drawCell("-");
+    drawCell("%s", "-");
+    drawCell("%s", "-");
   }
   ImGui::EndTable();
 }

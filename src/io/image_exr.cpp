@@ -153,8 +153,8 @@ std::vector<Value> cropped(const std::vector<Value>& values, const Box2i& data, 
 // The part of the data window that the display window has.
 Box2i keptBox(const std::string& path, const Imf::Header& header) {
   const Box2i &display = header.displayWindow(), &data = header.dataWindow();
-  const Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
-                   {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
+  Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
+             {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
   if (kept.isEmpty()) throwBadScene(path, "its data window lies outside its display window");
   return kept;
 }

@@ -43,7 +43,7 @@ SceneDescription loadScene(const std::string& name, const LoadOptions& options, 
 
 // A scene that a program makes: what a scene file would say, and what it hands over besides. Paths
 // are relative to the working directory. `name` stands for the file in errors.
-struct SceneText {
+struct SceneText {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string name;
   Json root;
   SceneParts parts;

@@ -28,7 +28,7 @@ class LooseJson {
   bool isObject() const { return value_ && value_->is_object(); }
   bool isList() const { return value_ && value_->is_array(); }
   // Elements of a list.
-  std::size_t size() const { return isList() ? value_->size() : 0; }
+  std::size_t size() const { return value_ && value_->is_array() ? value_->size() : 0; }
 
   std::optional<double> number() const {
     return value_ && value_->is_number() ? std::optional(value_->get<double>()) : std::nullopt;

@@ -89,6 +89,7 @@ std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
     return static_cast<std::int64_t>(place * static_cast<float>(n));
   };
   std::vector<Cell> cells;
+  cells.reserve(samples.size());
   for (const Vec2f& sample : samples) cells.push_back({cellOf(sample.x), cellOf(sample.y)});
   const auto squared = [](std::int64_t x, std::int64_t y) { return x * x + y * y; };
   const auto apart = [&](std::int64_t a, std::int64_t b) {
@@ -139,7 +140,7 @@ std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
 }
 
 std::vector<Vec2f> samplePattern(int spp) {
-  const std::vector<Vec2f> samples = rooks(spp);
+  std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kProbeSamples) return samples;
   const auto probes = chooseProbes(samples);
   std::vector<Vec2f> ordered;
