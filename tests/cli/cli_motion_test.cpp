@@ -33,7 +33,7 @@ std::string writeMoving(const TemporaryFolder& folder) {
   return folder / "moving.gltf";
 }
 
-void expectDone(const std::vector<std::string>& words) {
+void expectFilmed(const std::vector<std::string>& words) {
   const Outcome outcome = runWhit(words);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
@@ -43,7 +43,7 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
   const std::string moving = writeMoving(folder);
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectDone({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps", "2",
+    expectFilmed({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps", "2",
                 "--size", "64x40", "--threads", threads, "--quiet"});
   };
   film("film", "0..4", "2");
@@ -57,9 +57,9 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
     return readRawImage(folder / name, ImageLimits(), warnings).values;
   };
   EXPECT_EQ(pixels("film3.exr"), pixels("many3.exr"));
-  expectDone({"render", moving, "-o", folder / "instant.exr", "--time", "1.5", "--size", "64x40",
+  expectFilmed({"render", moving, "-o", folder / "instant.exr", "--time", "1.5", "--size", "64x40",
               "--exposure", "0", "--quiet"});
-  expectDone({"render", moving, "-o", folder / "frame#.exr", "--frames", "3", "--fps", "2",
+  expectFilmed({"render", moving, "-o", folder / "frame#.exr", "--frames", "3", "--fps", "2",
               "--size", "64x40", "--exposure", "0", "--quiet"});
   EXPECT_EQ(pixels("instant.exr"), pixels("frame3.exr"));
 }
@@ -68,7 +68,7 @@ TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
   const TemporaryFolder folder;
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectDone({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames, "--size",
+    expectFilmed({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames, "--size",
                 "32x20", "--threads", threads, "--quiet"});
   };
   const auto pixels = [&](const std::string& name) {
@@ -100,8 +100,8 @@ TEST(Motion, IsTimedAndListed) {
 TEST(Motion, ACameraPathIsLookedAlongAtAnInstant) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
-  expectDone({"render", tiny, "-o", folder / "t.png", "--time", "0.5", "--quiet"});
-  expectDone({"render", tiny, "-o", folder / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
+  expectFilmed({"render", tiny, "-o", folder / "t.png", "--time", "0.5", "--quiet"});
+  expectFilmed({"render", tiny, "-o", folder / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
   const auto codes = [&](const std::string& name) {
     Warnings warnings;
     return readRawImage(folder / name, ImageLimits(), warnings).codes;
