@@ -2,4 +2,5 @@
 // it keeps for the life of the program, which is then reported as leaked by nobody.
 #include <dlfcn.h>
 
-extern "C" int dlclose(void*) noexcept { return 0; }
+// Seen by the libraries that call it, unlike the program's other symbols.
+extern "C" __attribute__((visibility("default"))) int dlclose(void*) noexcept { return 0; }

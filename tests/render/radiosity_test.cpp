@@ -140,7 +140,7 @@ Scene room() {
   return builder.build();
 }
 
-constexpr int kSide = 48;
+constexpr int kPicture = 48;
 
 // Where a pixel's ray meets the room, and what is to be seen there; nothing where two walls or the
 // panel's edge lie in the pixel.
@@ -177,11 +177,11 @@ std::vector<Seen> wantedImage(const Scene& scene, const Radiosity& radiosity) {
   const double half = std::tan(double{camera.fov} * kPi / 360);
   const auto through = [&](double x, double y) {
     return meet(eye,
-                forward + right * (half * (2 * x / kSide - 1)) + up * (half * (1 - 2 * y / kSide)));
+                forward + right * (half * (2 * x / kPicture - 1)) + up * (half * (1 - 2 * y / kPicture)));
   };
   std::vector<Seen> image;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kPicture; ++y) {
+    for (int x = 0; x < kPicture; ++x) {
       const Met met = through(x + 0.5, y + 0.5);
       bool whole = !isPanel(met.wall, met.s, met.t);
       for (const int corner : {0, 1, 2, 3}) {
@@ -220,7 +220,7 @@ class RadiosityRoom : public testing::Test {
 
   static RenderOptions options(int indirect, int spp) {
     RenderOptions o;
-    o.size = ImageSize{kSide, kSide};
+    o.size = ImageSize{kPicture, kPicture};
     o.indirect = indirect;
     o.spp = spp;
     o.cutoff = 0;
