@@ -43,8 +43,8 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
   const std::string moving = writeMoving(folder);
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectFilmed({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps", "2",
-                "--size", "64x40", "--threads", threads, "--quiet"});
+    expectFilmed({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps",
+                  "2", "--size", "64x40", "--threads", threads, "--quiet"});
   };
   film("film", "0..4", "2");
   film("alone", "3", "1");
@@ -58,9 +58,9 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
   };
   EXPECT_EQ(pixels("film3.exr"), pixels("many3.exr"));
   expectFilmed({"render", moving, "-o", folder / "instant.exr", "--time", "1.5", "--size", "64x40",
-              "--exposure", "0", "--quiet"});
+                "--exposure", "0", "--quiet"});
   expectFilmed({"render", moving, "-o", folder / "frame#.exr", "--frames", "3", "--fps", "2",
-              "--size", "64x40", "--exposure", "0", "--quiet"});
+                "--size", "64x40", "--exposure", "0", "--quiet"});
   EXPECT_EQ(pixels("instant.exr"), pixels("frame3.exr"));
 }
 
@@ -68,8 +68,8 @@ TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
   const TemporaryFolder folder;
   const auto film = [&](const std::string& name, const std::string& frames,
                         const std::string& threads) {
-    expectFilmed({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames, "--size",
-                "32x20", "--threads", threads, "--quiet"});
+    expectFilmed({"render", "orrery", "-o", folder / (name + "##.exr"), "--frames", frames,
+                  "--size", "32x20", "--threads", threads, "--quiet"});
   };
   const auto pixels = [&](const std::string& name) {
     Warnings warnings;

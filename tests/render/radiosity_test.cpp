@@ -176,8 +176,8 @@ std::vector<Seen> wantedImage(const Scene& scene, const Radiosity& radiosity) {
   const Vec3d right = normalized(cross(forward, {0, 1, 0})), up = cross(right, forward);
   const double half = std::tan(double{camera.fov} * kPi / 360);
   const auto through = [&](double x, double y) {
-    return meet(eye,
-                forward + right * (half * (2 * x / kPicture - 1)) + up * (half * (1 - 2 * y / kPicture)));
+    return meet(eye, forward + right * (half * (2 * x / kPicture - 1)) +
+                         up * (half * (1 - 2 * y / kPicture)));
   };
   std::vector<Seen> image;
   for (int y = 0; y < kPicture; ++y) {
