@@ -11,7 +11,9 @@ namespace {
 constexpr double kRaysAProof = 400;
 // Of cameras that move: for so many frames at the most a part is counted on to stay in view.
 constexpr std::size_t kFramesInView = 96;
-// Building what proofs search takes as long as tracing so many samples of pixels for each triangle.
+// Measured in films along sponza-mirror's path: with 53 samples of pixels for each triangle they
+// lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 9
+// %.
 constexpr double kSamplesATriangle = 250;
 // Of many samples of one view, one is spent on asking.
 constexpr std::size_t kFewestFrames = 2 * VerdictSchedule::kTurns, kFewestSamples = 32;
