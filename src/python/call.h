@@ -39,11 +39,14 @@ class Calls {
    public:
     Entry() {
       if (depth++ > 0) return;
-      if (ending && std::this_thread::get_id() != ender) waitForTheEnd();
+      if (areEnding()) waitForTheEnd();
       ++underWay;
     }
+    // What the call returned or raised would meet an interpreter that is taken down.
     ~Entry() {
-      if (--depth == 0) --underWay;
+      if (--depth > 0) return;
+      --underWay;
+      if (areEnding()) waitForTheEnd();
     }
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;

@@ -183,7 +183,7 @@ class Ends(unittest.TestCase):
         for _ in range(5):
             done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
                                   check=False, timeout=60)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Growth(unittest.TestCase):
