@@ -6,6 +6,7 @@
 
 #include "accuracy/label_layout.h"
 #include "accuracy/report.h"
+#include "accuracy/text_width.h"
 #include "core/formatted.h"
 
 namespace whit::accuracy {
@@ -13,9 +14,12 @@ namespace whit::accuracy {
 namespace {
 
 constexpr double kHeight = 420;
-constexpr Box kPlot{52, 92, 470, 374};
-constexpr double kZeroY = 362;  // where an error of 0 stands
-constexpr double kRadius = 4.5, kCharWidth = 8.2, kLineHeight = 16;
+// Left of it there is room for 0.0002, as wide a number as scales of FLIP have.
+constexpr Box kPlot{60, 92, 470, 374};
+constexpr double kZeroY = 362;                                     // where an error of 0 stands
+constexpr double kFontSize = 14, kLineHeight = 17, kBaseline = 5;  // below a line's middle
+constexpr double kRadius = 4.5;
+constexpr const char* kNoiseWords = "noise of the truth";
 constexpr std::size_t kMostTicks = 8;     // on a scale
 constexpr std::size_t kMostLetters = 26;  // letters; combinations have more
 
@@ -96,7 +100,8 @@ std::string labelOf(const Mark& mark) {
 }
 
 constexpr const char* kFrontStyle =
-    ".pareto text{font:14px system-ui,sans-serif;fill:#1f2328}\n"
+    // Widths follow the scale exactly, so that what is apart stays so at any size.
+    ".pareto text{font:14px system-ui,sans-serif;fill:#1f2328;text-rendering:geometricPrecision}\n"
     ".pareto .h{font-size:16px;font-weight:600}.pareto .s,.pareto .d{fill:#59636e}\n"
     ".pareto .back{fill:#fff}.pareto .grid{stroke:#d8dee4}.pareto .axis{stroke:#8c959f}\n"
     ".pareto .front{fill:none;stroke:#1f5fa8;stroke-width:2}.pareto .p{fill:#1f5fa8}\n"
@@ -166,7 +171,7 @@ std::string axes(const LogScale& x, const LogScale& y, bool zeros) {
     svg += formatted("<line class=\"grid\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.0f\" y2=\"%.0f\"/>\n", at,
                      at, kPlot.top, kPlot.bottom);
     const std::string text = formatted("%g", tick);
-    const double half = kCharWidth / 2 * static_cast<double>(text.size());
+    const double half = widthOf(text, kFontSize, Weight::regular) / 2;
     svg += formatted("<text class=\"s\" x=\"%.1f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n",
                      std::min(at, kChartWidth - half), kPlot.bottom + 16, text.c_str());
   }
@@ -230,24 +235,38 @@ std::string frontPath(const std::vector<Mark>& marks, Against against) {
   return svg;
 }
 
-// Below it errors are no smaller than what the truth is off by itself.
-std::string noiseLine(const SceneSweep& sweep, Against against, const LogScale& y) {
-  if (against != Against::reference || !sweep.transport || !(sweep.transport->noiseFlip > 0)) {
-    return {};
-  }
-  const double at = y.at(sweep.transport->noiseFlip);
-  return formatted("<line class=\"noise\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.1f\" y2=\"%.1f\"/>\n",
-                   kPlot.left, kPlot.right, at, at) +
-         formatted("<text class=\"s\" x=\"%.0f\" y=\"%.1f\">noise of the truth</text>\n",
-                   kPlot.left + 4, at - 5);
+// What the truth is off by itself, where that is known: errors can tell no less.
+double noiseOfTruth(const SceneSweep& sweep, Against against) {
+  return against == Against::reference && sweep.transport ? sweep.transport->noiseFlip : 0;
 }
 
-std::string labels(const std::vector<Mark>& marks) {
+// Its words stand above the line.
+std::string noiseLine(double at) {
+  return formatted("<line class=\"noise\" x1=\"%.0f\" x2=\"%.0f\" y1=\"%.1f\" y2=\"%.1f\"/>\n",
+                   kPlot.left, kPlot.right, at, at) +
+         formatted("<text class=\"s\" x=\"%.0f\" y=\"%.1f\">%s</text>\n", kPlot.left + 4, at - 5,
+                   kNoiseWords);
+}
+
+Box noiseWordsAt(double at) {
+  const double left = kPlot.left + 4, bottom = at - 5 + kLineHeight / 2 - kBaseline;
+  return {left, bottom - kLineHeight, left + widthOf(kNoiseWords, kFontSize, Weight::regular),
+          bottom};
+}
+
+double labelWidth(const Mark& mark) {
+  return widthOf(labelOf(mark), kFontSize, mark.front ? Weight::bold : Weight::regular);
+}
+
+// Presets first, then the front, each in the sweep's order. A label that finds no place beside its
+// point or around it is left out: its words are in the point's tooltip as well.
+std::string labels(const std::vector<Mark>& marks, const std::vector<Box>& taken) {
   // Points without a label still take their place.
   std::vector<LabelRequest> requests;
+  requests.reserve(marks.size());
   for (const Mark& m : marks) {
-    const double width = isLabelled(m) ? kCharWidth * static_cast<double>(labelOf(m).size()) : 0;
-    requests.push_back({m.x, m.y, width, isLabelled(m) ? kLineHeight : 0});
+    requests.push_back(
+        {m.x, m.y, isLabelled(m) ? labelWidth(m) : 0, isLabelled(m) ? kLineHeight : 0});
   }
   // And so does the line.
   const std::vector<Mark> line = frontOf(marks);
@@ -257,7 +276,7 @@ std::string labels(const std::vector<Mark>& marks) {
     for (int k = 1; k < steps; ++k)
       requests.push_back({line[i - 1].x + dx * k / steps, line[i - 1].y + dy * k / steps, 0, 0});
   }
-  const std::vector<PlacedLabel> placed = placeLabels(requests, kPlot, kRadius);
+  const std::vector<PlacedLabel> placed = placeLabels(requests, kPlot, kRadius, taken);
   std::string svg;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (!isLabelled(marks[i]) || !placed[i].free) continue;
@@ -273,9 +292,9 @@ std::string labels(const std::vector<Mark>& marks) {
                        marks[i].x, marks[i].y, endX, endY);
     }
     const char* const anchor = right ? "start" : left ? "end" : "middle";
-    svg +=
-        formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n",
-                  marks[i].front ? "f" : "d", x, y + 4, anchor, escaped(labelOf(marks[i])).c_str());
+    svg += formatted("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n",
+                     marks[i].front ? "f" : "d", x, y + kBaseline, anchor,
+                     escaped(labelOf(marks[i])).c_str());
   }
   return svg;
 }
@@ -291,20 +310,24 @@ std::string frontSvg(const SceneSweep& sweep, Against against, const ChartLinks&
   }
   const bool zeros = errors.size() < marks.size();
   const LogScale x = scaleFor(times, kPlot.left, kPlot.right);
-  if (against == Against::reference && sweep.transport && sweep.transport->noiseFlip > 0) {
-    errors.push_back(sweep.transport->noiseFlip);
-  }
+  const double noise = noiseOfTruth(sweep, against);
+  if (noise > 0) errors.push_back(noise);
   const LogScale y = scaleFor(errors, zeros ? kZeroY - 24 : kPlot.bottom, kPlot.top);
   for (Mark& m : marks) {
     m.x = x.at(m.point->timing.settledMs);
     m.y = m.error > 0 ? y.at(m.error) : kZeroY;
   }
-  std::string svg = head(sweep, against, marks) + axes(x, y, zeros) + noiseLine(sweep, against, y) +
-                    frontPath(marks, against);
+  std::string svg = head(sweep, against, marks) + axes(x, y, zeros);
+  std::vector<Box> taken;
+  if (noise > 0) {
+    svg += noiseLine(y.at(noise));
+    taken.push_back(noiseWordsAt(y.at(noise)));
+  }
+  svg += frontPath(marks, against);
   // Gray points first, so that none hides the front.
   for (auto m = marks.rbegin(); m != marks.rend(); ++m)
     svg += whisker(*m, x) + linkToPicture(links, sweep, *m->point, dot(*m, against)) + "\n";
-  return svg + labels(marks) + "</svg>\n";
+  return svg + labels(marks, taken) + "</svg>\n";
 }
 
 }  // namespace whit::accuracy

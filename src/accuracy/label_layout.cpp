@@ -45,24 +45,24 @@ std::vector<Box> candidates(const LabelRequest& r, double gap) {
 }  // namespace
 
 std::vector<PlacedLabel> placeLabels(const std::vector<LabelRequest>& requests, const Box& area,
-                                     double pointRadius) {
-  std::vector<Box> taken;
-  taken.reserve(2 * requests.size());
+                                     double pointRadius, const std::vector<Box>& taken) {
+  std::vector<Box> full = taken;
+  full.reserve(taken.size() + 2 * requests.size());
   for (const LabelRequest& r : requests)
-    taken.push_back(shifted({-pointRadius, -pointRadius, pointRadius, pointRadius}, r.x, r.y));
+    full.push_back(shifted({-pointRadius, -pointRadius, pointRadius, pointRadius}, r.x, r.y));
   std::vector<PlacedLabel> placed;
   for (const LabelRequest& r : requests) {
     const double gap = pointRadius + 2;
     const std::vector<Box> boxes = candidates(r, gap);
     const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const Box& box) {
-      return within(box, area) && !collides(box, taken);
+      return within(box, area) && !collides(box, full);
     });
     PlacedLabel label;
     label.free = found != boxes.end();
     label.leader = found - boxes.begin() >= 20;  // beyond the first ring
     label.box = label.free ? *found : boxes.front();
     if (!label.free) label.leader = false;
-    if (label.free) taken.push_back(label.box);
+    if (label.free) full.push_back(label.box);
     placed.push_back(label);
   }
   return placed;

@@ -19,11 +19,12 @@ struct PlacedLabel {
 };
 
 // A box of each label's size beside its point, `sizes[i]` = (width, height), overlapping neither
-// another label nor a point, and within `area`. Earlier labels have the better places.
+// another label nor a point nor what is `taken`, and within `area`. Earlier labels have the better
+// places.
 struct LabelRequest {
   double x = 0, y = 0, width = 0, height = 0;
 };
 std::vector<PlacedLabel> placeLabels(const std::vector<LabelRequest>& requests, const Box& area,
-                                     double pointRadius);
+                                     double pointRadius, const std::vector<Box>& taken = {});
 
 }  // namespace whit::accuracy

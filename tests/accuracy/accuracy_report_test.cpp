@@ -7,8 +7,10 @@
 
 #include "accuracy/cause_chart.h"
 #include "accuracy/front_chart.h"
+#include "accuracy/label_layout.h"
 #include "accuracy/pareto.h"
 #include "accuracy/report.h"
+#include "accuracy/text_width.h"
 
 namespace whit::accuracy {
 namespace {
@@ -165,6 +167,61 @@ TEST(FrontChart, LabelsPresetsAndItsOwnPointsOnly) {
   EXPECT_NE(svg.find("<title>depth=16:"), std::string::npos);
 }
 
+struct Text {
+  std::string words;
+  Box box;
+};
+
+// Where a chart's letters of 14 pixels are.
+std::vector<Text> textsOf(const std::string& svg) {
+  const std::regex text(
+      "<text class=\"([sfd])\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"( text-anchor=\"([a-z]+)\")?>"
+      "([^<]*)</text>");
+  std::vector<Text> texts;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
+    const std::string words = (*it)[6], anchor = (*it)[5];
+    const double width = widthOf(words, 14, (*it)[1] == "f" ? Weight::bold : Weight::regular);
+    const double before = anchor == "end" ? width : anchor == "middle" ? width / 2 : 0;
+    const double left = std::stod((*it)[2]) - before, baseline = std::stod((*it)[3]);
+    texts.push_back({words, {left, baseline - 10.5, left + width, baseline + 3.5}});
+  }
+  return texts;
+}
+
+// Many choices of about the same time and error, a wide scale of each, and the truth's noise amid.
+TEST(FrontChart, LettersStandOnNoOthersAndWithinTheChart) {
+  SceneSweep sweep = sweepOfThree();
+  sweep.points[1].total.flipMean = 0.00021, sweep.points[2].timing.settledMs = 9000;
+  for (int i = 0; i < 12; ++i) {
+    Point point = pointOf(PointKind::knob, "indirect", std::to_string(1 << i), 10 + i * 0.3,
+                          0.02 - i * 0.0004);
+    point.onFront = true;
+    sweep.points.push_back(point);
+  }
+  sweep.points.push_back(pointOf(PointKind::preset, "quality", "reference", 9, 0.012));
+  sweep.transport.emplace().noiseFlip = 0.011;
+  const std::vector<Text> texts = textsOf(frontSvg(sweep, Against::reference, {}));
+  std::set<std::string> words;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    words.insert(texts[i].words);
+    EXPECT_GE(texts[i].box.left, 0) << texts[i].words;
+    EXPECT_LE(texts[i].box.right, kChartWidth) << texts[i].words;
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_FALSE(texts[i].box.overlaps(texts[k].box)) << texts[i].words << ", " << texts[k].words;
+    }
+  }
+  for (const char* said : {"0.0002", "10000", "noise of the truth", "standard", "indirect=1"})
+    EXPECT_TRUE(words.contains(said)) << said;
+}
+
+// Advances of the font itself, 0.636 of its size for a digit, 0.318 for a point.
+TEST(TextWidth, IsThatOfDejaVuSans) {
+  EXPECT_NEAR(widthOf("0.0002", 100, Weight::regular), 5 * 63.6 + 31.8, 0.6);
+  EXPECT_NEAR(widthOf("=m", 100, Weight::bold), 83.8 + 104.2, 0.2);
+  EXPECT_EQ(widthOf("", 14, Weight::bold), 0);
+  EXPECT_GT(widthOf("\u2026", 14, Weight::bold), 14);
+}
+
 TEST(FrontChart, APointWithoutASpreadIsARing) {
   SceneSweep sweep = sweepOfThree();
   sweep.points[2].timing.rounds = 0;
@@ -290,7 +347,6 @@ TEST(FrontChart, PlacesPointsOnLogarithmicScales) {
   EXPECT_GT(y0, y1);
 }
 
-// Without an error at all, a point stands below the scale, not at minus infinity.
 // A tick at the very end of the scale, with a long number.
 TEST(FrontChart, NumbersBelowTheScaleStayInTheChart) {
   SceneSweep sweep = sweepOfThree();
@@ -299,13 +355,14 @@ TEST(FrontChart, NumbersBelowTheScaleStayInTheChart) {
   const std::regex number("x=\"([0-9.]+)\" y=\"390\" text-anchor=\"middle\">([0-9.e+]+)<");
   double last = 0;
   for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it) {
-    const double halfWidth = 4.1 * static_cast<double>((*it)[2].length());
+    const double halfWidth = widthOf((*it)[2].str(), 14, Weight::regular) / 2;
     last = std::stod((*it)[1]) + halfWidth;
     EXPECT_LE(last, kChartWidth) << (*it)[2];
   }
   EXPECT_GT(last, kChartWidth - 1) << "one lies at the end";
 }
 
+// Without an error at all, a point stands below the scale, not at minus infinity.
 TEST(FrontChart, NoErrorHasALineOfItsOwn) {
   const std::string svg = frontSvg(sweepOfThree(), Against::sameSamples, {});
   expectBalanced(svg);

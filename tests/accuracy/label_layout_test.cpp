@@ -34,6 +34,13 @@ TEST(LabelLayout, NothingOverlapsInACrowd) {
   }
 }
 
+TEST(LabelLayout, WhatIsTakenStaysFree) {
+  const Box words{100, 80, 300, 97};
+  const auto placed = placeLabels({{90, 90, 50, 16}}, kArea, 4, {words});
+  ASSERT_TRUE(placed[0].free);
+  EXPECT_FALSE(placed[0].box.overlaps(words));
+}
+
 TEST(LabelLayout, WhereThereIsNoPlaceItSaysSo) {
   EXPECT_FALSE(placeLabels({{10, 10, 50, 12}}, {0, 0, 20, 20}, 4)[0].free);
 }

@@ -1,7 +1,8 @@
 #!/bin/bash
-# The report of whit accuracy as a browser lays it out, 400 and 1280 pixels wide: nothing is wider than
-# the page, the charts' letters can be read, and a click on a row or a point shows its picture beside
-# the reference. report_in_browser_test.sh WHIT [FOLDER]: with a folder, screenshots are kept there.
+# The report of whit accuracy as a browser lays it out, 360, 800 and 1400 pixels wide: nothing is wider
+# than the page, the charts' letters can be read and stand on no others, and a click on a row or a point
+# shows its picture beside the reference. report_in_browser_test.sh WHIT [FOLDER]: with a folder,
+# screenshots are kept there.
 set -euo pipefail
 whit=$1 keep=${2:-}
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
@@ -34,13 +35,14 @@ document.querySelectorAll('svg').forEach(chart => {
     if (box.left < frame.left || box.right > frame.right) say(`'${text.textContent}' leaves its chart`);
   });
 });
-const labels = [...document.querySelectorAll('svg.pareto text.f, svg.pareto text.d')];
-labels.forEach((label, i) => labels.slice(i + 1).forEach(other => {
-  const a = label.getBoundingClientRect(), b = other.getBoundingClientRect();
-  const x = Math.min(a.right, b.right) - Math.max(a.left, b.left);
-  const y = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-  if (x > 3 && y > 4) say(`'${label.textContent}' is written over '${other.textContent}'`);
-}));
+document.querySelectorAll('svg').forEach(chart => {
+  const texts = [...chart.querySelectorAll('text')].map(text => [text, text.getBoundingClientRect()]);
+  texts.forEach(([text, a], i) => texts.slice(i + 1).forEach(([other, b]) => {
+    const x = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+    const y = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+    if (x > 1 && y > 3) say(`'${text.textContent}' is written over '${other.textContent}'`);
+  }));
+});
 const links = [...document.querySelectorAll('svg a')];
 if (links.length < 20) say(`${links.length} links`);
 links.forEach(link => {
@@ -88,5 +90,7 @@ HTML
 }
 
 measured model depth,cutoff,spp,packet
-for width in 400 1280; do looked model $width; done
+for width in 360 800 1400; do looked model $width; done
+measured transport spp,indirect
+for width in 360 800 1400; do looked transport $width; done
 exit $status
