@@ -124,13 +124,14 @@ void drawStages(const FrameStats& stats) {
   }
 }
 
-void drawRays(const FrameStats& stats) {
+void drawRays(const FrameStats& stats, EffectSet effects) {
   if (!ImGui::BeginTable("rays", 4)) return;
   for (const char* heading : {"rays", "thousands", "Mray/s", "lanes %"}) {
     ImGui::TableSetupColumn(heading);
   }
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    if (!cli::callsFor(effects, static_cast<RayKind>(i))) continue;
     const RayTally& tally = stats.meter.tally[i];
     drawCell("%s", kRayKindNames[i].data());
     drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
@@ -352,7 +353,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return false;
   tab("frame", [&] {
     drawStages(frame.stats);
-    drawRays(frame.stats);
+    drawRays(frame.stats, frame.effects);
   });
   tab("picture", [&] {
     drawPicture(settings);

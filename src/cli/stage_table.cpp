@@ -86,9 +86,10 @@ void appendWriting(std::string& text, const RunSummary& run) {
                     quantile(run.writingMs, 0.5), "", quantile(run.waitedMs, 0.5));
 }
 
-void appendRays(std::string& text, const FrameStats& frame) {
+void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
   text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    if (!callsFor(effects, static_cast<RayKind>(i))) continue;
     const RayTally& tally = frame.meter.tally[i];
     text += formatted("  %-14s%12llu%10.2f", kRayKindNames[i].data(),
                       static_cast<unsigned long long>(tally.rays),
@@ -123,7 +124,7 @@ std::string stageTable(const RunSummary& run) {
   if (run.options.mode == Mode::packets) appendStages(text, frame);
   appendUpdate(text, run);
   appendWriting(text, run);
-  appendRays(text, frame);
+  appendRays(text, frame, run.effects);
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);
     text += formatted("  floor %.2f ms (Embree alone, the same rays); frame over floor %.2f\n",

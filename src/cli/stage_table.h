@@ -7,9 +7,9 @@
 
 namespace whit::cli {
 
-// One line about the run's settings, one about its frame times, the eight stages and the rays of
-// the median frame, what writing its image took if it was written, and the floor if it was
-// measured.
+// One line about the run's settings, one about its frame times, the eight stages of the median
+// frame and its rays, of the kinds that the scene calls for, what writing its image took if it was
+// written, and the floor if it was measured.
 std::string stageTable(const RunSummary& run);
 
 // The second of two runs of one scene, whose frames took turns, over the first.

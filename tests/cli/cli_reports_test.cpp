@@ -16,6 +16,7 @@ RunSummary madeUpRun(int frames) {
   run.height = 32;
   run.triangles = 12;
   run.machine = {"avx2", "3.13.5 avx2", 8, 2};
+  run.effects = EffectSet::all();
   for (int f = frames; f >= 1; --f) {
     FrameStats frame;
     frame.frameMs = 10.0 * f;
@@ -71,6 +72,29 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   EXPECT_NE(table.find("75.0\n"), std::string::npos) << table;
   EXPECT_NE(table.find("frame over floor 1.25"), std::string::npos) << table;
   EXPECT_EQ(table.find("not finite"), std::string::npos) << table;
+}
+
+// As of a scene without glass, so of one without indirect light: there is nothing to tell.
+TEST(StageTable, TellsOfNoRaysThatTheSceneDoesNotCallFor) {
+  RunSummary run = madeUpRun(1);
+  const auto told = [&](EffectSet effects) {
+    run.effects = effects;
+    const std::string table = stageTable(run);
+    std::vector<std::string> kinds;
+    for (const std::string_view kind : kRayKindNames) {
+      if (table.find("\n  " + std::string(kind) + " ") != std::string::npos)
+        kinds.emplace_back(kind);
+    }
+    return kinds;
+  };
+  using Kinds = std::vector<std::string>;
+  EXPECT_EQ(told(EffectSet()), Kinds({"primary"}));
+  const EffectSet mirrors = EffectSet().with(Effect::shadows).with(Effect::mirror);
+  EXPECT_EQ(told(mirrors), Kinds({"primary", "shadow", "reflection"}));
+  EXPECT_EQ(told(EffectSet().with(Effect::glossyReflection)), Kinds({"primary", "reflection"}));
+  EXPECT_EQ(told(EffectSet().with(Effect::transmission)), Kinds({"primary", "refraction"}));
+  EXPECT_EQ(told(EffectSet().with(Effect::indirect)), Kinds({"primary", "indirect"}));
+  EXPECT_EQ(told(EffectSet().with(Effect::ambientOcclusion)), Kinds({"primary", "occlusion"}));
 }
 
 TEST(StageTable, ReferenceHasNoStages) {
