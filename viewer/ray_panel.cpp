@@ -19,14 +19,38 @@ ImU32 colorOf(RayLook look) {
   return IM_COL32(c[0], c[1], c[2], 255);
 }
 
+// Its line's, lighter.
 ImVec4 textColorOf(RayKind kind) {
-  switch (kind) {
-    case RayKind::reflection:
-      return {1, 0.5f, 0.5f, 1};
-    case RayKind::refraction:
-      return {0.5f, 0.75f, 1, 1};
-    default:
-      return {1, 1, 1, 1};
+  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(colorOf(lookOf(kind)));
+  const auto lighter = [](float code) { return 0.25f + 0.75f * code; };
+  return {lighter(color.x), lighter(color.y), lighter(color.z), 1};
+}
+
+// The colors of the lines that are there, and what they stand for.
+void drawLegend(const std::vector<RayLine>& lines) {
+  const float side = ImGui::GetFontSize();
+  bool first = true;
+  for (std::size_t i = 0; i < kRayLookCount; ++i) {
+    const auto look = static_cast<RayLook>(i);
+    if (std::none_of(lines.begin(), lines.end(),
+                     [&](const RayLine& line) { return line.look == look; })) {
+      continue;
+    }
+    const std::string name(kRayLookNames[i]);
+    const float width =
+        side + ImGui::CalcTextSize(name.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+    if (!first) {
+      ImGui::SameLine();
+      if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    }
+    first = false;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 end(at.x + 0.7f * side, at.y + side);
+    ImGui::GetWindowDrawList()->AddRectFilled(at, end, colorOf(look));
+    ImGui::GetWindowDrawList()->AddRect(at, end, IM_COL32(160, 160, 160, 255));
+    ImGui::Dummy(ImVec2(0.7f * side, side));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(name.c_str());
   }
 }
 
@@ -45,6 +69,7 @@ class RayTreeTab {
   void draw() {
     drawPixel();
     drawButtons();
+    if (view_.lines) drawLegend(pick_.lines);
     view_.pointedAt = kNoCounterpart;
     const float height = std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetFontSize());
     ImGui::BeginChild("tree", ImVec2(0, height), false, ImGuiWindowFlags_HorizontalScrollbar);
@@ -144,6 +169,7 @@ class RayTreeTab {
     }
     drawEnd("reflection", n.reflectionEnd);
     drawEnd("refraction", n.refractionEnd);
+    drawEnd("indirect light", n.indirectEnd);
     if (words.parting.empty()) return;
     ImGui::TextColored(ImVec4(1, 0.75f, 0.3f, 1), "here the reference parts: %s",
                        words.parting.c_str());
@@ -232,7 +258,7 @@ void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view
     if (!at || !clip(*at, double{window.x}, double{window.y})) return;
     const auto width = static_cast<float>(line.width + extra);
     const ImU32 color = colorOf(line.look);
-    if (line.look == RayLook::lit || line.look == RayLook::blocked) {
+    if (isShadowLook(line.look)) {
       drawDashed(list, *at, color, width + 0.5f);
       return;
     }

@@ -61,6 +61,8 @@ const char* nameOf(PathEnd end) {
       return "depth";
     case PathEnd::cutoff:
       return "cutoff";
+    case PathEnd::roulette:
+      return "roulette";
     case PathEnd::totalReflection:
       return "total reflection";
     case PathEnd::none:

@@ -141,6 +141,7 @@ class TreeText {
     }
     appendEnd(n, "reflection", n.reflectionEnd);
     appendEnd(n, "refraction", n.refractionEnd);
+    appendEnd(n, "indirect light", n.indirectEnd);
   }
 
   void appendEnd(const RayNode& n, const char* what, PathEnd end) {
@@ -227,7 +228,8 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
     for (const LightContribution& light : n.lights)
       json["lights"].push_back(lightJson(scene, light));
     json["ends"] = {{"reflection", nameOf(n.reflectionEnd)},
-                    {"refraction", nameOf(n.refractionEnd)}};
+                    {"refraction", nameOf(n.refractionEnd)},
+                    {"indirect", nameOf(n.indirectEnd)}};
   }
   json["children"] = Json::array();
   for (const std::size_t child : n.children) {

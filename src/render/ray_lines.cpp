@@ -23,18 +23,30 @@ Box extentOf(const RayTree& tree) {
 
 double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
 
+RayLook lookOf(const LightContribution& light) {
+  if (light.light == kAmbientLight) return light.visible ? RayLook::open : RayLook::occluded;
+  return light.visible ? RayLook::lit : RayLook::blocked;
+}
+
+}  // namespace
+
 RayLook lookOf(RayKind kind) {
   switch (kind) {
+    case RayKind::primary:
+      return RayLook::primary;
     case RayKind::reflection:
       return RayLook::reflection;
     case RayKind::refraction:
       return RayLook::refraction;
-    default:
-      return RayLook::primary;
+    case RayKind::indirect:
+      return RayLook::indirect;
+    case RayKind::shadow:
+      return RayLook::lit;
+    case RayKind::occlusion:
+      return RayLook::open;
   }
+  return RayLook::primary;
 }
-
-}  // namespace
 
 std::vector<RayLine> linesOf(const RayTree& tree) {
   constexpr double kShownOfEndless = 0.2, kWidest = 2.5, kNarrowest = 0.4, kShadow = 0.5;
@@ -46,8 +58,8 @@ std::vector<RayLine> linesOf(const RayTree& tree) {
     const double width = kNarrowest + (kWidest - kNarrowest) * std::sqrt(std::max(weight, 0.0));
     for (const LightContribution& light : n.lights) {
       if (!light.traced) continue;
-      lines.push_back({light.origin, light.origin + light.toLight,
-                       light.visible ? RayLook::lit : RayLook::blocked, i, width * kShadow});
+      lines.push_back(
+          {light.origin, light.origin + light.toLight, lookOf(light), i, width * kShadow});
     }
     const bool ends = n.triangle != kMiss;
     const Vec3d end = ends ? n.position : n.origin + n.direction * (kShownOfEndless * extent);

@@ -4,16 +4,30 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "render/ray_tree.h"
 
 namespace whit {
 
-// What a line stands for: a ray of that kind, or a shadow ray that reaches its light or does not.
-enum class RayLook { primary, reflection, refraction, lit, blocked };
-inline constexpr std::array<std::array<std::uint8_t, 3>, 5> kRayColors{
-    {{255, 255, 255}, {255, 64, 64}, {64, 160, 255}, {255, 224, 64}, {0, 0, 0}}};
+// What a line stands for: a ray of that kind, a shadow ray that reaches its light or does not, or a
+// ray that finds ambient light open or occluded.
+enum class RayLook { primary, reflection, refraction, indirect, lit, blocked, open, occluded };
+inline constexpr std::size_t kRayLookCount = 8;
+inline constexpr std::array<std::string_view, kRayLookCount> kRayLookNames{
+    "primary", "reflection", "refraction", "indirect", "lit", "in shadow", "open", "occluded"};
+inline constexpr std::array<std::array<std::uint8_t, 3>, kRayLookCount> kRayColors{{{255, 255, 255},
+                                                                                    {255, 64, 64},
+                                                                                    {64, 160, 255},
+                                                                                    {64, 224, 96},
+                                                                                    {255, 224, 64},
+                                                                                    {0, 0, 0},
+                                                                                    {240, 128, 255},
+                                                                                    {112, 0, 144}}};
+RayLook lookOf(RayKind kind);
+// Of rays that only ask whether something is in between; they are drawn dashed.
+constexpr bool isShadowLook(RayLook look) { return look >= RayLook::lit; }
 
 struct RayLine {
   Vec3d from, to;

@@ -201,6 +201,7 @@ bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
 struct Wanted {
   reference::Impulses impulses;
   reference::Crossing crossing;
+  bool indirect = false;
 };
 Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
                 const RayNode& n) {
@@ -210,8 +211,16 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
   const reference::Crossing crossing = reference::crossMedia(
       scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
+  const bool indirect = plan.effects.has(Effect::indirect) && !crossing.hidden &&
+                        maxComponent(surfel.diffuse * surfel.coverage) > 0;
   return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
-          crossing};
+          crossing, indirect};
+}
+
+// Of what the surface would send on, and does not.
+PathEnd endOf(const RenderOptions& options, const RayNode& n) {
+  if (n.depth >= options.depth) return PathEnd::depth;
+  return options.roulette > 0 ? PathEnd::roulette : PathEnd::cutoff;
 }
 
 void explainEnds(const Renderer& renderer, RayTree& tree) {
@@ -219,11 +228,12 @@ void explainEnds(const Renderer& renderer, RayTree& tree) {
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
     const Wanted wanted = wantedOf(renderer.scene(), renderer.plan(), options, n);
-    const PathEnd end = n.depth >= options.depth ? PathEnd::depth : PathEnd::cutoff;
+    const PathEnd end = endOf(options, n);
     const auto isWanted = [](const reference::Impulse& i) { return maxComponent(i.weight) > 0; };
     if (isWanted(wanted.impulses.reflected) && !sends(tree, n, RayKind::reflection)) {
       n.reflectionEnd = end;
     }
+    if (wanted.indirect && !sends(tree, n, RayKind::indirect)) n.indirectEnd = end;
     if (sends(tree, n, RayKind::refraction)) continue;
     if (isWanted(wanted.impulses.refracted)) {
       n.refractionEnd = end;

@@ -24,7 +24,7 @@ struct LightContribution {
 };
 
 // Why a surface sends on less than its material would.
-enum class PathEnd { none, depth, cutoff, totalReflection };
+enum class PathEnd { none, depth, cutoff, roulette, totalReflection };
 
 struct RayNode {
   RayKind kind = RayKind::primary;
@@ -45,6 +45,7 @@ struct RayNode {
   RgbD local;     // of emission, ambient and lights
   RgbD radiance;  // with what its children brought back
   PathEnd reflectionEnd = PathEnd::none, refractionEnd = PathEnd::none;
+  PathEnd indirectEnd = PathEnd::none;  // where none of the samples goes on
   std::vector<std::size_t> children;
 };
 

@@ -45,6 +45,23 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_NE(drawing.find("</svg>"), std::string::npos);
 }
 
+// The room is closed: each path of light between its walls ends by chance, by no other cause.
+TEST(Explain, SaysThatRouletteEndsAPath) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      runWhit({"explain", "cornell", "--size", "24x24", "--pixel", "3,12", "--indirect", "4",
+               "--roulette", "1", "--least", "0", "--json", folder / "rays.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("no indirect light: roulette\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("cutoff"), std::string::npos) << outcome.out;
+  const std::string json = readFile(folder / "rays.json");
+  EXPECT_NE(json.find("\"roulette\""), std::string::npos);
+  EXPECT_EQ(json.find("\"cutoff\""), std::string::npos);
+  const nlohmann::json first = nlohmann::json::parse(json)["packets"]["samples"][0];
+  for (const char* what : {"reflection", "refraction", "indirect"})
+    EXPECT_TRUE(first["ends"].contains(what)) << what;
+}
+
 TEST(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
   const auto said = [](const char* least) {
     return runWhit({"explain", "whitted", "--size", "96x60", "--pixel", "30,20", "--spp", "2",

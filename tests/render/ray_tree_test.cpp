@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "render/row_of_tiles.h"
@@ -63,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                                          "glossy"),
                          nameOfScene);
 
-// A mirror sees a wall that glows.
-Scene mirrorAndWall() {
+// A surface before a wall that glows.
+Scene surfaceAndWall(const Material& surface) {
   SceneBuilder builder;
   const auto wallAt = [&](float z, const Material& material) {
     Mesh wall;
@@ -73,14 +74,14 @@ Scene mirrorAndWall() {
     wall.materials = {builder.add(material)};
     builder.add(std::move(wall));
   };
-  wallAt(0, mirrorMaterial(0.5f));
+  wallAt(0, surface);
   wallAt(4, emittingMaterial(0.8f));
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
   return builder.build();
 }
 
 TEST(RayTree, OfAMirror) {
-  const Scene scene = mirrorAndWall();
+  const Scene scene = surfaceAndWall(mirrorMaterial(0.5f));
   RenderOptions options;
   options.size = ImageSize{9, 9};
   Renderer renderer(scene, options);
@@ -108,7 +109,7 @@ TEST(RayTree, OfAMirror) {
 }
 
 TEST(RayTree, SaysWhyPathsEnd) {
-  const Scene scene = mirrorAndWall();
+  const Scene scene = surfaceAndWall(mirrorMaterial(0.5f));
   RenderOptions options;
   options.size = ImageSize{9, 9};
   const auto endWith = [&] {
@@ -121,6 +122,56 @@ TEST(RayTree, SaysWhyPathsEnd) {
   options.depth = 8;
   options.cutoff = 0.6f;
   EXPECT_EQ(endWith(), PathEnd::cutoff);
+}
+
+// How often paths end so, of the first surfaces that 81 pixels show.
+std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options,
+                              PathEnd RayNode::*end, RayKind kind) {
+  Renderer renderer(scene, options);
+  const Film film = makeFilm(scene, options);
+  std::map<PathEnd, int> ends;
+  for (int i = 0; i < 81; ++i) {
+    const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, i % 9, i / 9);
+    const RayNode& first = tree.nodes[0];
+    if (first.triangle == kMiss) continue;
+    ++ends[first.*end];
+    const bool goesOn =
+        std::any_of(first.children.begin(), first.children.end(),
+                    [&](std::size_t child) { return tree.nodes[child].kind == kind; });
+    EXPECT_EQ(goesOn, first.*end == PathEnd::none);
+  }
+  return ends;
+}
+
+// Half of the paths go on: a mirror reflects half, a wall is half white.
+TEST(RayTree, SaysThatRouletteEndsPaths) {
+  RenderOptions options;
+  options.size = ImageSize{9, 9};
+  options.roulette = 1;
+  auto mirrored = endsIn(surfaceAndWall(mirrorMaterial(0.5f)), options, &RayNode::reflectionEnd,
+                         RayKind::reflection);
+  EXPECT_EQ(mirrored.size(), 2u);
+  EXPECT_GT(mirrored[PathEnd::none], 10);
+  EXPECT_GT(mirrored[PathEnd::roulette], 10);
+
+  const Scene wall = surfaceAndWall(diffuseMaterial(0.5f));
+  options.indirect = 1;
+  auto scattered = endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect);
+  EXPECT_EQ(scattered.size(), 2u);
+  EXPECT_GT(scattered[PathEnd::none], 10);
+  EXPECT_GT(scattered[PathEnd::roulette], 10);
+  options.roulette = 0;
+  EXPECT_EQ(endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect).count(PathEnd::none),
+            1u);
+  options.depth = 0;
+  scattered = endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect);
+  EXPECT_EQ(scattered.size(), 1u);
+  EXPECT_EQ(scattered.count(PathEnd::depth), 1u);
+  options.indirect = 0;
+  Renderer renderer(wall, options);
+  const Film film = makeFilm(wall, options);
+  const RayTree unasked = traceRayTree(renderer, chooseCamera(wall, options), film, 4, 4);
+  EXPECT_EQ(unasked.nodes[0].indirectEnd, PathEnd::none);
 }
 
 }  // namespace
