@@ -21,15 +21,21 @@ namespace {
 struct Input {
   std::string scene;
   bool terminator = false;
-  int glossy = 0;
+  int glossy = 0, indirect = 0, ambientSamples = 0;
 };
-const std::array kInputs{Input{"atrium"}, Input{"glass"}, Input{"atrium", true},
-                         Input{"glossy", false, 4}};
+const std::array kInputs{Input{"atrium"},
+                         Input{"glass"},
+                         Input{"atrium", true},
+                         Input{"glossy", false, 4},
+                         Input{"cornell", false, 0, 4},
+                         Input{"cornell", false, 0, 0, 4}};
 
 RenderOptions optionsOf(const Input& input) {
   RenderOptions options;
   options.shading.terminator = input.terminator;
   options.glossy = input.glossy;
+  options.indirect = input.indirect;
+  options.ambientSamples = input.ambientSamples;
   return options;
 }
 
