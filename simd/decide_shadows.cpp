@@ -1,5 +1,6 @@
 // Shadow rays whose verdict is known (stages/verdict_view.h) need not be traced.
 #include <atomic>
+#include <bit>
 
 #include "core/pixel.h"
 #include "simd/kernels.h"
@@ -186,20 +187,28 @@ HWY_INLINE void LookUpParts(const VerdictView& view, size_t count, LookUps& look
   }
 }
 
+constexpr int ShiftFor(int powerOfTwo) {
+  return std::countr_zero(static_cast<unsigned>(powerOfTwo));
+}
+
 HWY_INLINE void LookUpCells(const VerdictView& view, size_t count, LookUps& looked) {
   const IntTag di;
   const UintTag du;
+  constexpr int kPlaceShift = ShiftFor(kWordsAPlace), kRowShift = ShiftFor(kWordsARow),
+                kCellShift = ShiftFor(kCellsAWord);
   const VI three = hn::Set(di, kMixed);
   for (size_t at = 0; at < count; at += hn::Lanes(di)) {
     const VI word = hn::Load(di, looked.word + at);
     const auto divided = hn::Gt(word, three);
     if (hn::AllFalse(di, divided)) continue;
     const VI place = hn::Sub(hn::ShiftRight<2>(word), hn::Set(di, 1));
-    const VI row = hn::Add(hn::Mul(place, hn::Set(di, kCellsASide)), hn::Load(di, looked.row + at));
-    const VU bits = hn::BitCast(du, GatherWord(view.cells, hn::IfThenElseZero(divided, row)));
-    const VI cell = hn::Load(di, looked.cell + at);
+    const VI row = hn::Load(di, looked.row + at), cell = hn::Load(di, looked.cell + at);
+    const VI rows = hn::Add(hn::ShiftLeft<kPlaceShift>(place), hn::ShiftLeft<kRowShift>(row));
+    const VI index = hn::Add(rows, hn::ShiftRight<kCellShift>(cell));
+    const VU bits = hn::BitCast(du, GatherWord(view.cells, hn::IfThenElseZero(divided, index)));
+    const VI inWord = hn::And(cell, hn::Set(di, kCellsAWord - 1));
     const VI verdict =
-        hn::And(hn::BitCast(di, hn::Shr(bits, hn::BitCast(du, hn::Add(cell, cell)))), three);
+        hn::And(hn::BitCast(di, hn::Shr(bits, hn::BitCast(du, hn::Add(inWord, inWord)))), three);
     hn::Store(hn::IfThenElse(divided, verdict, word), di, looked.word + at);
   }
 }

@@ -16,7 +16,10 @@ enum class Verdict : std::uint32_t {
   mixed
 };
 
-inline constexpr int kCellsASide = 16;
+inline constexpr int kCellsASide = 32;
+// How they are stored, two bits each.
+inline constexpr int kCellsAWord = 16, kWordsARow = kCellsASide / kCellsAWord,
+                     kWordsAPlace = kCellsASide * kWordsARow;
 // Triangles that have no parts: spheres, what is instanced.
 inline constexpr std::uint32_t kNoParts = 0xffffffffu;
 // The last so many bits of a triangle's word say how many parts it has a side, as a power of two.
@@ -41,7 +44,7 @@ struct VerdictView {
   // A word a part, row by row of the second weight: a Verdict, or from 4 on the place of its cells,
   // shifted by two, plus 4.
   const std::uint32_t* parts = nullptr;
-  // kCellsASide words a place, a row of cells each, two bits a Verdict.
+  // kWordsAPlace words a place, a row of cells after the other, two bits a Verdict.
   const std::uint32_t* cells = nullptr;
   // A byte a part: how many rays have missed its verdict, 255 and more alike, and less where
   // workers count at once. Written while frames are traced, by any worker.

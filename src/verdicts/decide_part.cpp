@@ -249,8 +249,9 @@ class PartDecider {
   Verdict set(int side, int column, int row, Verdict verdict) {
     for (int y = row; y < row + side; ++y) {
       for (int x = column; x < column + side; ++x) {
-        result_.cells[static_cast<std::size_t>(y)] |= static_cast<std::uint32_t>(verdict)
-                                                      << (2 * x);
+        const int word = y * kWordsARow + x / kCellsAWord;
+        result_.cells[static_cast<std::size_t>(word)] |= static_cast<std::uint32_t>(verdict)
+                                                         << (2 * (x % kCellsAWord));
       }
     }
     return verdict;

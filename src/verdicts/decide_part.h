@@ -12,7 +12,7 @@ namespace whit {
 struct PartVerdict {
   Verdict whole = Verdict::unknown;
   bool divided = false;
-  std::array<std::uint32_t, kCellsASide> cells{};  // as VerdictView::cells
+  std::array<std::uint32_t, kWordsAPlace> cells{};  // as VerdictView::cells
   bool known() const { return divided || whole != Verdict::unknown; }
 };
 

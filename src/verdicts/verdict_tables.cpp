@@ -18,9 +18,10 @@ constexpr std::size_t kMostParts = std::size_t{1} << 21;
 constexpr int kMostPartsASide = 256;
 // Beyond it squares of squares leave the range of a float, or fall below it.
 constexpr float kLargest = 0x1p24f;
-// A cell is no finer than this part of the scene's size, which is about a pixel's where a view
-// shows all of it.
-constexpr double kFinestCell = 0x1p-13;
+// Triangles are divided into parts whose cells are no finer than this part of the scene's size,
+// which is about a pixel's where a view shows all of it. Parts of small triangles have finer ones,
+// down to this share of it.
+constexpr double kFinestCell = 0x1p-13, kFinestInParts = 0x1p-3;
 
 // Rays between two such points are taken by Embree, in an instance's space as well (their
 // coordinates and directions sum up to less).
@@ -82,7 +83,7 @@ VerdictParts VerdictParts::of(const Scene& scene) {
     cell *= 2;
   } while (total > kMostParts);
   cell /= 2;
-  parts.cell = cell / 2;
+  parts.finest = cell * kFinestInParts;
   parts.first.assign(scene.triangles.size(), kNoParts);
   parts.owner.reserve(total);
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +106,7 @@ struct VerdictTables::OfLight {
         parts(partCount),
         wanted(partCount) {
     // Kernels may look up where nothing is yet.
-    cells.resize(kCellsASide);
+    cells.resize(kWordsAPlace);
     mostCells = most;
   }
 
@@ -124,7 +125,7 @@ struct VerdictTables::OfLight {
   }
   void forget() {
     tree.reset();
-    cells.resize(kCellsASide);
+    cells.resize(kWordsAPlace);
     std::fill(triangles.begin(), triangles.end(), 0);
     std::fill(parts.begin(), parts.end(), 0);
     std::fill(wanted.begin(), wanted.end(), std::uint8_t{0});
@@ -134,7 +135,7 @@ struct VerdictTables::OfLight {
   void keep(std::uint32_t part, const PartVerdict& verdict) {
     wanted[part] = 0;
     ++seen;
-    const std::size_t place = cells.size() / kCellsASide;
+    const std::size_t place = cells.size() / kWordsAPlace;
     if (verdict.divided && place < mostCells) {
       cells.insert(cells.end(), verdict.cells.begin(), verdict.cells.end());
       parts[part] = static_cast<std::uint32_t>(place + 1) << 2;
@@ -188,7 +189,7 @@ VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>&
   const std::uint64_t fixed =
       OfLight::fixedBytes(scene.triangles.size(), parts_.count(), casters_->casters.size());
   if (fixed > each) return;
-  const std::size_t mostCells = (each - fixed) / (kCellsASide * sizeof(std::uint32_t));
+  const std::size_t mostCells = (each - fixed) / (kWordsAPlace * sizeof(std::uint32_t));
   for (const std::size_t number : lights) {
     lights_.push_back(std::make_unique<OfLight>(scene.lights[number], number,
                                                 scene.triangles.size(), parts_.count(), mostCells));
@@ -274,7 +275,7 @@ PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,
   const double width = 1.0 / side;
   const std::uint32_t column = at % side, row = at / side;
   const WeightSquare square{width * column, width * row, width};
-  return decidePart({scene_, *casters_, *light.tree, light.point, kernels, parts_.cell}, triangle,
+  return decidePart({scene_, *casters_, *light.tree, light.point, kernels, parts_.finest}, triangle,
                     square, scratch);
 }
 

@@ -24,7 +24,7 @@ namespace whit {
 struct VerdictParts {
   HugeVector<std::uint32_t> first;   // VerdictView::first, of all triangles
   std::vector<std::uint32_t> owner;  // of each part, its triangle
-  double cell = 0;                   // as long as a cell's edge shall be, at least
+  double finest = 0;                 // cells with edges of no more are not divided
   std::size_t count() const { return owner.size(); }
 
   // None where the scene has too many triangles, or coordinates that proofs do not reach: its own,

@@ -67,8 +67,9 @@ class MadeUp {
       const float side = sideOf(slot) * kCellsASide;
       const auto column = static_cast<std::uint32_t>(hits_->u[slot] * side) % kCellsASide;
       const auto row = static_cast<std::uint32_t>(hits_->v[slot] * side) % kCellsASide;
-      verdict = static_cast<Verdict>(
-          tables_.cells[((word >> 2) - 1) * kCellsASide + row] >> (2 * column) & 3);
+      const std::uint32_t at =
+          ((word >> 2) - 1) * kWordsAPlace + row * kWordsARow + column / kCellsAWord;
+      verdict = static_cast<Verdict>(tables_.cells[at] >> (2 * (column % kCellsAWord)) & 3);
     }
     return near || verdict == Verdict::unknown ? verdict : Verdict::mixed;
   }
@@ -145,7 +146,7 @@ class MadeUp {
       for (unsigned k = 0; k < parts; ++k) tables_.parts.push_back(makePart(i, k));
       sumUp(i, parts);
     }
-    for (std::uint32_t i = 0; i < kPlaces * kCellsASide; ++i) {
+    for (std::uint32_t i = 0; i < kPlaces * kWordsAPlace; ++i) {
       tables_.cells.push_back(static_cast<std::uint32_t>(random_()));
     }
   }
