@@ -2,6 +2,8 @@
 // no tiles, no variants; independent of the kernels.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "sampling/pixel_edges.h"
 #include "scene/mip_maps.h"
 #include "scene/scene.h"
+#include "stages/stage.h"
 
 namespace whit::reference {
 
@@ -23,16 +26,19 @@ struct Settings {
   int threads = 1;                       // whatever the options say
 };
 
-struct RayCounts {
-  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0, indirect = 0,
-                occlusion = 0;
+// Rays traced, by their kind.
+class RayCounts {
+ public:
+  std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
 
   RayCounts& operator+=(const RayCounts& b) {
-    primary += b.primary, shadow += b.shadow;
-    reflection += b.reflection, refraction += b.refraction;
-    indirect += b.indirect, occlusion += b.occlusion;
+    for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];
     return *this;
   }
+
+ private:
+  std::array<std::uint64_t, kRayKindCount> counts_{};
 };
 
 struct Impulse;

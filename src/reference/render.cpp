@@ -144,7 +144,7 @@ RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) 
 
 RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                      RayCounts& counts) const {
-  ++counts.primary;
+  ++counts[RayKind::primary];
   const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
   const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
   return traceImpulse(ray, 0, 1.0, media, counts, pathOf(x, y, sample));

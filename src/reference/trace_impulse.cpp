@@ -21,13 +21,6 @@ Path childOf(const Path& path, std::uint32_t branch) {
   return {childStream(path.number, branch), path.sample};
 }
 
-// Of the kinds that impulses are of.
-std::uint64_t& countOf(RayCounts& counts, RayKind kind) {
-  return kind == RayKind::reflection   ? counts.reflection
-         : kind == RayKind::refraction ? counts.refraction
-                                       : counts.indirect;
-}
-
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
@@ -152,7 +145,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
   if (!(largest > 0 && survives(options_, contribution, path.number))) return {};
-  ++countOf(counts, kind);
+  ++counts[kind];
   const double grows = growthOfSurvivors(options_, contribution);
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
   intersector_.began(followed, kind);
@@ -172,7 +165,7 @@ RgbD Tracer::radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& cou
     const LightArrival arrival = ambientArrival(scene_, effects_, surfel, options_.shading,
                                                 lightPoint(path.number, points, kAmbientLight, k));
     if (!(maxComponent(arrival.radiance) > 0)) continue;
-    ++counts.occlusion;
+    ++counts[RayKind::occlusion];
     if (isVisible(intersector_, arrival.shadowRay, arrival.tFar)) sum += arrival.radiance;
   }
   return sum / points.count;
@@ -195,7 +188,7 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughp
       const double largest = maxComponent(arrival.radiance);
       if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
       if (effects_.has(Effect::shadows)) {
-        ++counts.shadow;
+        ++counts[RayKind::shadow];
         if (!isVisible(intersector_, arrival.shadowRay, arrival.tFar)) continue;
       }
       sum += points.count == 1 ? arrival.radiance : arrival.radiance / points.count;

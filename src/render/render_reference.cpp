@@ -43,9 +43,10 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
   FrameStats stats;
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
-  const std::uint64_t rays[] = {counts.primary,    counts.shadow,   counts.reflection,
-                                counts.refraction, counts.indirect, counts.occlusion};
-  for (std::size_t k = 0; k < kRayKindCount; ++k) stats.meter.tally[k] = {rays[k], rays[k]};
+  for (std::size_t k = 0; k < kRayKindCount; ++k) {
+    const std::uint64_t rays = counts[static_cast<RayKind>(k)];
+    stats.meter.tally[k] = {rays, rays};
+  }
   for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
   return stats;
 }

@@ -159,7 +159,7 @@ TEST_F(HallOfMirrors, PerfectMirrorsCountTheDepth) {
     RayCounts counts;
     const RgbD seen = radianceAlong(scene, eye_, direction_, test::uncut(depth), &counts);
     EXPECT_EQ(seen, RgbD(depth + 1.0));
-    EXPECT_EQ(counts.reflection, static_cast<std::uint64_t>(depth));
+    EXPECT_EQ(counts[RayKind::reflection], static_cast<std::uint64_t>(depth));
   }
 }
 
@@ -182,7 +182,7 @@ TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
     settings.options.cutoff = cutoff;
     RayCounts counts;
     const double seen = radianceAlong(scene, eye_, direction_, settings, &counts).x;
-    EXPECT_EQ(counts.reflection, reflections) << cutoff;
+    EXPECT_EQ(counts[RayKind::reflection], reflections) << cutoff;
     return seen;
   };
   EXPECT_EQ(seenWith(0.1f, 3), 1.875);
@@ -209,7 +209,7 @@ TEST_F(HallOfMirrors, DisabledMirrorsReflectNothing) {
   settings.effects = EffectSet::all().without(Effect::mirror);
   RayCounts counts;
   EXPECT_EQ(radianceAlong(hall(1), eye_, direction_, settings, &counts), RgbD(1.0));
-  EXPECT_EQ(counts.reflection, 0u);
+  EXPECT_EQ(counts[RayKind::reflection], 0u);
 }
 
 // Down onto a mirror of 0.5 that a ray of throughput 0.25 has met.

@@ -39,8 +39,8 @@ SampleMean openShareAt(const Scene& scene, double x, const Settings& settings = 
   for (std::uint32_t path = 0; path < kPaths; ++path) {
     RayCounts counts;
     mean.add(tracer.traceImpulse({{x, 1e-3, 0}, {0, -1, 0}}, 0, 1, 0, counts, {mixed(path), 0}).x);
-    EXPECT_EQ(counts.occlusion, static_cast<unsigned>(settings.options.ambientSamples));
-    EXPECT_EQ(counts.shadow, 0u);
+    EXPECT_EQ(counts[RayKind::occlusion], static_cast<unsigned>(settings.options.ambientSamples));
+    EXPECT_EQ(counts[RayKind::shadow], 0u);
   }
   return mean;
 }
@@ -95,7 +95,7 @@ TEST(AmbientOcclusion, IsTheConstantWithoutRaysOrRadius) {
     Settings settings = occluded(radius > 0 ? 0 : 4);
     RayCounts counts;
     EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings, &counts), RgbD(1.0));
-    EXPECT_EQ(counts.occlusion, 0u);
+    EXPECT_EQ(counts[RayKind::occlusion], 0u);
     settings = occluded(4);
     settings.effects = settings.effects.without(Effect::ambientOcclusion);
     EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings), RgbD(1.0));

@@ -193,7 +193,7 @@ TEST(IndexOne, IsInvisible) {
     RayCounts counts;
     EXPECT_EQ(radianceAlong(scene, eye, towards, test::uncut(), &counts),
               skyRadiance(scene.sky, normalized(towards)));
-    EXPECT_EQ(counts.reflection, 0u);
+    EXPECT_EQ(counts[RayKind::reflection], 0u);
   }
 }
 
@@ -210,8 +210,8 @@ TEST(Hidden, SurfacesAreNotThere) {
   RayCounts counts;
   const RgbD seen = radianceAlong(builder.build(), {0, 2, 0}, steep(30), test::uncut(), &counts);
   EXPECT_EQ(seen, RgbD(0.25));
-  EXPECT_EQ(counts.refraction, 4u);
-  EXPECT_EQ(counts.reflection, 0u);
+  EXPECT_EQ(counts[RayKind::refraction], 4u);
+  EXPECT_EQ(counts[RayKind::reflection], 0u);
 }
 
 TEST(Transmission, DisabledMeansOpaque) {
@@ -223,7 +223,7 @@ TEST(Transmission, DisabledMeansOpaque) {
   settings.effects = EffectSet::all().without(Effect::transmission);
   RayCounts counts;
   EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
-  EXPECT_EQ(counts.refraction + counts.reflection, 0u);
+  EXPECT_EQ(counts[RayKind::refraction] + counts[RayKind::reflection], 0u);
   settings.effects = EffectSet::all().without(Effect::mirror);
   const double transmitted = radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings).x;
   EXPECT_NEAR(transmitted, 0.96 * 0.96, 1e-14) << "without reflections only the straight way";

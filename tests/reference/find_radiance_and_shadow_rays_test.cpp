@@ -47,9 +47,9 @@ TEST(Lights, FallOffOverAFloor) {
       EXPECT_NEAR(image.at(x, y).x, expected, 1e-7 * expected) << x << ", " << y;
     }
   }
-  EXPECT_EQ(counts.primary, 63u);
-  EXPECT_EQ(counts.shadow, 63u);
-  EXPECT_EQ(counts.reflection + counts.refraction, 0u);
+  EXPECT_EQ(counts[RayKind::primary], 63u);
+  EXPECT_EQ(counts[RayKind::shadow], 63u);
+  EXPECT_EQ(counts[RayKind::reflection] + counts[RayKind::refraction], 0u);
 }
 
 // Hard case H65: near the light its radius bounds the radiance; at the light there is none.
@@ -75,7 +75,7 @@ TEST(Lights, BehindTheSurfaceGiveNothing) {
   const Scene scene = builder.build();
   RayCounts counts;
   EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, test::uncut(), &counts), RgbD());
-  EXPECT_EQ(counts.shadow, 0u) << "nothing to look for";
+  EXPECT_EQ(counts[RayKind::shadow], 0u) << "nothing to look for";
   EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
 }
 
@@ -128,7 +128,7 @@ TEST_F(SpotLight, IsAPointLightInsideItsInnerConeAndDarkOutsideTheOuterOne) {
   for (const double angle : {40.001, 60.0, 80.0}) {
     RayCounts counts;
     EXPECT_EQ(seenAt(light, angle, EffectSet::all(), &counts), 0) << angle;
-    EXPECT_EQ(counts.shadow, 0u) << "nothing to look for";
+    EXPECT_EQ(counts[RayKind::shadow], 0u) << "nothing to look for";
   }
 }
 
@@ -198,7 +198,7 @@ TEST(DirectionalLight, H67_givesNothingFromTheHorizonOrBelow) {
   builder.description.lights = {sun({1, 0, 0}, 1), sun({0, 1, 0}, 1), sun({1, 1e-30f, 0}, 1)};
   RayCounts counts;
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, test::uncut(), &counts), RgbD());
-  EXPECT_EQ(counts.shadow, 0u);
+  EXPECT_EQ(counts[RayKind::shadow], 0u);
 }
 
 TEST(DirectionalLight, HasAHighlight) {

@@ -162,7 +162,8 @@ TEST(Absorption, ShortensPathsThroughTheCutoff) {
   settings.options.cutoff = 1e-3f;
   RayCounts counts;
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, settings, &counts), RgbD());
-  EXPECT_EQ(counts.refraction, 1u) << "exp(-10) is below the cutoff: the way out is not traced";
+  EXPECT_EQ(counts[RayKind::refraction], 1u)
+      << "exp(-10) is below the cutoff: the way out is not traced";
 }
 
 }  // namespace

@@ -225,8 +225,8 @@ TEST(GlossyScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
       const double albedo = quadrature(surfel(alpha, 0.5, std::cos(degrees * kPi / 180)));
       // 0.03: what 64 points leave of weights that vary by 0.3, twice.
       EXPECT_NEAR(seen.x, 2 * albedo, 0.03) << roughness << ' ' << degrees;
-      EXPECT_LE(counts.reflection, 64u);
-      EXPECT_GT(counts.reflection, 30u);  // the others end in the floor
+      EXPECT_LE(counts[RayKind::reflection], 64u);
+      EXPECT_GT(counts[RayKind::reflection], 30u);  // the others end in the floor
     }
   }
 }
@@ -241,7 +241,7 @@ TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNothingIsReflected) {
   Settings disabled = sampled(8);
   disabled.effects = disabled.effects.without(Effect::glossyReflection);
   EXPECT_EQ(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), disabled, &counts), RgbD());
-  EXPECT_EQ(counts.reflection, 0u);
+  EXPECT_EQ(counts[RayKind::reflection], 0u);
 }
 
 // Between two rough plates: N rays leave the first surface, one ray each of those that follow.
@@ -256,8 +256,8 @@ TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
     settings.options.depth = depth;
     RayCounts counts;
     test::radianceAlong(scene, {0, 1, 0}, test::steep(20), settings, &counts);
-    EXPECT_LE(counts.reflection, 16u * static_cast<unsigned>(depth));
-    EXPECT_GT(counts.reflection, 16u * static_cast<unsigned>(depth) * 3 / 4);
+    EXPECT_LE(counts[RayKind::reflection], 16u * static_cast<unsigned>(depth));
+    EXPECT_GT(counts[RayKind::reflection], 16u * static_cast<unsigned>(depth) * 3 / 4);
   }
 }
 
@@ -273,7 +273,7 @@ TEST(GlossyScenes, AMaterialMayKeepItsLobeForLights) {
   const RgbD seen =
       test::radianceAlong(builder.build(), {0, 1, 0}, test::steep(30), sampled(8), &counts);
   EXPECT_NEAR(seen.x, 0.5, 1e-12);
-  EXPECT_EQ(counts.reflection, 1u);
+  EXPECT_EQ(counts[RayKind::reflection], 1u);
 }
 
 // How many samples there are does not decide which rays are worth tracing.
@@ -286,7 +286,7 @@ TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
   settings.options.cutoff = 0.01f;  // between the weight of the lobe and that of one of its samples
   RayCounts counts;
   test::radianceAlong(scene, {0, 1, 0}, test::steep(5), settings, &counts);
-  EXPECT_GT(counts.reflection, 32u);
+  EXPECT_GT(counts[RayKind::reflection], 32u);
 }
 
 TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {

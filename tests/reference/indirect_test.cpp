@@ -147,7 +147,7 @@ TEST(IndirectFurnace, IsTheGeometricSeriesUnderRouletteToo) {
       const double tail = std::pow(rho, kDepthLimit + 1);
       EXPECT_NEAR(mean.value(), (1 - tail) / (1 - rho), 3 * mean.error()) << albedo;
       EXPECT_GT(mean.error(), 0);
-      EXPECT_LT(looking.counts.indirect, 4000u * 40);
+      EXPECT_LT(looking.counts[RayKind::indirect], 4000u * 40);
     }
   }
 }
@@ -161,7 +161,7 @@ TEST(IndirectScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
   for (const double degrees : {0.0, 10.0, 60.0}) {
     EXPECT_NEAR(looking.along({0, 1, 0}, test::steep(degrees), 1).x, 1, 1e-12);
   }
-  EXPECT_EQ(looking.counts.indirect, 3u * 16);
+  EXPECT_EQ(looking.counts[RayKind::indirect], 3u * 16);
 }
 
 // Half of the sky is hidden by a wall that does not end: seen from its foot.
@@ -351,7 +351,7 @@ TEST(IndirectScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   for (const int depth : {1, 3}) {
     Looking looking(scene, indirect(16, depth));
     looking.along({0, 0, 0}, {1, 2, 3}, 1);
-    EXPECT_EQ(looking.counts.indirect, 16u * static_cast<unsigned>(depth));
+    EXPECT_EQ(looking.counts[RayKind::indirect], 16u * static_cast<unsigned>(depth));
   }
 }
 

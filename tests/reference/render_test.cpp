@@ -63,18 +63,18 @@ TEST(Render, DoesNotDependOnThreads) {
   settings.options.spp = 2;
   Image one(40, 25);
   const RayCounts counts = render(scene, bruteForce, scene.cameras[0], settings, one);
-  EXPECT_EQ(counts.primary, 2000u);
-  EXPECT_GT(counts.shadow, 0u);
-  EXPECT_GT(counts.reflection, 0u);
-  EXPECT_GT(counts.refraction, 0u);
+  EXPECT_EQ(counts[RayKind::primary], 2000u);
+  EXPECT_GT(counts[RayKind::shadow], 0u);
+  EXPECT_GT(counts[RayKind::reflection], 0u);
+  EXPECT_GT(counts[RayKind::refraction], 0u);
   for (const int threads : {2, 3, 40}) {
     settings.threads = threads;
     Image image(40, 25);
     const RayCounts again = render(scene, bruteForce, scene.cameras[0], settings, image);
     EXPECT_EQ(image.pixels, one.pixels) << threads;
-    EXPECT_EQ(again.shadow, counts.shadow);
-    EXPECT_EQ(again.reflection, counts.reflection);
-    EXPECT_EQ(again.refraction, counts.refraction);
+    EXPECT_EQ(again[RayKind::shadow], counts[RayKind::shadow]);
+    EXPECT_EQ(again[RayKind::reflection], counts[RayKind::reflection]);
+    EXPECT_EQ(again[RayKind::refraction], counts[RayKind::refraction]);
   }
 }
 

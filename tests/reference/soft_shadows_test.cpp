@@ -70,7 +70,7 @@ TEST(SoftShadows, OnePointIsTheCenterAndCostsOneRay) {
   for (const int samples : {1, 5}) {
     RayCounts counts;
     const double seen = seenAt(scene, 0.7, soft(samples), &counts);
-    EXPECT_EQ(counts.shadow, static_cast<std::uint64_t>(samples));
+    EXPECT_EQ(counts[RayKind::shadow], static_cast<std::uint64_t>(samples));
     if (samples == 1) {
       EXPECT_NEAR(seen, p.unshadowedAt(0.7), 1e-6 * p.unshadowedAt(0.7));
     }
@@ -81,7 +81,7 @@ TEST(SoftShadows, APointHasNone) {
   const Scene point = sceneOf(Penumbra{.radius = static_cast<double>(kPointRadius)});
   RayCounts counts;
   EXPECT_EQ(seenAt(point, 0.2, soft(16), &counts), seenAt(point, 0.2, soft(1)));
-  EXPECT_EQ(counts.shadow, 1u);
+  EXPECT_EQ(counts[RayKind::shadow], 1u);
 }
 
 // From inside of the sphere there is no cone to look into.

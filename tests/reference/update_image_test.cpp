@@ -28,7 +28,7 @@ TEST(Pixel, MeanOfEqualSamplesIsExact) {
     settings.options.spp = spp;
     RayCounts counts;
     EXPECT_EQ(Tracer(scene, bruteForce, settings).pixel(frame, 3, 4, counts), RgbD(Rgb(0.1f)));
-    EXPECT_EQ(counts.primary, static_cast<std::uint64_t>(spp));
+    EXPECT_EQ(counts[RayKind::primary], static_cast<std::uint64_t>(spp));
   }
 }
 

@@ -203,7 +203,7 @@ TEST(Coverage, ClearTexelsAreNoBounce) {
   builder.sky(0.5f);
   reference::RayCounts counts;
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}, uncut(), &counts).x, 0.5);
-  EXPECT_EQ(counts.refraction, 0u);
+  EXPECT_EQ(counts[RayKind::refraction], 0u);
 }
 
 // Of any index: what is thin begins no medium.

@@ -166,7 +166,7 @@ TEST(LightCutoff, DecidesByTheContributionToThePixel) {
     reference::RayCounts counts;
     const RgbD light =
         radianceAlong(scene, {0, y, 0}, {0, lookUp ? 1.0 : -1.0, 0}, settings, &counts);
-    EXPECT_EQ(counts.shadow, light.x > 0 ? 1u : 0u);
+    EXPECT_EQ(counts[RayKind::shadow], light.x > 0 ? 1u : 0u);
     return light.x;
   };
   const double direct = 1 / 3.14159265358979323846;
