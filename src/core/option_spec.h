@@ -30,29 +30,6 @@ struct Need {
   EffectSet oneOf;
   std::string_view without;  // what is said of a scene that has none of them
 };
-inline constexpr Need kNeedsImpulses{EffectSet().with(Effect::mirror).with(Effect::transmission),
-                                     "nothing in the scene reflects or refracts"};
-inline constexpr Need kNeedsSecondaryRays{kNeedsImpulses.oneOf.with(Effect::shadows),
-                                          kNeedsImpulses.without};
-inline constexpr Need kNeedsTransmission{EffectSet().with(Effect::transmission),
-                                         "nothing in the scene is transparent"};
-inline constexpr Need kNeedsGlossyReflection{EffectSet().with(Effect::glossyReflection),
-                                             "no glossy lobe in the scene reflects it"};
-inline constexpr Need kNeedsDiffuseReflection{EffectSet().with(Effect::indirect),
-                                              "no diffuse surface reflects the scene"};
-inline constexpr Need kNeedsAmbientOcclusion{EffectSet().with(Effect::ambientOcclusion),
-                                             "the ambient light has no radius of occlusion"};
-inline constexpr Need kNeedsLights{EffectSet().with(Effect::lights), "the scene has no light"};
-inline constexpr Need kNeedsShadows{EffectSet().with(Effect::shadows),
-                                    "nothing in the scene casts a shadow"};
-inline constexpr Need kNeedsVertexNormals{EffectSet().with(Effect::smoothNormals),
-                                          "all surfaces are flat"};
-inline constexpr Need kNeedsBentNormals{kNeedsVertexNormals.oneOf.with(Effect::normalMaps),
-                                        kNeedsVertexNormals.without};
-inline constexpr Need kNeedsSpheres{EffectSet().with(Effect::spheres),
-                                    "the scene has no exact sphere"};
-inline constexpr Need kNeedsTextures{EffectSet().with(Effect::textures).with(Effect::normalMaps),
-                                     "the scene has no texture"};
 
 // An option that trades accuracy for time, as `whit accuracy` sweeps it. Values are the words of
 // the command line, and lists of them have blanks between.

@@ -31,8 +31,11 @@ enum class BvhQuality { low, medium, high };
 // the same, and the frame fails where one is wrong.
 enum class Verdicts { automatic, off, audit };
 
-inline constexpr Need kNeedsSoftShadows{EffectSet().with(Effect::softShadows),
-                                        "no light has a radius and a shadow"};
+// What several options need.
+inline constexpr Need kNeedsImpulses{EffectSet().with(Effect::mirror).with(Effect::transmission),
+                                     "nothing in the scene reflects or refracts"};
+inline constexpr Need kNeedsVertexNormals{EffectSet().with(Effect::smoothNormals),
+                                          "all surfaces are flat"};
 
 // Of 8-bit output, in EV. An automatic one follows from the view (render/auto_exposure.h); until
 // then it is 0.
@@ -179,7 +182,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .spare = "1 4 16", .needs = {kNeedsGlossyReflection}}},
+                               .spare = "1 4 16",
+                               .needs = {Need{EffectSet().with(Effect::glossyReflection),
+                                              "no glossy lobe in the scene reflects it"}}}},
              o.glossy},
       Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
               .help = "rays that sample the light which a diffuse surface gets from others, from "
@@ -189,7 +194,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::transport, .exact = "4", .values = "0 1 4 16 64",
-                               .needs = {kNeedsDiffuseReflection}}},
+                               .needs = {Need{EffectSet().with(Effect::indirect),
+                                              "no diffuse surface reflects the scene"}}}},
              o.indirect},
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
               .help = "smallest contribution of an impulse that is still traced",
@@ -214,7 +220,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "1",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
-                               .needs = {kNeedsSoftShadows}}},
+                               .needs = {Need{EffectSet().with(Effect::softShadows),
+                                              "no light has a radius and a shadow"}}}},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
               .help = "rays from a surface that look for what occludes its ambient light, where the "
@@ -223,7 +230,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .spare = "1 16", .needs = {kNeedsAmbientOcclusion}}},
+                               .spare = "1 16",
+                               .needs = {Need{EffectSet().with(Effect::ambientOcclusion),
+                                              "the ambient light has no radius of occlusion"}}}},
              o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "smallest contribution of a light to the pixel that is still added, and its "
@@ -231,13 +240,16 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
-                               .needs = {kNeedsLights}}},
+                               .needs = {Need{EffectSet().with(Effect::lights),
+                                              "the scene has no light"}}}},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
               .help = "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
               .cheapest = "schlick",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
-                               .values = "exact schlick", .needs = {kNeedsTransmission}}},
+                               .values = "exact schlick",
+                               .needs = {Need{EffectSet().with(Effect::transmission),
+                                              "nothing in the scene is transparent"}}}},
              o.shading.fresnel},
       Option{{.name = "texture-filter", .words = "nearest|bilinear|trilinear",
               .help = "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
@@ -245,7 +257,10 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "nearest",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
-                               .values = "bilinear nearest trilinear", .needs = {kNeedsTextures}}},
+                               .values = "bilinear nearest trilinear",
+                               .needs = {Need{EffectSet().with(Effect::textures)
+                                                         .with(Effect::normalMaps),
+                                              "the scene has no texture"}}}},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and "
@@ -253,21 +268,29 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "fixed",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
                                .values = "bound fixed wachter-binder",
-                               .spare = "fixed wachter-binder", .needs = {kNeedsSecondaryRays}}},
+                               .spare = "fixed wachter-binder",
+                               .needs = {Need{kNeedsImpulses.oneOf.with(Effect::shadows),
+                                              kNeedsImpulses.without}}}},
              o.shading.offset},
       Option{{.name = "terminator", .words = "on|off",
               .help = "shadow rays from above the facets of smooth surfaces: no staircase where the "
                       "light ends",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
-                               .spare = "on", .needs = {kNeedsVertexNormals, kNeedsShadows}}},
+                               .spare = "on",
+                               .needs = {kNeedsVertexNormals,
+                                         Need{EffectSet().with(Effect::shadows),
+                                              "nothing in the scene casts a shadow"}}}},
              o.shading.terminator},
       Option{{.name = "bend", .words = "on|off",
               .help = "impulses that normal maps send to the wrong side of their surface are turned "
                       "back",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
-                               .spare = "off", .needs = {kNeedsBentNormals, kNeedsImpulses}}},
+                               .spare = "off",
+                               .needs = {Need{kNeedsVertexNormals.oneOf.with(Effect::normalMaps),
+                                              kNeedsVertexNormals.without},
+                                         kNeedsImpulses}}},
              o.shading.bend},
       Option{{.name = "reciprocal", .words = "exact|refined|approximate",
               .help = "1/sqrt of the kernels' normalizations: divided, or estimated with or without "
@@ -332,7 +355,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "half as many from pole to pole, 4 or more; 0: they are exact",
               .rebuilds = Rebuild::scene, .tab = Tab::none,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 16 48 192 384", .needs = {kNeedsSpheres}}},
+                               .values = "0 16 48 192 384",
+                               .needs = {Need{EffectSet().with(Effect::spheres),
+                                              "the scene has no exact sphere"}}}},
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for what the scene calls for, or every effect",
