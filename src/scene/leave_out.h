@@ -3,7 +3,9 @@
 // compare a scene with itself in this way.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 #include "core/effects.h"
 #include "scene/scene.h"
@@ -23,15 +25,25 @@ void leaveOut(SceneDescription& description, EffectSet effects);
 // What the matte scene starts with: primary and shadow rays, lights that shine all around.
 inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with(Effect::shadows);
 
-// What is added to it, in this order: each needs only those before it.
-inline constexpr std::array kAddedEffects{
-    Effect::spotLights,  Effect::directionalLights, Effect::ambient,       Effect::emission,
-    Effect::sky,         Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
-    Effect::textures,    Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
-    Effect::glossy,      Effect::glossyReflection,  Effect::instances,     Effect::spheres,
-    Effect::mirror,      Effect::transmission,      Effect::absorption,    Effect::coverage,
-    Effect::softShadows, Effect::ambientOcclusion,  Effect::indirect,
-};
-static_assert(kAddedEffects.size() + 2 == kEffectCount);
+// What is added to it, in this order: each needs only those before it. Those that others need, or
+// that most scenes have, come as they stand here, the rest as in core/effects.h.
+inline constexpr std::array kAddedEffects = [] {
+  constexpr std::array kFirst{
+      Effect::spotLights,  Effect::directionalLights, Effect::ambient,       Effect::emission,
+      Effect::sky,         Effect::skyImage,          Effect::smoothNormals, Effect::vertexColors,
+      Effect::textures,    Effect::emissionMaps,      Effect::normalMaps,    Effect::alphaMasks,
+      Effect::glossy,      Effect::glossyReflection,  Effect::instances,     Effect::spheres,
+      Effect::mirror,      Effect::transmission,      Effect::absorption,    Effect::coverage,
+      Effect::softShadows,
+  };
+  std::array<Effect, kEffectCount - std::popcount(kMatteEffects.bits())> added{};
+  auto end = std::copy(kFirst.begin(), kFirst.end(), added.begin());
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto effect = static_cast<Effect>(i);
+    const bool there = std::find(added.begin(), end, effect) != end || kMatteEffects.has(effect);
+    if (!there) *end++ = effect;
+  }
+  return added;
+}();
 
 }  // namespace whit
