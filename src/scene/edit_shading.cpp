@@ -14,11 +14,7 @@ namespace {
 bool sameKind(const Material& a, const Material& b) {
   const bool sameMedium = !a.boundsMedium() || (a.ior == b.ior && a.absorption == b.absorption &&
                                                 a.priority == b.priority);
-  return sameMedium && a.boundsMedium() == b.boundsMedium() &&
-         a.hasTransmission() == b.hasTransmission() && a.hasGlossy() == b.hasGlossy() &&
-         a.hasGlossyReflection() == b.hasGlossyReflection() &&
-         a.hasDiffuseReflection() == b.hasDiffuseReflection() && a.hasMirror() == b.hasMirror() &&
-         isBlack(a.emission) == isBlack(b.emission) && isBlack(a.diffuse) == isBlack(b.diffuse);
+  return sameMedium && a.boundsMedium() == b.boundsMedium() && effectsOf(a) == effectsOf(b);
 }
 
 bool sameKindOfLight(const Light& a, const Light& b) {

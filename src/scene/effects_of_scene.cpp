@@ -35,14 +35,49 @@ bool isSkyBlack(const Sky& sky) {
   return isDark(sky.image.r) && isDark(sky.image.g) && isDark(sky.image.b);
 }
 
+// An effect that is on when some triangle's material has what it takes; `what` completes "a
+// material ...".
+struct MaterialRule {
+  Effect effect;
+  const char* what;
+  bool (*has)(const Material&);
+};
+constexpr MaterialRule kMaterialRules[] = {
+    {Effect::textures, "with a color texture",
+     [](const Material& m) {
+       return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
+              (m.specularMap != kNoTexture && m.hasGlossy()) || m.variesRoughness() ||
+              (m.emissionMap != kNoTexture && !isBlack(m.emission));
+     }},
+    {Effect::emissionMaps, "with a texture of emission",
+     [](const Material& m) { return m.emissionMap != kNoTexture && !isBlack(m.emission); }},
+    {Effect::normalMaps, "with a normal map",
+     [](const Material& m) { return m.normalMap != kNoTexture; }},
+    {Effect::alphaMasks, "with an alpha mask",
+     [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; }},
+    {Effect::coverage, "whose coverage is not 1",
+     [](const Material& m) { return m.isPartlyThere(); }},
+    {Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); }},
+    {Effect::glossyReflection, "whose glossy lobe reflects the scene",
+     [](const Material& m) { return m.hasGlossyReflection(); }},
+    {Effect::indirect, "whose diffuse color reflects the scene",
+     [](const Material& m) { return m.hasDiffuseReflection(); }},
+    {Effect::emission, "with emission", [](const Material& m) { return !isBlack(m.emission); }},
+    {Effect::transmission, "that light passes", [](const Material& m) { return m.passesLight(); }},
+    {Effect::absorption, "with absorption", [](const Material& m) { return m.hasAbsorption(); }},
+    // Fresnel reflection needs two different refractive indices at a surface. The vacuum's is 1, so
+    // one that differs from it is enough; and where none does, nested media do not reflect either.
+    {Effect::mirror, "with a mirror or a reflecting dielectric",
+     [](const Material& m) { return m.hasMirror() || (m.boundsMedium() && m.ior != 1); }},
+};
+
 class Gatherer {
  public:
   explicit Gatherer(Scene& scene) : scene_(scene), uses_(trianglesOfMaterials(scene)) {}
 
   void run() {
     scene_.effects = EffectSet();
-    materials();
-    impulses();
+    for (const MaterialRule& rule : kMaterialRules) byMaterial(rule);
     geometry();
     surroundings();
     lights();
@@ -54,16 +89,15 @@ class Gatherer {
     if (on) scene_.effects = scene_.effects.with(effect);
   }
 
-  // On when some triangle's material satisfies `has`; `what` completes "a material ...".
-  template <typename Predicate>
-  void byMaterial(Effect effect, const std::string& what, const Predicate& has) {
+  void byMaterial(const MaterialRule& rule) {
+    const std::string what = rule.what;
     std::uint64_t count = 0, triangles = 0;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-      if (uses_[i] == 0 || !has(scene_.materials[i])) continue;
+      if (uses_[i] == 0 || !rule.has(scene_.materials[i])) continue;
       ++count;
       triangles += uses_[i];
     }
-    set(effect, count > 0,
+    set(rule.effect, count > 0,
         counted(count, "material") + " " + what + ", " + counted(triangles, surface()) +
             (triangles == 1 ? " uses " : " use ") + (count == 1 ? "it" : "them"),
         "no mesh uses a material " + what);
@@ -72,8 +106,6 @@ class Gatherer {
   // What is counted.
   std::string surface() const { return scene_.instancedSpheres > 0 ? "surface" : "triangle"; }
 
-  void materials();
-  void impulses();
   void geometry();
   void surroundings();
   void lights();
@@ -81,40 +113,6 @@ class Gatherer {
   Scene& scene_;
   std::vector<std::uint64_t> uses_;
 };
-
-void Gatherer::materials() {
-  byMaterial(Effect::textures, "with a color texture", [](const Material& m) {
-    return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
-           (m.specularMap != kNoTexture && m.hasGlossy()) || m.variesRoughness() ||
-           (m.emissionMap != kNoTexture && !isBlack(m.emission));
-  });
-  byMaterial(Effect::emissionMaps, "with a texture of emission",
-             [](const Material& m) { return m.emissionMap != kNoTexture && !isBlack(m.emission); });
-  byMaterial(Effect::normalMaps, "with a normal map",
-             [](const Material& m) { return m.normalMap != kNoTexture; });
-  byMaterial(Effect::alphaMasks, "with an alpha mask",
-             [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; });
-  byMaterial(Effect::coverage, "whose coverage is not 1",
-             [](const Material& m) { return m.isPartlyThere(); });
-  byMaterial(Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); });
-  byMaterial(Effect::glossyReflection, "whose glossy lobe reflects the scene",
-             [](const Material& m) { return m.hasGlossyReflection(); });
-  byMaterial(Effect::indirect, "whose diffuse color reflects the scene",
-             [](const Material& m) { return m.hasDiffuseReflection(); });
-  byMaterial(Effect::emission, "with emission",
-             [](const Material& m) { return !isBlack(m.emission); });
-}
-
-void Gatherer::impulses() {
-  byMaterial(Effect::transmission, "that light passes",
-             [](const Material& m) { return m.passesLight(); });
-  byMaterial(Effect::absorption, "with absorption",
-             [](const Material& m) { return m.hasAbsorption(); });
-  // Fresnel reflection needs two different refractive indices at a surface. The vacuum's is 1, so
-  // one that differs from it is enough; and where none does, nested media do not reflect either.
-  byMaterial(Effect::mirror, "with a mirror or a reflecting dielectric",
-             [](const Material& m) { return m.hasMirror() || (m.boundsMedium() && m.ior != 1); });
-}
 
 void Gatherer::geometry() {
   set(Effect::smoothNormals, hasSmoothNormals(scene_),
@@ -200,6 +198,14 @@ bool hasVertexColors(const Scene& scene) {
     return std::any_of(std::begin(record.color), std::end(record.color),
                        [](float x) { return x != 1; });
   });
+}
+
+EffectSet effectsOf(const Material& material) {
+  EffectSet effects;
+  for (const MaterialRule& rule : kMaterialRules) {
+    if (rule.has(material)) effects = effects.with(rule.effect);
+  }
+  return effects;
 }
 
 void gatherEffects(Scene& scene) { Gatherer(scene).run(); }

@@ -27,6 +27,9 @@ void settleSides(SceneDescription& description);
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);
 
+// What the material calls for where a triangle uses it.
+EffectSet effectsOf(const Material& material);
+
 // The number of triangles that use each material, instances not multiplied out.
 std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
 
