@@ -233,9 +233,7 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   }
   const Impulse& impulse = twin.impulse;
   const Material& material = world.scene.materials[surfel.material];
-  const double share = isHidden(chunk, slot)
-                           ? 1
-                           : double{material.impulseShare(world.effects.has(Effect::indirect))};
+  const double share = isHidden(chunk, slot) ? 1 : double{material.impulseShare(world.effects)};
   const double contribution =
       double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight) * share;
   const double grows = growthOfSurvivors(chunk.options(), contribution);

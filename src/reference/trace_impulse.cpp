@@ -66,9 +66,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
     const float kept =
-        crossing.hidden
-            ? 1
-            : scene_.materials[surfel.material].impulseShare(effects_.has(Effect::indirect));
+        crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare(effects_);
     const double counted = left * double{kept};
     RgbD reflected = follow(children.reflected, RayKind::reflection, depth + 1, counted, counts,
                             childOf(path, kMirroredBranch));

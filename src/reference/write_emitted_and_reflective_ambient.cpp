@@ -10,8 +10,7 @@ RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
 
 RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
   if (!effects.has(Effect::ambient)) return {};
-  const Material& material = scene.materials[surfel.material];
-  if (effects.has(Effect::indirect) && material.hasDiffuseReflection()) return {};
+  if (scene.materials[surfel.material].diffuses(effects)) return {};
   const RgbD up(scene.ambient.up), down(scene.ambient.down);
   return surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
 }

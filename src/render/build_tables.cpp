@@ -27,7 +27,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
-  if (effects.has(Effect::indirect) && m.hasDiffuseReflection()) flags |= kMaterialDiffuses;
+  if (m.diffuses(effects)) flags |= kMaterialDiffuses;
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
   if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;
@@ -61,7 +61,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
     copy3(m.mirror, r.mirror);
     copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
   }
-  r.impulseShare = m.impulseShare(effects.has(Effect::indirect));
+  r.impulseShare = m.impulseShare(effects);
   copy3(m.transmission, r.transmission);
   return r;
 }

@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/effects.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -92,6 +93,11 @@ struct Material {
   bool variesRoughness() const { return hasGlossy() && roughnessMap != kNoTexture; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasDiffuseReflection() const { return maxComponent(diffuse) > 0 && diffuseReflection; }
+  // Whether in frames with these effects its diffuse color reflects the scene, in place of ambient
+  // light.
+  bool diffuses(EffectSet effects) const {
+    return effects.has(Effect::indirect) && hasDiffuseReflection();
+  }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool isPartlyThere() const { return coverage < 1 || coverageMap != kNoTexture; }
@@ -120,17 +126,16 @@ struct Material {
   // What --cutoff counts of the weights of the impulses that start here: 1, or less where they can
   // add up to more than 1 (a glossy lobe on glass). So a pixel's paths never count for more than 1
   // together, and a cutoff c leaves 1/c of them at most, whatever the materials and the depth;
-  // times the number of samples where a lobe is sampled several times. `indirect`: diffuse
-  // reflection is sampled too.
-  float impulseShare(bool indirect) const;
+  // times the number of samples where a lobe is sampled several times.
+  float impulseShare(EffectSet effects) const;
 };
 
-inline float Material::impulseShare(bool indirect) const {
+inline float Material::impulseShare(EffectSet effects) const {
   const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
   // What is not mirrored is refracted.
   const float both = hasTransmission() ? std::max(1.0f, coat) : coat;
   const float lobe = hasGlossyReflection() ? 1.0f : 0.0f;
-  const float scattered = indirect && hasDiffuseReflection() ? maxComponent(diffuse) : 0.0f;
+  const float scattered = diffuses(effects) ? maxComponent(diffuse) : 0.0f;
   return 1 / std::max(1.0f, both + lobe + scattered);
 }
 

@@ -9,13 +9,13 @@ namespace {
 
 TEST(ImpulseShare, IsOneWhereTheWeightsAddUpToNoMore) {
   Material m;
-  EXPECT_EQ(m.impulseShare(false), 1.0f) << "diffuse";
+  EXPECT_EQ(m.impulseShare({}), 1.0f) << "diffuse";
   m.mirror = m.mirrorGrazing = Rgb(0.9f);
-  EXPECT_EQ(m.impulseShare(false), 1.0f) << "mirror";
+  EXPECT_EQ(m.impulseShare({}), 1.0f) << "mirror";
   m.transmission = Rgb(1.0f);
-  EXPECT_EQ(m.impulseShare(false), 1.0f) << "a mirror coat on glass takes its share from the glass";
+  EXPECT_EQ(m.impulseShare({}), 1.0f) << "a mirror coat on glass takes its share from the glass";
   m.mirror = m.mirrorGrazing = Rgb(0);
-  EXPECT_EQ(m.impulseShare(false), 1.0f) << "glass: Fresnel's shares add up to 1";
+  EXPECT_EQ(m.impulseShare({}), 1.0f) << "glass: Fresnel's shares add up to 1";
 }
 
 // Twenty faces that reflect 0.9 and pass the rest on. Without a cutoff, impulses would double at
