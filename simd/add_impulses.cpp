@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "simd/kernels.h"
+#include "stages/lobes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
@@ -238,38 +239,79 @@ void AddReflections(Chunk& c) noexcept {
   c.childCount = count;
 }
 
-void AddGlossyReflections(Chunk& c) noexcept {
+// What AddSamples() asks of a lobe: its samples, and the lanes that take more than one.
+struct GlossySamples {
+  static constexpr const Lobe& kLobe = kGlossyLobe;
+
+  HWY_INLINE GlossySamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
+      : lobes(LoadGlossyLobes(job.surfels, lanes.direction, lanes.ns, i)), several(lobes.rough) {}
+  HWY_INLINE LobeSample At(const UnitPoints& at) const { return SampleLobe(lobes, at); }
+
+  GlossyLobes lobes;
+  MF several;  // a smooth lobe is one impulse
+};
+
+struct DiffuseSamples {
+  static constexpr const Lobe& kLobe = kDiffuseLobe;
+
+  HWY_INLINE DiffuseSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
+      : normal(lanes.ns),
+        albedo(Load3(job.surfels.diffuseR, job.surfels.diffuseG, job.surfels.diffuseB, i)),
+        lobes(lanes.ns),
+        several(lanes.live) {}
+  HWY_INLINE LobeSample At(const UnitPoints& at) const {
+    const V3 direction = lobes.Direction(at);
+    return {direction, albedo, Dot(normal, direction)};
+  }
+
+  V3 normal, albedo;
+  CosineLobes lobes;
+  MF several;
+};
+
+// pointOf().
+template <const Lobe& kLobe>
+HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k) {
+  if constexpr (kLobe.salt == 0) {
+    return LobePoints(path, sampling, k);
+  } else {
+    return SaltedPoints(path, sampling, kLobe.salt, k);
+  }
+}
+
+template <typename Samples>
+void AddSamples(Chunk& c) noexcept {
+  constexpr const Lobe& kLobe = Samples::kLobe;
   const FloatTag d;
   const UintTag du;
   const ImpulseJob job = ImpulseJobOf(c);
-  const LobeSampling sampling = lobeSampling(c.depth, c.options().glossy, c.sampleNumber);
+  const LobeSampling sampling = lobeSampling(c.depth, c.options().*kLobe.samples, c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes = LoadImpulseLanes<kMaterialScatters>(job, i);
+    ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const VF impulseShare = material.Mirror().impulseShare;
-    const GlossyLobes lobes = LoadGlossyLobes(job.surfels, lanes.direction, lanes.ns, i);
-    const VF counts = hn::IfThenElse(lobes.rough, share, one);
+    const Samples samples(job, lanes, i);
+    const VF counts = hn::IfThenElse(samples.several, share, one), covered = CoverageAt(job, i);
     const V3 origin = ChildOrigin(job, lanes, i, 1.0f);
     const VU media = MediaAt(job, i);
     const VU path = hn::Load(du, job.rays.path + i);
     const VF cone = ConesAt(job, i);
-    // A smooth lobe is one impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
-      const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, lobes.rough);
+      const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, samples.several);
       if (hn::AllFalse(d, sampled)) break;
-      LobeSample sample = SampleLobe(lobes, LobePoints(path, sampling, k));
-      if (job.coverage) sample.weight = Scale3(sample.weight, CoverageAt(job, i));
+      LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
+      if (job.coverage) sample.weight = Scale3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
       const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(job, sample.cosine), live);
       const Child child{origin,
                         r,
                         Scale3(sample.weight, counts),
                         media,
-                        ChildStream(path, kFirstGlossyBranch + k),
+                        ChildStream(path, kLobe.firstBranch + k),
                         hn::Mul(MaxComponent(sample.weight), impulseShare),
                         cone};
       count += Append(job, child, live, i, count);
@@ -325,38 +367,6 @@ void AddRefractions(Chunk& c) noexcept {
   c.childCount = count;
 }
 
-void AddIndirect(Chunk& c) noexcept {
-  const FloatTag d;
-  const UintTag du;
-  const ImpulseJob job = ImpulseJobOf(c);
-  const LobeSampling sampling = lobeSampling(c.depth, c.options().indirect, c.sampleNumber);
-  const VF share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
-  size_t count = c.childCount;
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes = LoadImpulseLanes<kMaterialDiffuses>(job, i);
-    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
-    if (hn::AllFalse(d, lanes.live)) continue;
-    const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 albedo = Load3(job.surfels.diffuseR, job.surfels.diffuseG, job.surfels.diffuseB, i);
-    if (job.coverage) albedo = Scale3(albedo, CoverageAt(job, i));
-    const VF largest = hn::Mul(MaxComponent(albedo), material.Mirror().impulseShare);
-    const V3 weight = Scale3(albedo, share), origin = ChildOrigin(job, lanes, i, 1.0f);
-    const CosineLobes lobes(lanes.ns);
-    const VU media = MediaAt(job, i);
-    const VU path = hn::Load(du, job.rays.path + i);
-    const VF cone = ConesAt(job, i);
-    for (uint32_t k = 0; k < sampling.count; ++k) {
-      const V3 drawn = lobes.Direction(IndirectPoints(path, sampling, k));
-      const VF elevation = LeastElevation(job, Dot(lanes.ns, drawn));
-      const Child child{origin, Lifted(drawn, lanes.ng, elevation, lanes.live), weight,
-                        media,  ChildStream(path, kFirstIndirectBranch + k),    largest,
-                        cone};
-      count += Append(job, child, lanes.live, i, count);
-    }
-  }
-  c.childCount = count;
-}
-
 void ReturnImpulses(Chunk& c) noexcept {
   const FloatTag d;
   const RayColumns rays = c.rays;
@@ -391,9 +401,9 @@ void ReturnToEye(Chunk& c) noexcept {
 }
 
 StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
-StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddGlossyReflections; }
+StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddSamples<GlossySamples>; }
 StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
-StepFunction FindAddIndirect(size_t /*index*/) { return AddIndirect; }
+StepFunction FindAddIndirect(size_t /*index*/) { return AddSamples<DiffuseSamples>; }
 StepFunction FindReturnImpulses(size_t /*index*/) { return ReturnImpulses; }
 StepFunction FindReturnToEye(size_t /*index*/) { return ReturnToEye; }
 

@@ -49,18 +49,16 @@ HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t
                                hn::Set(du, index * kLatticeV)))};
 }
 
-HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
-                                  uint32_t k) {
+HWY_INLINE UnitPoints SaltedPoints(VU path, const LobeSampling& sampling, uint32_t salt,
+                                   uint32_t k) {
   const UintTag du;
-  const VU shared = hn::Sub(path, hn::Set(du, sampling.unshift));
-  const VU stream = Mixed(hn::Xor(shared, hn::Set(du, (light + 1) * kLightStep)));
-  return LobePoints(stream, {sampling.count, sampling.first, 0}, k);
+  const VU own = hn::Xor(hn::Sub(path, hn::Set(du, sampling.unshift)), hn::Set(du, salt));
+  return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
 }
 
-HWY_INLINE UnitPoints IndirectPoints(VU path, const LobeSampling& sampling, uint32_t k) {
-  const UintTag du;
-  const VU own = hn::Xor(hn::Sub(path, hn::Set(du, sampling.unshift)), hn::Set(du, kIndirectSalt));
-  return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
+HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_t light,
+                                  uint32_t k) {
+  return SaltedPoints(path, sampling, lightSalt(light), k);
 }
 
 HWY_INLINE VF RouletteDraw(VU path) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "reference/fresnel.h"
 #include "reference/ray_origin.h"
@@ -70,36 +71,29 @@ Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
   return {x, cross(n, x), n, sine};
 }
 
-// Of the sample of the lobe that the child's path says it is. None: no weight.
+// The sample of a lobe that the child is.
 struct LobeChild {
   Impulse impulse;
   int rays = 1;  // that share the lobe
 };
 
-LobeChild diffuseChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
+// That which its path says it is; none: it is no sample of a lobe.
+std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, RayKind kind,
+                                      const Surfel& surfel) {
+  if (!chunk.has(Feature::streams)) return std::nullopt;
   const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
-  const LobeSampling sampling =
-      lobeSampling(chunk.depth, chunk.options().indirect, chunk.sampleNumber);
-  for (std::uint32_t k = 0; k < sampling.count; ++k) {
-    if (chunk.children.path[child] != childStream(path, kFirstIndirectBranch + k)) continue;
-    const UnitPoint at = indirectPoint(path, sampling, k);
-    return {indirectImpulse(surfel, mediaOf(chunk, slot), at, chunk.options().shading),
-            static_cast<int>(sampling.count)};
+  for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
+    if (lobe.kind != kind) continue;
+    const LobeSampling sampling =
+        lobeSampling(chunk.depth, chunk.options().*lobe.samples, chunk.sampleNumber);
+    const int rays = raysOf(surfel, sampling);
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
+      if (chunk.children.path[child] != childStream(path, lobe.firstBranch + k)) continue;
+      const UnitPoint at = pointOf(lobe, path, sampling, k);
+      return LobeChild{impulseOf(surfel, mediaOf(chunk, slot), at, chunk.options().shading), rays};
+    }
   }
-  return {};
-}
-
-LobeChild glossyChild(const Chunk& chunk, std::size_t child, const Surfel& surfel) {
-  const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
-  const LobeSampling sampling =
-      lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber);
-  const int rays = lobeRays(surfel, sampling);
-  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
-    if (chunk.children.path[child] != childStream(path, kFirstGlossyBranch + k)) continue;
-    const UnitPoint at = lobePoint(path, sampling, k);
-    return {glossyImpulse(surfel, mediaOf(chunk, slot), at, chunk.options().shading), rays};
-  }
-  return {};
+  return std::nullopt;
 }
 
 RayKind kindOf(const Chunk& chunk, std::size_t child) {
@@ -162,7 +156,7 @@ Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
   return normalized(Vec3d(halfway.x * alpha, halfway.y * alpha, halfway.z), {0, 0, 1});
 }
 
-int lobeRays(const Surfel& surfel, const LobeSampling& sampling) {
+int glossyRays(const Surfel& surfel, const LobeSampling& sampling) {
   return surfel.alpha > double{kSmoothAlpha} ? static_cast<int>(sampling.count) : 1;
 }
 
@@ -212,24 +206,19 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
   const Surfel surfel = surfelOf(chunk, slot);
   const RayKind kind = kindOf(chunk, child);
-  const bool refracted = kind == RayKind::refraction;
-  std::uint32_t branch = refracted ? kRefractedBranch : kMirroredBranch;
-  LobeChild twin;
   RayRow row;
-  row.path = childStream(path, branch);
-  if (kind == RayKind::indirect) {
-    twin = diffuseChild(chunk, child, surfel);
-    row.path = chunk.children.path[child];
-  } else if (!refracted && chunk.has(Feature::streams) && chunk.children.path[child] != row.path) {
-    twin = glossyChild(chunk, child, surfel);
+  row.path = childStream(path, branchOf(kind));
+  LobeChild twin;
+  if (const auto sample = sampleOfLobe(chunk, child, kind, surfel)) {
+    twin = *sample;
     row.path = chunk.children.path[child];
   } else {
     const std::uint32_t stack = mediaOf(chunk, slot);
     const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material,
                                          surfel.entering, stack, alsoCrossedAt(chunk, slot));
-    const Impulses both =
-        findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading);
-    twin.impulse = refracted ? both.refracted : both.reflected;
+    twin.impulse =
+        findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading)
+            .of(kind);
   }
   const Impulse& impulse = twin.impulse;
   const Material& material = world.scene.materials[surfel.material];

@@ -3,10 +3,13 @@
 // of what a diffuse one sees.
 #pragma once
 
+#include <array>
+
 #include "core/options.h"
 #include "reference/media.h"
 #include "reference/twin.h"
 #include "sampling/random_streams.h"
+#include "stages/lobes.h"
 
 namespace whit::reference {
 
@@ -19,7 +22,18 @@ struct Impulse {
 
 struct Impulses {
   Impulse reflected, refracted;
+
+  // None, of a kind that is there for samples of a lobe alone.
+  Impulse of(RayKind kind) const {
+    return kind == RayKind::reflection   ? reflected
+           : kind == RayKind::refraction ? refracted
+                                         : Impulse();
+  }
 };
+// The branch of the paths that it leads.
+constexpr std::uint32_t branchOf(RayKind kind) {
+  return kind == RayKind::refraction ? kRefractedBranch : kMirroredBranch;
+}
 
 // `stack` is that of the incoming ray, `crossing` what it makes of the surfel. A hidden surface
 // lets the ray pass as it is. A dielectric's weights add up to 1 at most, to 1 with a transmission
@@ -43,8 +57,8 @@ Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation);
 // width 0 the surface is smooth and the result z.
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at);
 
-// The rays of a surfel, each to count for 1 / number of its lobe.
-int lobeRays(const Surfel& surfel, const LobeSampling& sampling);
+// The rays that sample a surfel's glossy lobe: a smooth one is sampled by one.
+int glossyRays(const Surfel& surfel, const LobeSampling& sampling);
 
 // The ray mirrored by the visible normal at `at`, with the weight F G2 / G1 (height-correlated
 // Smith masking, as in glossyLobe): its mean over the unit square is what the lobe reflects. Weight
@@ -58,6 +72,21 @@ Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& a
 // the incoming ray.
 Impulse indirectImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices = {});
+
+// A lobe as it is sampled here.
+struct SampledLobe {
+  Lobe lobe;
+  // The rays of a surfel, each to count for 1 / their number of the lobe.
+  int (*rays)(const Surfel& surfel, const LobeSampling& sampling);
+  // One of them, drawn at a point of the unit square, as if it were the whole lobe.
+  Impulse (*impulse)(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
+                     const ShadingChoices& choices);
+};
+inline constexpr std::array kSampledLobes{
+    SampledLobe{kGlossyLobe, glossyRays, glossyImpulse},
+    SampledLobe{kDiffuseLobe,
+                [](const Surfel&, const LobeSampling& s) { return static_cast<int>(s.count); },
+                indirectImpulse}};
 
 // Whether an impulse of this contribution is traced, whose path has this number: by --cutoff, or by
 // Russian roulette at --roulette (sampling/random_streams.h).

@@ -42,6 +42,7 @@ class RayCounts {
 };
 
 struct Impulse;
+struct SampledLobe;
 struct Surfel;
 struct TriangleHit;
 struct Crossing;
@@ -78,10 +79,8 @@ class Tracer {
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
   RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
-  RgbD reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth, double throughput,
-                       std::uint32_t media, RayCounts& counts, Path path) const;
-  RgbD reflectDiffusely(const Surfel& surfel, const Crossing& crossing, int depth,
-                        double throughput, std::uint32_t media, RayCounts& counts, Path path) const;
+  RgbD radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
+                      double throughput, std::uint32_t media, RayCounts& counts, Path path) const;
   RgbD follow(const Impulse& impulse, RayKind kind, int depth, double throughput, RayCounts& counts,
               Path path) const;
 

@@ -68,14 +68,15 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     const float kept =
         crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare(effects_);
     const double counted = left * double{kept};
-    RgbD reflected = follow(children.reflected, RayKind::reflection, depth + 1, counted, counts,
-                            childOf(path, kMirroredBranch));
-    reflected += reflectGlossily(surfel, crossing, depth, counted, media, counts, path);
-    const RgbD refracted = follow(children.refracted, RayKind::refraction, depth + 1, counted,
-                                  counts, childOf(path, kRefractedBranch));
-    radiance += reflected;
-    radiance += refracted;
-    radiance += reflectDiffusely(surfel, crossing, depth, counted, media, counts, path);
+    for (const RayKind kind : kImpulseKinds) {
+      RgbD sum = follow(children.of(kind), kind, depth + 1, counted, counts,
+                        childOf(path, branchOf(kind)));
+      for (const SampledLobe& sampled : kSampledLobes) {
+        if (sampled.lobe.kind != kind || crossing.hidden) continue;
+        sum += radianceByLobe(sampled, surfel, depth, counted, media, counts, path);
+      }
+      radiance += sum;
+    }
   }
   return radiance * arrives;
 }
@@ -104,37 +105,21 @@ std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
 
 // The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their
 // number does not decide which light is worth its rays.
-RgbD Tracer::reflectGlossily(const Surfel& surfel, const Crossing& crossing, int depth,
-                             double throughput, std::uint32_t media, RayCounts& counts,
-                             Path path) const {
-  if (!effects_.has(Effect::glossyReflection)) return {};
-  if (crossing.hidden || !scene_.materials[surfel.material].hasGlossyReflection()) return {};
-  const LobeSampling sampling = lobeSampling(depth, options_.glossy, path.sample);
-  const int rays = lobeRays(surfel, sampling);
+RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
+                            double throughput, std::uint32_t media, RayCounts& counts,
+                            Path path) const {
+  const auto& [lobe, raysOf, impulseOf] = sampled;
+  if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) return {};
+  const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
+  const int rays = raysOf(surfel, sampling);
   RgbD sum;
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
-    const UnitPoint at = lobePoint(path.number, sampling, k);
-    sum += follow(glossyImpulse(surfel, media, at, options_.shading), RayKind::reflection,
-                  depth + 1, throughput, counts, childOf(path, kFirstGlossyBranch + k));
+    const UnitPoint at = pointOf(lobe, path.number, sampling, k);
+    sum += follow(impulseOf(surfel, media, at, options_.shading), lobe.kind, depth + 1, throughput,
+                  counts, childOf(path, lobe.firstBranch + k));
   }
   return sum / rays;
-}
-
-// Likewise of what a diffuse surface sees.
-RgbD Tracer::reflectDiffusely(const Surfel& surfel, const Crossing& crossing, int depth,
-                              double throughput, std::uint32_t media, RayCounts& counts,
-                              Path path) const {
-  if (!effects_.has(Effect::indirect)) return {};
-  if (crossing.hidden || !scene_.materials[surfel.material].hasDiffuseReflection()) return {};
-  const LobeSampling sampling = lobeSampling(depth, options_.indirect, path.sample);
-  RgbD sum;
-  for (std::uint32_t k = 0; k < sampling.count; ++k) {
-    const UnitPoint at = indirectPoint(path.number, sampling, k);
-    sum += follow(indirectImpulse(surfel, media, at, options_.shading), RayKind::indirect,
-                  depth + 1, throughput, counts, childOf(path, kFirstIndirectBranch + k));
-  }
-  return sum / sampling.count;
 }
 
 // What an impulse brings back, if it is worth following.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/texture_tables.h"
+#include "stages/lobes.h"
 
 namespace whit {
 
@@ -26,8 +27,9 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
-  if (effects.has(Effect::glossyReflection) && m.hasGlossyReflection()) flags |= kMaterialScatters;
-  if (m.diffuses(effects)) flags |= kMaterialDiffuses;
+  for (const Lobe& lobe : kLobes) {
+    if (lobe.isSampled(m, effects)) flags |= lobe.flag;
+  }
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
   if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;

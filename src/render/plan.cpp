@@ -10,6 +10,7 @@
 #include "render/settle_flush.h"
 #include "render/update_image.h"
 #include "simd/kernels.h"
+#include "stages/lobes.h"
 
 namespace whit {
 
@@ -47,9 +48,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::coverage, e.has(Effect::coverage))
-      .with(Feature::streams, e.has(Effect::glossyReflection) || e.has(Effect::softShadows) ||
-                                  e.has(Effect::indirect) || isOccluded(scene.ambient, e) ||
-                                  options.roulette > 0)
+      .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
+                                  isOccluded(scene.ambient, e) || options.roulette > 0)
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
@@ -239,20 +239,14 @@ class Planner {
 
   // In the order in which a queue holds its rays, kind by kind.
   void addImpulses() {
-    const auto samples = static_cast<std::size_t>(options_.glossy);
     if (has(Effect::mirror)) {
       addImpulse(simd::kAddReflections, kMaterialReflects, RayKind::reflection, 1);
     }
-    if (has(Effect::glossyReflection)) {
-      addImpulse(simd::kAddGlossyReflections, kMaterialScatters, RayKind::reflection, samples);
-    }
+    addLobe(simd::kAddGlossyReflections, kGlossyLobe);
     if (has(Effect::transmission)) {
       addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
     }
-    if (has(Effect::indirect)) {
-      addImpulse(simd::kAddIndirect, kMaterialDiffuses, RayKind::indirect,
-                 static_cast<std::size_t>(options_.indirect));
-    }
+    addLobe(simd::kAddIndirect, kDiffuseLobe);
     if (options_.depth == 0) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
@@ -262,7 +256,12 @@ class Planner {
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting
     // them by origin and direction before they are packed gains nothing on AVX2 (glass, whitted,
     // tiles of 32 to 256): Embree then leads the rays of a packet one by one.
-    plan_.coherentDepth = has(Effect::glossyReflection) || has(Effect::indirect) ? 0 : 2;
+    plan_.coherentDepth = samplesLobes(plan_.effects) ? 0 : 2;
+  }
+
+  void addLobe(const simd::Kernel& kernel, const Lobe& lobe) {
+    if (!has(lobe.effect)) return;
+    addImpulse(kernel, lobe.flag, lobe.kind, static_cast<std::size_t>(options_.*lobe.samples));
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {

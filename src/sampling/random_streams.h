@@ -26,10 +26,9 @@ constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample,
   return mixed(pixel + pixelSalt(seed)) + sample * kSampleStep;
 }
 
-// A child's. Branches: the mirrored ray, the refracted one, then the samples of the glossy lobe and
-// those of the diffuse one.
-inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2, kFirstGlossyBranch = 3,
-                               kFirstIndirectBranch = 128;
+// A child's. Branches: the mirrored ray, the refracted one, then the samples of lobes
+// (stages/lobes.h).
+inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2;
 inline constexpr std::uint32_t kBranchStep = 0x3c6ef35fu;
 constexpr std::uint32_t childStream(std::uint32_t path, std::uint32_t branch) {
   return mixed(path ^ (branch * kBranchStep));
@@ -73,26 +72,17 @@ constexpr LobeSampling lightSampling(int depth, std::uint32_t count, std::uint32
   return depth > 0 ? LobeSampling{count, 0, 0}
                    : LobeSampling{count, sample * count, sample * kSampleStep};
 }
-// Where the lattice of a light begins for the surfel that `path` has led to.
-inline constexpr std::uint32_t kLightStep = 0x7feb352du;
-constexpr std::uint32_t lightStream(std::uint32_t path, const LobeSampling& sampling,
-                                    std::uint32_t light) {
-  return mixed((path - sampling.unshift) ^ ((light + 1) * kLightStep));
+// Point k of a lattice of the salt's own, which has nothing to do with others of the same path.
+constexpr UnitPoint saltedPoint(std::uint32_t path, const LobeSampling& sampling,
+                                std::uint32_t salt, std::uint32_t k) {
+  return lobePoint(mixed((path - sampling.unshift) ^ salt), {sampling.count, sampling.first, 0}, k);
 }
-// Point k of it.
+// Point k of a light.
+inline constexpr std::uint32_t kLightStep = 0x7feb352du;
+constexpr std::uint32_t lightSalt(std::uint32_t light) { return (light + 1) * kLightStep; }
 constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
                                std::uint32_t light, std::uint32_t k) {
-  return lobePoint(lightStream(path, sampling, light), {sampling.count, sampling.first, 0}, k);
-}
-
-// Point k of the diffuse lobe, whose lattice has nothing to do with the glossy one's.
-inline constexpr std::uint32_t kIndirectSalt = 0x5851f42du;
-constexpr std::uint32_t indirectStream(std::uint32_t path, const LobeSampling& sampling) {
-  return mixed((path - sampling.unshift) ^ kIndirectSalt);
-}
-constexpr UnitPoint indirectPoint(std::uint32_t path, const LobeSampling& sampling,
-                                  std::uint32_t k) {
-  return lobePoint(indirectStream(path, sampling), {sampling.count, sampling.first, 0}, k);
+  return saltedPoint(path, sampling, lightSalt(light), k);
 }
 
 // Russian roulette (Arvo and Kirk 1990, "Particle transport and image synthesis"): an impulse whose

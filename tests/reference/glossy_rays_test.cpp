@@ -181,8 +181,8 @@ TEST(GlossyRays, OfAVanishingLobeAreTheMirroredRay) {
       }
     }
   }
-  EXPECT_EQ(lobeRays(surfel(kSmoothAlpha, 1, 1), {8, 0, 0}), 1);
-  EXPECT_EQ(lobeRays(surfel(0.01, 1, 1), {8, 0, 0}), 8);
+  EXPECT_EQ(glossyRays(surfel(kSmoothAlpha, 1, 1), {8, 0, 0}), 1);
+  EXPECT_EQ(glossyRays(surfel(0.01, 1, 1), {8, 0, 0}), 8);
 }
 
 TEST(GlossyRays, StayAboveTheSurfaceThatNormalsAreBentOf) {

@@ -1,0 +1,57 @@
+// Lobes by which surfaces reflect the scene, sampled by rays that are drawn at random. What a lobe
+// is to plan, tables, kernels and reference stands here alone; how a ray of it is drawn, in
+// reference/add_impulses.h and simd/add_impulses.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/options.h"
+#include "sampling/random_streams.h"
+#include "scene/material.h"
+#include "stages/shading_tables.h"
+#include "stages/stage.h"
+
+namespace whit {
+
+struct Lobe {
+  Effect effect;                   // in whose frames it is sampled
+  bool (Material::*isOf)() const;  // the materials that have it
+  std::uint32_t flag;              // of these in such frames
+  RayKind kind;                    // of its rays
+  int RenderOptions::*samples;     // of a surfel that the eye sees
+  std::uint32_t firstBranch;       // of them, to childStream(); 64 follow
+  std::uint32_t salt;              // of their lattice; 0: it is the path's own
+
+  bool isSampled(const Material& material, EffectSet effects) const {
+    return effects.has(effect) && (material.*isOf)();
+  }
+};
+
+inline constexpr Lobe kGlossyLobe{Effect::glossyReflection,
+                                  &Material::hasGlossyReflection,
+                                  kMaterialScatters,
+                                  RayKind::reflection,
+                                  &RenderOptions::glossy,
+                                  3,
+                                  0};
+inline constexpr Lobe kDiffuseLobe{
+    Effect::indirect,  &Material::hasDiffuseReflection, kMaterialDiffuses,
+    RayKind::indirect, &RenderOptions::indirect,        128,
+    0x5851f42du};
+inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
+
+// Whether frames with these effects sample any.
+constexpr bool samplesLobes(EffectSet effects) {
+  return std::any_of(kLobes.begin(), kLobes.end(),
+                     [&](const Lobe& lobe) { return effects.has(lobe.effect); });
+}
+
+// Sample k of the surfel that `path` has led to.
+constexpr UnitPoint pointOf(const Lobe& lobe, std::uint32_t path, const LobeSampling& sampling,
+                            std::uint32_t k) {
+  return lobe.salt == 0 ? lobePoint(path, sampling, k) : saltedPoint(path, sampling, lobe.salt, k);
+}
+
+}  // namespace whit
