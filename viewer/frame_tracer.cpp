@@ -132,7 +132,7 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
   next.scale = edit.sky.scale;
   next.rotation = edit.sky.rotation;
   const Ambient ambient = edit.ambient.ofSky > 0
-                              ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient.occlusion)
+                              ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient)
                               : edit.ambient;
   editSky(scene_->scene, next, ambient);
   if (another && sky_.source.empty()) ownSky_ = std::move(next);

@@ -64,10 +64,9 @@ inline double samplesOf(const FrameRequest& request) {
 }
 
 // Whether both give the same light under the same sky.
-inline bool sameAmbient(const Ambient& a, const Ambient& b) {
-  if (a.occlusion != b.occlusion) return false;
-  if (a.ofSky > 0 || b.ofSky > 0) return a.ofSky == b.ofSky;
-  return a.up == b.up && a.down == b.down;
+inline bool sameAmbient(const Ambient& a, Ambient b) {
+  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // they follow from it
+  return a == b;
 }
 
 // What a user makes of a scene's surfaces, lights and surroundings; see scene/edit_shading.h.

@@ -64,7 +64,7 @@ void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyS
   context.textures.finish(context.scene);
   if (ambientFromSkyStrength) {
     context.scene.ambient =
-        ambientFromSky(context.scene.sky, *ambientFromSkyStrength, context.scene.ambient.occlusion);
+        ambientFromSky(context.scene.sky, *ambientFromSkyStrength, context.scene.ambient);
   }
 }
 

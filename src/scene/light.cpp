@@ -92,8 +92,13 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
 
 namespace {
 
-// Its means, times `factor`.
-Ambient meansOf(const Sky& sky, double factor) {
+// Of the upper and the lower hemisphere.
+struct Means {
+  Rgb up{0, 0, 0}, down{0, 0, 0};
+};
+
+// Those of the sky, times `factor`.
+Means meansOf(const Sky& sky, double factor) {
   // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
   constexpr double kMeanSine = 2.0 / 3.0;
   switch (sky.kind) {
@@ -113,11 +118,12 @@ Ambient meansOf(const Sky& sky, double factor) {
 
 }  // namespace
 
-Ambient ambientFromSky(const Sky& sky, double strength, float occlusion) {
-  Ambient ambient = meansOf(sky, strength * sky.scale);
-  ambient.ofSky = strength;
-  ambient.occlusion = occlusion;
-  return ambient;
+Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {
+  const auto [up, down] = meansOf(sky, strength * sky.scale);
+  before.up = up;
+  before.down = down;
+  before.ofSky = strength;
+  return before;
 }
 
 }  // namespace whit

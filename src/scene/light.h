@@ -70,6 +70,8 @@ struct Ambient {
   // What is no further away than this holds off its share of the light; 0: nothing does. Frames
   // take --ambient-samples of it.
   float occlusion = 0;
+
+  bool operator==(const Ambient&) const = default;
 };
 
 // Whether frames with these effects look for what holds it off.
@@ -82,7 +84,8 @@ inline bool isOccluded(const Ambient& ambient, EffectSet effects) {
 std::string skyName(const Sky& sky);
 // Radiance of the sky along the unit direction `d` (double precision; the kernels' oracle).
 RgbD skyRadiance(const Sky& sky, const Vec3d& d);
-// Cosine-weighted means of the sky over the upper and the lower hemisphere, times `strength`.
-Ambient ambientFromSky(const Sky& sky, double strength, float occlusion = 0);
+// Cosine-weighted means of the sky over the upper and the lower hemisphere, times `strength`, in
+// place of the light of `before`; what else that says stays.
+Ambient ambientFromSky(const Sky& sky, double strength, Ambient before = {});
 
 }  // namespace whit
