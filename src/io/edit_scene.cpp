@@ -79,7 +79,8 @@ bool editSurroundings(const LoadOptions& options, const JsonDocument& sections, 
   const std::optional<double> fromSky = readAmbient(file, context.scene);
   Sky& sky = context.scene.sky;
   if (sky.kind == Sky::Kind::image) return false;
-  editSky(scene, sky, fromSky ? ambientFromSky(sky, *fromSky) : context.scene.ambient);
+  const Ambient& ambient = context.scene.ambient;
+  editSky(scene, sky, fromSky ? ambientFromSky(sky, *fromSky, ambient) : ambient);
   return true;
 }
 

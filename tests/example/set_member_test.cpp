@@ -96,6 +96,18 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
   EXPECT_TRUE(samePictures(renderer.render(), smallRenderer(whittedWith(settings)).render()));
 }
 
+TEST(SetMember, AmbientLightFromTheSkyKeepsItsOcclusion) {
+  const Member member{"/ambient", R"({"fromSky": 0.5, "occlusion": 2})", true};
+  Renderer renderer = smallRenderer(loadScene("whitted"));
+  renderer.set("ambient-samples", "4").setMember(member.pointer, member.value);
+  Renderer read = smallRenderer(whittedWith({settingOf(member)}));
+  read.set("ambient-samples", "4");
+  EXPECT_TRUE(samePictures(renderer.render(), read.render()));
+  // It is there to be seen.
+  read.set("ambient-samples", "0");
+  EXPECT_FALSE(samePictures(renderer.render(), read.render()));
+}
+
 TEST(SetMember, TheSameMemberAgainIsOneSetting) {
   std::vector<std::string> settings;
   const auto add = [&](const char* text) { addSceneSetting(text, settings); };
