@@ -6,6 +6,7 @@
 #include <fstream>
 #include <new>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "core/formatted.h"
@@ -90,11 +91,6 @@ void add(Digester& d, const Camera& camera) {
   const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
   add(d, eye), add(d, at), add(d, up), add(d, fov), add(d, orthographicHeight);
 }
-void add(Digester& d, const Light& light) {
-  const auto& [name, position, intensity, radius, kind, direction, inner, outer, pointer] = light;
-  add(d, position), add(d, intensity), add(d, radius), add(d, kind);
-  add(d, direction), add(d, inner), add(d, outer);
-}
 void add(Digester& d, const Medium& medium) {
   const auto& [ior, absorption, priority] = medium;
   add(d, ior), add(d, absorption), add(d, priority);
@@ -103,20 +99,12 @@ void add(Digester& d, const InstanceRecord& instance) {
   const auto& [geometry, written, toWorld, mover, toMover, moves, firstItem] = instance;
   add(d, geometry), add(d, toWorld);
 }
-void add(Digester& d, const Material& material) {
-  const auto& [name, diffuse, diffuseMap, diffuseReflection, specular, specularMap, roughness,
-               roughnessMap, glossyReflection, emission, emissionMap, normalMap,
-               emissionBySecondUvs, normalBySecondUvs, alphaMap, alphaCutoff, coverage, coverageMap,
-               mirror, mirrorGrazing, transmission, thin, ior, absorption, priority, vertexTint,
-               doubleSided, castsShadow, pointer] = material;
-  add(d, diffuse), add(d, diffuseMap), add(d, specular), add(d, specularMap), add(d, roughness);
-  add(d, roughnessMap), add(d, diffuseReflection);
-  add(d, glossyReflection), add(d, emission), add(d, emissionMap), add(d, normalMap);
-  add(d, emissionBySecondUvs), add(d, normalBySecondUvs);
-  add(d, coverage), add(d, coverageMap), add(d, thin);
-  add(d, alphaMap), add(d, alphaCutoff), add(d, mirror), add(d, mirrorGrazing);
-  add(d, transmission), add(d, ior), add(d, absorption), add(d, priority), add(d, vertexTint);
-  add(d, doubleSided), add(d, castsShadow);
+
+// A material, a light, ambient light.
+template <typename T>
+requires requires(const T& value) { contentsOf(value); }
+void add(Digester& d, const T& value) {
+  std::apply([&](const auto&... contents) { (add(d, contents), ...); }, contentsOf(value));
 }
 
 void add(Digester& d, const Texture& texture);
@@ -159,8 +147,7 @@ std::string digestOf(const Scene& scene) {
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
                instancedSpheres, items, flush, motion, effects, reasons] = scene;
   Digester d;
-  addTable(d, lights), add(d, sky), add(d, ambient.up), add(d, ambient.down),
-      add(d, ambient.occlusion);
+  addTable(d, lights), add(d, sky), add(d, ambient);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);

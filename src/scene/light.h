@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 #include "core/effects.h"
 #include "core/vec3.h"
@@ -27,6 +28,13 @@ struct Light {
   float innerConeAngle = 0, outerConeAngle = 45;
   std::string pointer{};  // as of a Material
 };
+
+// All of it that pictures depend on. The bindings name every member: one that is added does not
+// compile before it is among them.
+inline auto contentsOf(const Light& light) {
+  const auto& [name, position, intensity, radius, kind, direction, inner, outer, pointer] = light;
+  return std::tie(position, intensity, radius, kind, direction, inner, outer);
+}
 
 // The least radius there is: of a point.
 inline constexpr float kPointRadius = 1.1e-18f;
@@ -73,6 +81,12 @@ struct Ambient {
 
   bool operator==(const Ambient&) const = default;
 };
+
+// As of a light.
+inline auto contentsOf(const Ambient& ambient) {
+  const auto& [up, down, ofSky, occlusion] = ambient;
+  return std::tie(up, down, occlusion);
+}
 
 // Whether frames with these effects look for what holds it off.
 inline bool isOccluded(const Ambient& ambient, EffectSet effects) {

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "core/effects.h"
 #include "core/vec3.h"
@@ -129,6 +130,21 @@ struct Material {
   // times the number of samples where a lobe is sampled several times.
   float impulseShare(EffectSet effects) const;
 };
+
+// All of it that pictures depend on. The bindings name every member: one that is added does not
+// compile before it is among them.
+inline auto contentsOf(const Material& material) {
+  const auto& [name, diffuse, diffuseMap, diffuseReflection, specular, specularMap, roughness,
+               roughnessMap, glossyReflection, emission, emissionMap, normalMap,
+               emissionBySecondUvs, normalBySecondUvs, alphaMap, alphaCutoff, coverage, coverageMap,
+               mirror, mirrorGrazing, transmission, thin, ior, absorption, priority, vertexTint,
+               doubleSided, castsShadow, pointer] = material;
+  return std::tie(diffuse, diffuseMap, specular, specularMap, roughness, roughnessMap,
+                  diffuseReflection, glossyReflection, emission, emissionMap, normalMap,
+                  emissionBySecondUvs, normalBySecondUvs, coverage, coverageMap, thin, alphaMap,
+                  alphaCutoff, mirror, mirrorGrazing, transmission, ior, absorption, priority,
+                  vertexTint, doubleSided, castsShadow);
+}
 
 inline float Material::impulseShare(EffectSet effects) const {
   const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));

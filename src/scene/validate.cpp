@@ -109,9 +109,6 @@ void checkSky(SceneDescription& d, Warnings& warnings) {
     throwBadScene(prefix + "sky", "expected finite values, none but the rotation below 0");
   }
   if (sky.kind == Sky::Kind::image) checkEnvironment(sky.image, prefix + "sky image", warnings);
-  if (!(d.ambient.occlusion >= 0 && std::isfinite(d.ambient.occlusion))) {
-    throwBadScene(prefix + "ambient", "expected a finite radius of occlusion, 0 or more");
-  }
   if (!isRadiance(d.ambient.up) || !isRadiance(d.ambient.down)) {
     throwBadScene(prefix + "ambient", "expected finite values, 0 or more a channel");
   }

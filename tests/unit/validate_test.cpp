@@ -119,7 +119,6 @@ const std::vector<Refusal>& refusals() {
        },
        {"sky image", "three planes"}},
       {"ambient", [](auto& d) { d.ambient.up.x = -1; }, {"ambient"}},
-      {"occlusion", [](auto& d) { d.ambient.occlusion = -1; }, {"ambient", "radius"}},
       {"too few normals",
        [](auto& d) { d.objects[0].meshes[0].normals.resize(3); },
        {"mesh 'square'", "expected 4 normals, found 3"}},
