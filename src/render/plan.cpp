@@ -56,7 +56,6 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::spheres, e.has(Effect::spheres))
       .with(Feature::flush, !scene.flush.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
-      .with(Feature::occlusion, isOccluded(scene.ambient, e))
       // Where no vertex normal differs from its triangle's there is nothing to lift.
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
@@ -120,7 +119,7 @@ class Planner {
     }
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
-    if (plan_.features.has(Feature::occlusion)) addAmbientLight();
+    if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
@@ -339,6 +338,12 @@ const Step* Plan::find(std::string_view name) const {
 bool Plan::writes(Part part) const {
   bool any = false;
   forEachStep([&](const Step& step) { any = any || step.writes.has(part); });
+  return any;
+}
+
+bool Plan::has(Stage stage) const {
+  bool any = false;
+  forEachStep([&](const Step& step) { any = any || step.stage == stage; });
   return any;
 }
 

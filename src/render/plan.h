@@ -88,6 +88,7 @@ struct Plan {
   // The first step of that name; null where the plan has none.
   const Step* find(std::string_view name) const;
   bool writes(Part part) const;
+  bool has(Stage stage) const;
   std::vector<Stage> stages() const;
 };
 

@@ -11,8 +11,7 @@ Workspace::Workspace(const Plan& plan, std::size_t capacity)
       hits_(capacity_, plan.features),
       surfels_(capacity_, plan.features) {
   if (plan.writes(Part::unshadowed)) unshadowed_.allocate(capacity_, plan.features);
-  const bool shadows = plan.features.has(Feature::shadows) || plan.features.has(Feature::occlusion);
-  if (shadows) shadows_.allocate(capacity_, plan.features);
+  if (plan.has(Stage::checkShadows)) shadows_.allocate(capacity_, plan.features);
   reserveRays(0, capacity_);
 }
 

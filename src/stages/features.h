@@ -27,7 +27,6 @@ namespace whit {
   X(spheres, "hits on exact spheres")                                     \
   X(flush, "triangles that share their place with others")                \
   X(shadows, "shadow rays")                                               \
-  X(occlusion, "rays that look for what holds off ambient light")         \
   X(lift, "shadow rays that start above their facets (--terminator)")     \
   X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
   X(secondUvs, "maps looked up with second texture coordinates")

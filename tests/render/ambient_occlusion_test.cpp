@@ -52,7 +52,7 @@ TEST_P(AmbientOcclusion, WithoutRaysThereIsNoCallAndNoColumn) {
   const Picture plain = render(scene_, o);
   EXPECT_EQ(plain.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
   EXPECT_EQ(plain.stats.of(RayKind::occlusion).rays, 0u);
-  EXPECT_FALSE(Renderer(scene_, o).plan().features.has(Feature::occlusion));
+  EXPECT_EQ(Renderer(scene_, o).plan().find("findAmbientAndOcclusionRays"), nullptr);
   o.ambientSamples = 3;
   const Picture sampled = render(scene_, o);
   EXPECT_GT(sampled.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
