@@ -31,7 +31,8 @@ struct AccelOptions {
 class RayLog {
  public:
   struct Stream {
-    bool occlusion = false, coherent = false;
+    // anyHit: calls that ask whether there is a hit, not for the nearest.
+    bool anyHit = false, coherent = false;
     std::size_t count = 0;
     // Origin, direction, tFar; filled up to whole blocks.
     std::array<std::vector<float>, 7> columns;
@@ -41,7 +42,7 @@ class RayLog {
   const std::vector<Stream>& streams() const { return streams_; }
 
  private:
-  Stream& streamOf(bool occlusion, bool coherent);
+  Stream& streamOf(bool anyHit, bool coherent);
   // The last column is null where rays have no end.
   static void append(Stream& stream, const std::array<const float*, 7>& from, std::size_t n);
 

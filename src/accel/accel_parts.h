@@ -15,7 +15,7 @@ struct Accel::Parts {
 
   // The width of a packet of shadow rays.
   int shadowPacket(bool coherent) const {
-    return coherent && embree.coherentOcclusionMayHang(packet) ? 8 : packet;
+    return coherent && embree.coherentAnyHitMayHang(packet) ? 8 : packet;
   }
   // Whether Embree is to lead packets of this width through its BVH several at a time.
   bool together(int width, bool coherent) const {

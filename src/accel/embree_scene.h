@@ -72,7 +72,7 @@ class EmbreeScene {
   // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): where the
   // stack held something else than zero before, its loop has no end. Packets of 8 are safe, and so
   // are rays that are not said to be coherent.
-  bool coherentOcclusionMayHang(int packet) const { return packet == 16 && mayHang_; }
+  bool coherentAnyHitMayHang(int packet) const { return packet == 16 && mayHang_; }
 
  private:
   void addGeometry(std::size_t index, const Scene& scene);

@@ -59,8 +59,7 @@ double replayHits(const Accel::Parts& parts, const RayLog::Stream& stream) {
 // Full packets but for the last one of a stream.
 template <int kWidth>
 double replayStream(const Accel::Parts& parts, const RayLog::Stream& stream) {
-  return stream.occlusion ? replayShadows<kWidth>(parts, stream)
-                          : replayHits<kWidth>(parts, stream);
+  return stream.anyHit ? replayShadows<kWidth>(parts, stream) : replayHits<kWidth>(parts, stream);
 }
 
 double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
@@ -70,13 +69,13 @@ double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
     const auto& c = stream.columns;
     const Vec3f origin{c[0][i], c[1][i], c[2][i]}, direction{c[3][i], c[4][i], c[5][i]};
     if (!isTraceable(scene.reach(), origin, direction)) continue;
-    const unsigned mask = stream.occlusion ? kShadowMask : kSeenMask;
+    const unsigned mask = stream.anyHit ? kShadowMask : kSeenMask;
     rays.push_back(withoutHit(singleRay(origin, direction, c[6][i], mask)));
   }
   QueryContext context(stream.coherent);
   const auto start = TraceClock::now();
   for (RTCRayHit& ray : rays) {
-    if (stream.occlusion) {
+    if (stream.anyHit) {
       occluded(nullptr, scene.top(), context, ray.ray);
     } else {
       intersect(nullptr, scene.top(), context, ray);
@@ -87,11 +86,11 @@ double replaySingly(const EmbreeScene& scene, const RayLog::Stream& stream) {
 
 }  // namespace
 
-RayLog::Stream& RayLog::streamOf(bool occlusion, bool coherent) {
+RayLog::Stream& RayLog::streamOf(bool anyHit, bool coherent) {
   for (Stream& s : streams_) {
-    if (s.occlusion == occlusion && s.coherent == coherent) return s;
+    if (s.anyHit == anyHit && s.coherent == coherent) return s;
   }
-  return streams_.emplace_back(Stream{occlusion, coherent, 0, {}});
+  return streams_.emplace_back(Stream{anyHit, coherent, 0, {}});
 }
 
 void RayLog::append(const RayColumns& rays, std::size_t n, bool coherent) {
@@ -120,7 +119,7 @@ void RayLog::append(Stream& stream, const std::array<const float*, 7>& from, std
 double Accel::replay(const RayLog& log) const {
   double sum = 0;
   for (const RayLog::Stream& stream : log.streams()) {
-    switch (stream.occlusion ? parts_->shadowPacket(stream.coherent) : parts_->packet) {
+    switch (stream.anyHit ? parts_->shadowPacket(stream.coherent) : parts_->packet) {
       case 16:
         sum += replayStream<16>(*parts_, stream);
         break;

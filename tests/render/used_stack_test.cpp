@@ -23,7 +23,7 @@ constexpr std::size_t kRays = 40;  // not a multiple of a packet
 
 class UsedStack : public testing::TestWithParam<int> {
  protected:
-  // A scene of instances: see EmbreeScene::coherentOcclusionMayHang.
+  // A scene of instances: see EmbreeScene::coherentAnyHitMayHang.
   UsedStack() : scene_(test::load("mirrors")), accel_(scene_, optionsOf(GetParam())) {
     rays_.allocate(kRays, FeatureSet());
     hits_.allocate(kRays, FeatureSet());
