@@ -250,8 +250,7 @@ struct FrameStatistics {
     double ms = 0;
   };
   struct Rays {
-    // "primary", "shadow", "reflection", "refraction", "indirect", "occlusion"
-    std::string_view name;
+    std::string_view name;  // "primary", "shadow", "reflection", ...: each kind that there is
     std::uint64_t count = 0;
   };
   double frameMs = 0;
