@@ -64,9 +64,7 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
       if (!layers.channels().has(Channel::rays)) continue;
       RayCounts counts;
       tracer.sampled(frame, x, y, samples[number], number, counts);
-      layers.numbers(Channel::rays)[pixel] =
-          static_cast<std::uint32_t>(counts[RayKind::primary] + counts[RayKind::shadow] +
-                                     counts[RayKind::reflection] + counts[RayKind::refraction]);
+      layers.numbers(Channel::rays)[pixel] = static_cast<std::uint32_t>(counts.all());
     }
   });
 }

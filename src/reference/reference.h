@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,9 @@ class RayCounts {
  public:
   std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t all() const {
+    return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+  }
 
   RayCounts& operator+=(const RayCounts& b) {
     for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];

@@ -368,17 +368,28 @@ TEST(ChannelLaws, AgreeWithTheTwin) {
 }
 
 // The sum over a picture is what the frame has traced.
+void expectAllRaysKept(const std::string& name, const RenderOptions& o) {
+  const Scene scene = load(name);
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  const Camera camera = chooseCamera(scene, o);
+  const FrameStats stats = o.mode == Mode::reference ? renderer.renderReference(camera, film)
+                                                     : renderer.render(camera, film);
+  std::uint64_t kept = 0, traced = 0;
+  for (const std::uint32_t n : film.channels.numbers(Channel::rays)) kept += n;
+  for (const RayTally& tally : stats.meter.tally) traced += tally.rays;
+  EXPECT_EQ(kept, traced) << name;
+}
+
 TEST(ChannelLaws, RaysAreAllThatWereTraced) {
-  for (const std::string& name : smallScenes()) {
-    const Scene scene = load(name);
-    const RenderOptions o = channelOptions("rays");
-    Renderer renderer(scene, o);
-    Film film = makeFilm(scene, o);
-    const FrameStats stats = renderer.render(chooseCamera(scene, o), film);
-    std::uint64_t kept = 0, traced = 0;
-    for (const std::uint32_t n : film.channels.numbers(Channel::rays)) kept += n;
-    for (const RayTally& tally : stats.meter.tally) traced += tally.rays;
-    EXPECT_EQ(kept, traced) << name;
+  for (const Mode mode : {Mode::packets, Mode::reference}) {
+    RenderOptions o = channelOptions("rays");
+    o.mode = mode;
+    for (const std::string& name : smallScenes()) expectAllRaysKept(name, o);
+    // Of every kind.
+    o.indirect = o.ambientSamples = 2;
+    o.depth = 2;
+    expectAllRaysKept("cornell", o);
   }
 }
 
