@@ -11,24 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Json describeLight(const Light& light) {
-  Json json{{"name", light.name}};
-  if (light.kind != Light::Kind::point) json["direction"] = describe(light.direction);
-  if (light.kind == Light::Kind::directional) {
-    json.update({{"type", "directional"}, {"irradiance", describe(light.intensity)}});
-    return json;
-  }
-  json.update({{"position", describe(light.position)},
-               {"intensity", describe(light.intensity)},
-               {"radius", describe(light.radius)}});
-  if (light.kind == Light::Kind::spot) {
-    json.update({{"type", "spot"},
-                 {"innerConeAngle", describe(light.innerConeAngle)},
-                 {"outerConeAngle", describe(light.outerConeAngle)}});
-  }
-  return json;
-}
-
 class PathMover {
  public:
   PathMover(fs::path from, fs::path to) : from_(std::move(from)), to_(std::move(to)) {}
@@ -73,31 +55,6 @@ Json describe(float x) {
 }
 
 Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }
-
-Json describe(const Camera& camera) {
-  Json json{{"eye", describe(camera.eye)},
-            {"at", describe(camera.at)},
-            {"up", describe(camera.up)},
-            {"fov", describe(camera.fov)}};
-  if (camera.orthographicHeight > 0) {
-    json["orthographicHeight"] = describe(camera.orthographicHeight);
-  }
-  return json;
-}
-
-Json describe(const Ambient& ambient) {
-  Json json = ambient.ofSky > 0
-                  ? Json{{"fromSky", ambient.ofSky}}
-                  : Json{{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
-  if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
-  return json;
-}
-
-Json describe(const std::vector<Light>& lights) {
-  Json list = Json::array();
-  for (const Light& light : lights) list.push_back(describeLight(light));
-  return list;
-}
 
 std::string describePath(const fs::path& file, const fs::path& folder) {
   const fs::path real = fs::weakly_canonical(fs::current_path() / file);

@@ -1,21 +1,17 @@
-// Parts of a scene as its file has them; what is read of that is the same bit for bit.
+// Numbers and paths as scene files have them; what is read of that is the same bit for bit.
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <string>
 
+#include "core/vec3.h"
 #include "io/json_text.h"
-#include "scene/camera.h"
-#include "scene/light.h"
 
 namespace whit {
 
 // The shortest decimals that are read as this float.
 Json describe(float x);
 Json describe(const Vec3f& v);
-Json describe(const Camera& camera);
-Json describe(const Ambient& ambient);
-Json describe(const std::vector<Light>& lights);
 
 // The path of a file for a scene in `folder`: "$WHIT_DATA/..." where it lies below that, else
 // relative to the folder.

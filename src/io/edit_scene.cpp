@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/describe_scene.h"
 #include "io/scene_context.h"
 #include "io/scene_materials.h"
 #include "io/scene_view.h"

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "io/describe_scene.h"
 #include "io/json_reader.h"
 #include "io/paths.h"
 #include "io/read_file.h"

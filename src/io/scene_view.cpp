@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/options.h"
+#include "io/describe_scene.h"
 #include "io/read_motion.h"
 #include "scene/studio_sky.h"
 
@@ -99,6 +100,24 @@ void readCone(JsonObject& object, Light& light) {
   if (light.innerConeAngle < light.outerConeAngle) return;
   object.value().fail("an innerConeAngle below the outerConeAngle, " +
                       std::to_string(light.outerConeAngle) + " degrees");
+}
+
+Json describeLight(const Light& light) {
+  Json json{{"name", light.name}};
+  if (light.kind != Light::Kind::point) json["direction"] = describe(light.direction);
+  if (light.kind == Light::Kind::directional) {
+    json.update({{"type", "directional"}, {"irradiance", describe(light.intensity)}});
+    return json;
+  }
+  json.update({{"position", describe(light.position)},
+               {"intensity", describe(light.intensity)},
+               {"radius", describe(light.radius)}});
+  if (light.kind == Light::Kind::spot) {
+    json.update({{"type", "spot"},
+                 {"innerConeAngle", describe(light.innerConeAngle)},
+                 {"outerConeAngle", describe(light.outerConeAngle)}});
+  }
+  return json;
 }
 
 }  // namespace
@@ -206,6 +225,31 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   }
   object.finish();
   return fromSky;
+}
+
+Json describe(const Camera& camera) {
+  Json json{{"eye", describe(camera.eye)},
+            {"at", describe(camera.at)},
+            {"up", describe(camera.up)},
+            {"fov", describe(camera.fov)}};
+  if (camera.orthographicHeight > 0) {
+    json["orthographicHeight"] = describe(camera.orthographicHeight);
+  }
+  return json;
+}
+
+Json describe(const Ambient& ambient) {
+  Json json = ambient.ofSky > 0
+                  ? Json{{"fromSky", ambient.ofSky}}
+                  : Json{{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
+  if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
+  return json;
+}
+
+Json describe(const std::vector<Light>& lights) {
+  Json list = Json::array();
+  for (const Light& light : lights) list.push_back(describeLight(light));
+  return list;
 }
 
 }  // namespace whit

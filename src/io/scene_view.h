@@ -1,7 +1,8 @@
-// The sections of a scene file about cameras and light.
+// The sections of a scene file about cameras and light, as they are read and written.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "io/json_reader.h"
 #include "io/scene_context.h"
@@ -22,5 +23,10 @@ void readSky(JsonObject& file, SceneContext& context);
 // "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
+
+// What is read of these is the same bit for bit: one of "cameras", "lights", "ambient".
+Json describe(const Camera& camera);
+Json describe(const std::vector<Light>& lights);
+Json describe(const Ambient& ambient);
 
 }  // namespace whit
