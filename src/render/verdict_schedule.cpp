@@ -7,12 +7,13 @@ namespace whit {
 
 namespace {
 
-// Proving a part takes about as long as tracing so many shadow rays (whit bench --ab-verdicts).
+// Proving a part takes as long as tracing so many shadow rays, or twice as many (whit bench
+// --ab-verdicts).
 constexpr double kRaysAProof = 400;
 // Of cameras that move: for so many frames at the most a part is counted on to stay in view.
 constexpr std::size_t kFramesInView = 96;
 // Measured in films along sponza-mirror's path: with 53 samples of pixels for each triangle they
-// lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 9
+// lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 4
 // %.
 constexpr double kSamplesATriangle = 250;
 // Of many samples of one view, one is spent on asking.
