@@ -100,12 +100,13 @@ std::uint32_t mediaOn(std::uint32_t stack) {
   return count;
 }
 
-struct Crossing {
+struct ShellCrossing {
   std::uint32_t material;
   bool entering;
   std::uint32_t media;  // so many on the stack before it
 };
-constexpr Crossing kThroughShell[] = {{0, true, 0}, {1, true, 1}, {1, false, 2}, {0, false, 1}};
+constexpr ShellCrossing kThroughShell[] = {
+    {0, true, 0}, {1, true, 1}, {1, false, 2}, {0, false, 1}};
 
 // Sends rays through all four boundaries; each must meet them in their order. `visit` sees the rays
 // that have left, one for each at the start.
@@ -114,7 +115,7 @@ void crossShell(const Shell& shell, const Setup& setup, std::vector<ProbeRay> ra
                 Finding& finding, const Visit& visit) {
   Probe probe(shell.scene, setup);
   const std::vector<ProbeRay> start = rays;
-  for (const Crossing& c : kThroughShell) {
+  for (const ShellCrossing& c : kThroughShell) {
     probe.cast(rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const bool met = probe.isHit(i) && probe.surfels().material[i] == c.material &&
