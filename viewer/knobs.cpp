@@ -156,7 +156,7 @@ void drawLastChange(const KnobCosts& costs) {
       return static_cast<double>(s.meter.tally[i].rays) / 1e3;
     };
     if (change.before.meter.tally[i].rays + change.after.meter.tally[i].rays == 0) continue;
-    row((std::string(kRayKindNames[i]) + ", k").c_str(), thousands(change.before),
+    row((std::string(kRayKinds[i].name) + ", k").c_str(), thousands(change.before),
         thousands(change.after));
   }
   ImGui::EndTable();

@@ -131,9 +131,9 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
   }
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    if (!cli::callsFor(effects, static_cast<RayKind>(i))) continue;
+    if (!kRayKinds[i].calledForBy(effects)) continue;
     const RayTally& tally = stats.meter.tally[i];
-    drawCell("%s", kRayKindNames[i].data());
+    drawCell("%s", kRayKinds[i].name.data());
     drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
     drawCell("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
     drawCell("%.1f", 100 * cli::lanesFilled(tally));

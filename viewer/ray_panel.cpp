@@ -15,13 +15,13 @@ namespace {
 constexpr double kLeastUnfolded = 0.05;  // share of the pixel's radiance
 
 ImU32 colorOf(RayLook look) {
-  const auto& c = kRayColors[static_cast<std::size_t>(look)];
+  const auto& c = styleOf(look).color;
   return IM_COL32(c[0], c[1], c[2], 255);
 }
 
 // Its line's, lighter.
 ImVec4 textColorOf(RayKind kind) {
-  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(colorOf(lookOf(kind)));
+  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(colorOf(RayLook{kind}));
   const auto lighter = [](float code) { return 0.25f + 0.75f * code; };
   return {lighter(color.x), lighter(color.y), lighter(color.z), 1};
 }
@@ -30,13 +30,12 @@ ImVec4 textColorOf(RayKind kind) {
 void drawLegend(const std::vector<RayLine>& lines) {
   const float side = ImGui::GetFontSize();
   bool first = true;
-  for (std::size_t i = 0; i < kRayLookCount; ++i) {
-    const auto look = static_cast<RayLook>(i);
+  for (const RayLook look : rayLooks()) {
     if (std::none_of(lines.begin(), lines.end(),
                      [&](const RayLine& line) { return line.look == look; })) {
       continue;
     }
-    const std::string name(kRayLookNames[i]);
+    const std::string name(styleOf(look).name);
     const float width =
         side + ImGui::CalcTextSize(name.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
     if (!first) {
@@ -130,9 +129,8 @@ class RayTreeTab {
     ImGui::PushID(static_cast<int>(number));
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
-    const std::string text =
-        formatted("%s to %s: %d codes", kRayKindNames[static_cast<std::size_t>(n.kind)].data(),
-                  pick_.words[number].met.c_str(), codesAdded(added));
+    const std::string text = formatted("%s to %s: %d codes", rowOf(n.kind).name.data(),
+                                       pick_.words[number].met.c_str(), codesAdded(added));
     const bool open =
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
     ImGui::PopStyleColor();
@@ -167,16 +165,14 @@ class RayTreeTab {
         point(number);
       }
     }
-    drawEnd("reflection", n.reflectionEnd);
-    drawEnd("refraction", n.refractionEnd);
-    drawEnd("indirect light", n.indirectEnd);
+    for (const RayKind kind : kImpulseKinds) {
+      const PathEnd end = n.endOf(kind);
+      if (end != PathEnd::none)
+        ImGui::BulletText("no %s: %s", rowOf(kind).light.data(), cli::nameOf(end));
+    }
     if (words.parting.empty()) return;
     ImGui::TextColored(ImVec4(1, 0.75f, 0.3f, 1), "here the reference parts: %s",
                        words.parting.c_str());
-  }
-
-  static void drawEnd(const char* what, PathEnd end) {
-    if (end != PathEnd::none) ImGui::BulletText("no %s: %s", what, cli::nameOf(end));
   }
 
   const RayPick& pick_;
@@ -258,7 +254,7 @@ void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view
     if (!at || !clip(*at, double{window.x}, double{window.y})) return;
     const auto width = static_cast<float>(line.width + extra);
     const ImU32 color = colorOf(line.look);
-    if (isShadowLook(line.look)) {
+    if (isDashed(line.look)) {
       drawDashed(list, *at, color, width + 0.5f);
       return;
     }

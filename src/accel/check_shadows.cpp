@@ -49,7 +49,7 @@ std::size_t traceShadowsSingly(const EmbreeScene& scene, const Chunk& c, double&
 }  // namespace
 
 void Accel::checkShadows(Chunk& c) const noexcept {
-  const RayKind kind = c.lightIsAmbient() ? RayKind::occlusion : RayKind::shadow;
+  const RayKind kind = shadowKind(c.lightIsAmbient());
   RayTally& tally = c.meter->tally[static_cast<std::size_t>(kind)];
   double& embreeMs = c.meter->embreeMs;
   tally.rays += c.shadowCount;

@@ -78,7 +78,7 @@ void writeTiming(CsvWriter& csv, const Point& point) {
   csv.text("noisy", t.noisy() ? "yes" : "no");
   csv.number("settled_ms", t.settledMs);
   for (std::size_t k = 0; k < kRayKindCount; ++k) {
-    csv.text(std::string(kRayKindNames[k]) + "_rays",
+    csv.text(std::string(kRayKinds[k].name) + "_rays",
              std::to_string(point.stats.meter.tally[k].rays));
   }
 }

@@ -58,24 +58,6 @@ RunRatio ratioOf(const RunSummary& a, const RunSummary& b) {
   return {quantile(frames, 0.5), quantile(outside, 0.5)};
 }
 
-bool callsFor(EffectSet effects, RayKind kind) {
-  switch (kind) {
-    case RayKind::primary:
-      return true;
-    case RayKind::shadow:
-      return effects.has(Effect::shadows);
-    case RayKind::reflection:
-      return effects.has(Effect::mirror) || effects.has(Effect::glossyReflection);
-    case RayKind::refraction:
-      return effects.has(Effect::transmission);
-    case RayKind::indirect:
-      return effects.has(Effect::indirect);
-    case RayKind::occlusion:
-      return effects.has(Effect::ambientOcclusion);
-  }
-  return false;
-}
-
 double lanesFilled(const RayTally& tally) {
   return tally.lanes == 0 ? 0 : static_cast<double>(tally.rays) / static_cast<double>(tally.lanes);
 }

@@ -69,9 +69,6 @@ struct RunRatio {
 };
 RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
 
-// Whether a frame with these effects traces rays of the kind: tables of others say nothing.
-bool callsFor(EffectSet effects, RayKind kind);
-
 // Live lanes over lanes sent to Embree; 0 where nothing was sent.
 double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);

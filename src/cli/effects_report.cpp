@@ -141,7 +141,7 @@ std::string effectsNote(const std::vector<EffectStep>& steps) {
 std::string effectsCsv(const std::vector<EffectStep>& steps) {
   const std::vector<EffectCost> costs = effectCosts(steps);
   std::string text = "effect,frame_ms,added_ms,added_outside_embree_ms";
-  for (const std::string_view kind : kRayKindNames) text += "," + std::string(kind) + "_rays";
+  for (const RayKindRow& kind : kRayKinds) text += "," + std::string(kind.name) + "_rays";
   text += ",added_rays,memory_mb,added_memory_mb\n";
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const EffectCost& c = costs[i];

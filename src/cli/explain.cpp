@@ -113,8 +113,7 @@ class TreeText {
       return;
     }
     text_ +=
-        indent(n) + formatted("%s, weight %s, in %s: ",
-                              std::string(kRayKindNames[static_cast<std::size_t>(n.kind)]).c_str(),
+        indent(n) + formatted("%s, weight %s, in %s: ", std::string(rowOf(n.kind).name).c_str(),
                               textOf(n.weight).c_str(), mediumName(e_.scene, n.media).c_str());
     text_ += metText(e_.scene, n) + "\n";
     if (e_.rays.partsFirstAt(number)) {
@@ -139,14 +138,10 @@ class TreeText {
                               : std::string(" is in shadow")) +
                "\n";
     }
-    appendEnd(n, "reflection", n.reflectionEnd);
-    appendEnd(n, "refraction", n.refractionEnd);
-    appendEnd(n, "indirect light", n.indirectEnd);
-  }
-
-  void appendEnd(const RayNode& n, const char* what, PathEnd end) {
-    if (end != PathEnd::none) {
-      text_ += indent(n, 1) + formatted("no %s: %s\n", what, nameOf(end));
+    for (const RayKind kind : kImpulseKinds) {
+      const PathEnd end = n.endOf(kind);
+      if (end == PathEnd::none) continue;
+      text_ += indent(n, 1) + formatted("no %s: %s\n", rowOf(kind).light.data(), nameOf(end));
     }
   }
 
@@ -213,12 +208,9 @@ Json surfaceJson(const Scene& scene, const RayNode& n) {
 
 Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool ofPackets) {
   const RayNode& n = tree.nodes[number];
-  Json json{{"kind", kRayKindNames[static_cast<std::size_t>(n.kind)]},
-            {"origin", jsonOf(n.origin)},
-            {"direction", jsonOf(n.direction)},
-            {"weight", jsonOf(n.weight)},
-            {"medium", mediumName(scene, n.media)},
-            {"surface", surfaceJson(scene, n)},
+  Json json{{"kind", rowOf(n.kind).name},           {"origin", jsonOf(n.origin)},
+            {"direction", jsonOf(n.direction)},     {"weight", jsonOf(n.weight)},
+            {"medium", mediumName(scene, n.media)}, {"surface", surfaceJson(scene, n)},
             {"radiance", jsonOf(n.radiance)}};
   if (ofPackets) {
     json["emitted"] = jsonOf(n.emitted);
@@ -227,9 +219,8 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
     json["lights"] = Json::array();
     for (const LightContribution& light : n.lights)
       json["lights"].push_back(lightJson(scene, light));
-    json["ends"] = {{"reflection", nameOf(n.reflectionEnd)},
-                    {"refraction", nameOf(n.refractionEnd)},
-                    {"indirect", nameOf(n.indirectEnd)}};
+    for (const RayKind kind : kImpulseKinds)
+      json["ends"][std::string(rowOf(kind).name)] = nameOf(n.endOf(kind));
   }
   json["children"] = Json::array();
   for (const std::size_t child : n.children) {

@@ -69,7 +69,7 @@ void addFrames(const RunSummary& run, Json& json) {
   json["embree_ms"] = frame.embreeMs();
   json["outside_embree_ms"] = outsideEmbreeMs(run);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    json["rays"][std::string(kRayKindNames[i])] = frame.meter.tally[i].rays;
+    json["rays"][std::string(kRayKinds[i].name)] = frame.meter.tally[i].rays;
   }
   const auto [lit, dark] = frame.meter.shadows;
   const std::uint64_t traced = frame.of(RayKind::shadow).rays;
@@ -86,7 +86,7 @@ void addFrames(const RunSummary& run, Json& json) {
   }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    json["lanes_filled"][std::string(kRayKindNames[i])] = lanesFilled(frame.meter.tally[i]);
+    json["lanes_filled"][std::string(kRayKinds[i].name)] = lanesFilled(frame.meter.tally[i]);
   }
   json["nonfinite"] = frame.nonFinitePixels;
   json["image_hash"] = run.imageHash;

@@ -8,12 +8,12 @@ namespace whit::cli {
 namespace {
 
 std::string drawn(const ScreenLine& line, RayLook look, double width) {
-  const auto& color = kRayColors[static_cast<std::size_t>(look)];
+  const auto& color = styleOf(look).color;
   return formatted(
       "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#%02x%02x%02x\" "
       "stroke-width=\"%.2f\"%s/>\n",
       line.x1, line.y1, line.x2, line.y2, color[0], color[1], color[2], width,
-      isShadowLook(look) ? " stroke-dasharray=\"4 3\"" : "");
+      isDashed(look) ? " stroke-dasharray=\"4 3\"" : "");
 }
 
 }  // namespace

@@ -89,9 +89,9 @@ void appendWriting(std::string& text, const RunSummary& run) {
 void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
   text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    if (!callsFor(effects, static_cast<RayKind>(i))) continue;
+    if (!kRayKinds[i].calledForBy(effects)) continue;
     const RayTally& tally = frame.meter.tally[i];
-    text += formatted("  %-14s%12llu%10.2f", kRayKindNames[i].data(),
+    text += formatted("  %-14s%12llu%10.2f", kRayKinds[i].name.data(),
                       static_cast<unsigned long long>(tally.rays),
                       mraysPerSecond(tally.rays, frame.frameMs));
     if (tally.lanes > 0) {

@@ -30,7 +30,7 @@ FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
     said.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
   }
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    said.rays.push_back({kRayKindNames[i], frame.meter.tally[i].rays});
+    said.rays.push_back({kRayKinds[i].name, frame.meter.tally[i].rays});
   }
   return said;
 }

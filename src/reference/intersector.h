@@ -6,7 +6,7 @@
 
 #include "core/vec3.h"
 #include "scene/camera.h"
-#include "stages/stage.h"
+#include "stages/ray_kinds.h"
 
 namespace whit::reference {
 

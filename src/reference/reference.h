@@ -17,7 +17,7 @@
 #include "sampling/pixel_edges.h"
 #include "scene/mip_maps.h"
 #include "scene/scene.h"
-#include "stages/stage.h"
+#include "stages/ray_kinds.h"
 
 namespace whit::reference {
 

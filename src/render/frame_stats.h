@@ -6,6 +6,7 @@
 
 #include "simd/kernels.h"
 #include "stages/chunk.h"
+#include "stages/ray_kinds.h"
 #include "stages/stage.h"
 
 namespace whit {

@@ -24,28 +24,23 @@ Box extentOf(const RayTree& tree) {
 double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
 
 RayLook lookOf(const LightContribution& light) {
-  if (light.light == kAmbientLight) return light.visible ? RayLook::open : RayLook::occluded;
-  return light.visible ? RayLook::lit : RayLook::blocked;
+  return {shadowKind(light.light == kAmbientLight), !light.visible};
 }
 
 }  // namespace
 
-RayLook lookOf(RayKind kind) {
-  switch (kind) {
-    case RayKind::primary:
-      return RayLook::primary;
-    case RayKind::reflection:
-      return RayLook::reflection;
-    case RayKind::refraction:
-      return RayLook::refraction;
-    case RayKind::indirect:
-      return RayLook::indirect;
-    case RayKind::shadow:
-      return RayLook::lit;
-    case RayKind::occlusion:
-      return RayLook::open;
+std::vector<RayLook> rayLooks() {
+  std::vector<RayLook> goOn, ask;
+  for (const RayKindRow& row : kRayKinds) {
+    if (!row.onlyAsk()) {
+      goOn.push_back({row.kind, false});
+      continue;
+    }
+    ask.push_back({row.kind, false});
+    ask.push_back({row.kind, true});
   }
-  return RayLook::primary;
+  goOn.insert(goOn.end(), ask.begin(), ask.end());
+  return goOn;
 }
 
 std::vector<RayLine> linesOf(const RayTree& tree) {
@@ -63,7 +58,7 @@ std::vector<RayLine> linesOf(const RayTree& tree) {
     }
     const bool ends = n.triangle != kMiss;
     const Vec3d end = ends ? n.position : n.origin + n.direction * (kShownOfEndless * extent);
-    lines.push_back({n.origin, end, lookOf(n.kind), i, width});
+    lines.push_back({n.origin, end, RayLook{n.kind}, i, width});
   }
   return lines;
 }

@@ -2,36 +2,32 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <compare>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "render/ray_tree.h"
 
 namespace whit {
 
-// What a line stands for: a ray of that kind, a shadow ray that reaches its light or does not, or a
-// ray that finds ambient light open or occluded.
-enum class RayLook { primary, reflection, refraction, indirect, lit, blocked, open, occluded };
-inline constexpr std::size_t kRayLookCount = 8;
-inline constexpr std::array<std::string_view, kRayLookCount> kRayLookNames{
-    "primary", "reflection", "refraction", "indirect", "lit", "in shadow", "open", "occluded"};
-inline constexpr std::array<std::array<std::uint8_t, 3>, kRayLookCount> kRayColors{{{255, 255, 255},
-                                                                                    {255, 64, 64},
-                                                                                    {64, 160, 255},
-                                                                                    {64, 224, 96},
-                                                                                    {255, 224, 64},
-                                                                                    {0, 0, 0},
-                                                                                    {240, 128, 255},
-                                                                                    {112, 0, 144}}};
-RayLook lookOf(RayKind kind);
-// Of rays that only ask whether something is in between; they are drawn dashed.
-constexpr bool isShadowLook(RayLook look) { return look >= RayLook::lit; }
+// What a line stands for: a ray of that kind; of those that only ask whether something is in
+// between, one that is blocked or is not.
+struct RayLook {
+  RayKind kind = RayKind::primary;
+  bool blocked = false;
+
+  auto operator<=>(const RayLook&) const = default;
+};
+// In the order of a legend: rays that go on before those that only ask.
+std::vector<RayLook> rayLooks();
+constexpr const RayStyle& styleOf(RayLook look) {
+  return look.blocked ? rowOf(look.kind).blocked : rowOf(look.kind).style;
+}
+constexpr bool isDashed(RayLook look) { return rowOf(look.kind).onlyAsk(); }
 
 struct RayLine {
   Vec3d from, to;
-  RayLook look = RayLook::primary;
+  RayLook look;
   std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
   double width = 0;      // pixels; thinner for what weighs less at the eye
 };

@@ -201,7 +201,16 @@ bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
 struct Wanted {
   reference::Impulses impulses;
   reference::Crossing crossing;
-  bool indirect = false;
+  // By the diffuse lobe. Of a glossy one all samples may end in the surface: it is not told.
+  bool scattered = false;
+
+  bool isWanted(RayKind kind) const {
+    return maxComponent(impulses.of(kind).weight) > 0 || (kind == kDiffuseLobe.kind && scattered);
+  }
+  // No ray is refracted where the media would have one.
+  bool isReflectedTotally(RayKind kind) const {
+    return kind == RayKind::refraction && crossing.dielectric && !crossing.hidden;
+  }
 };
 Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
                 const RayNode& n) {
@@ -211,10 +220,10 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
   const reference::Crossing crossing = reference::crossMedia(
       scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
-  const bool indirect = plan.effects.has(Effect::indirect) && !crossing.hidden &&
-                        maxComponent(surfel.diffuse * surfel.coverage) > 0;
+  const bool scattered = plan.effects.has(kDiffuseLobe.effect) && !crossing.hidden &&
+                         maxComponent(surfel.diffuse * surfel.coverage) > 0;
   return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
-          crossing, indirect};
+          crossing, scattered};
 }
 
 // Of what the surface would send on, and does not.
@@ -228,17 +237,13 @@ void explainEnds(const Renderer& renderer, RayTree& tree) {
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
     const Wanted wanted = wantedOf(renderer.scene(), renderer.plan(), options, n);
-    const PathEnd end = endOf(options, n);
-    const auto isWanted = [](const reference::Impulse& i) { return maxComponent(i.weight) > 0; };
-    if (isWanted(wanted.impulses.reflected) && !sends(tree, n, RayKind::reflection)) {
-      n.reflectionEnd = end;
-    }
-    if (wanted.indirect && !sends(tree, n, RayKind::indirect)) n.indirectEnd = end;
-    if (sends(tree, n, RayKind::refraction)) continue;
-    if (isWanted(wanted.impulses.refracted)) {
-      n.refractionEnd = end;
-    } else if (wanted.crossing.dielectric && !wanted.crossing.hidden) {
-      n.refractionEnd = PathEnd::totalReflection;
+    for (const RayKind kind : kImpulseKinds) {
+      if (sends(tree, n, kind)) continue;
+      if (wanted.isWanted(kind)) {
+        n.endOf(kind) = endOf(options, n);
+      } else if (wanted.isReflectedTotally(kind)) {
+        n.endOf(kind) = PathEnd::totalReflection;
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "core/image.h"
 #include "core/vec3.h"
 #include "render/renderer.h"
-#include "stages/stage.h"
+#include "stages/ray_kinds.h"
 
 namespace whit {
 
@@ -44,9 +45,12 @@ struct RayNode {
   std::vector<LightContribution> lights;
   RgbD local;     // of emission, ambient and lights
   RgbD radiance;  // with what its children brought back
-  PathEnd reflectionEnd = PathEnd::none, refractionEnd = PathEnd::none;
-  PathEnd indirectEnd = PathEnd::none;  // where none of the samples goes on
+  // Of impulses of each kind; of samples of a lobe, where none goes on.
+  std::array<PathEnd, kRayKindCount> ends{};
   std::vector<std::size_t> children;
+
+  PathEnd& endOf(RayKind of) { return ends[static_cast<std::size_t>(of)]; }
+  PathEnd endOf(RayKind of) const { return ends[static_cast<std::size_t>(of)]; }
 };
 
 // Parents come before their children.

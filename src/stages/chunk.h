@@ -12,6 +12,7 @@
 #include "core/options.h"
 #include "stages/columns.h"
 #include "stages/features.h"
+#include "stages/ray_kinds.h"
 #include "stages/ray_tally.h"
 #include "stages/shading_tables.h"
 #include "stages/stage.h"

@@ -10,8 +10,8 @@
 #include "core/options.h"
 #include "sampling/random_streams.h"
 #include "scene/material.h"
+#include "stages/ray_kinds.h"
 #include "stages/shading_tables.h"
-#include "stages/stage.h"
 
 namespace whit {
 

@@ -45,13 +45,4 @@ inline constexpr std::array kStageNames{
 };
 inline constexpr std::size_t kStageCount = kStageNames.size();
 
-enum class RayKind : std::uint8_t { primary, shadow, reflection, refraction, indirect, occlusion };
-inline constexpr std::array kRayKindNames{
-    std::string_view("primary"),    std::string_view("shadow"),   std::string_view("reflection"),
-    std::string_view("refraction"), std::string_view("indirect"), std::string_view("occlusion")};
-inline constexpr std::size_t kRayKindCount = kRayKindNames.size();
-// Impulses, in the order in which a queue holds them.
-inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,
-                                          RayKind::indirect};
-
 }  // namespace whit

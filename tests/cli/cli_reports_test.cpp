@@ -62,8 +62,8 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   for (const std::string_view name : kStageNames) {
     EXPECT_NE(table.find(name), std::string::npos) << name;
   }
-  for (const std::string_view kind : kRayKindNames) {
-    EXPECT_NE(table.find(kind), std::string::npos) << kind;
+  for (const RayKindRow& kind : kRayKinds) {
+    EXPECT_NE(table.find(kind.name), std::string::npos) << kind.name;
   }
   EXPECT_NE(table.find("frame 20.00 ms (50.0 a second), least 10.00, 95 % within 30.00"),
             std::string::npos)
@@ -81,9 +81,9 @@ TEST(StageTable, TellsOfNoRaysThatTheSceneDoesNotCallFor) {
     run.effects = effects;
     const std::string table = stageTable(run);
     std::vector<std::string> kinds;
-    for (const std::string_view kind : kRayKindNames) {
-      if (table.find("\n  " + std::string(kind) + " ") != std::string::npos)
-        kinds.emplace_back(kind);
+    for (const RayKindRow& kind : kRayKinds) {
+      if (table.find("\n  " + std::string(kind.name) + " ") != std::string::npos)
+        kinds.emplace_back(kind.name);
     }
     return kinds;
   };

@@ -28,7 +28,7 @@ void expectFullPackets(const std::string& name) {
     for (const RayKind kind : {RayKind::shadow, RayKind::reflection}) {
       ASSERT_GT(stats.of(kind).rays, 10000u);
       EXPECT_GE(laneShare(stats.of(kind)), kLanesFilled)
-          << name << " packet " << packet << " " << kRayKindNames[static_cast<std::size_t>(kind)];
+          << name << " packet " << packet << " " << rowOf(kind).name;
     }
   }
 }

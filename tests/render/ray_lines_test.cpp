@@ -12,12 +12,17 @@ namespace whit::test {
 namespace {
 
 TEST(RayLines, EveryLookHasAColorOfItsOwn) {
-  const std::set<std::array<std::uint8_t, 3>> colors(kRayColors.begin(), kRayColors.end());
-  EXPECT_EQ(colors.size(), kRayLookCount);
-  std::set<RayLook> looks;
-  for (std::size_t kind = 0; kind < kRayKindCount; ++kind)
-    looks.insert(lookOf(static_cast<RayKind>(kind)));
-  EXPECT_EQ(looks.size(), kRayKindCount);
+  std::set<std::array<std::uint8_t, 3>> colors;
+  std::set<std::string_view> names;
+  std::set<RayKind> kinds;
+  for (const RayLook look : rayLooks()) {
+    colors.insert(styleOf(look).color);
+    names.insert(styleOf(look).name);
+    kinds.insert(look.kind);
+  }
+  EXPECT_EQ(colors.size(), rayLooks().size());
+  EXPECT_EQ(names.size(), rayLooks().size());
+  EXPECT_EQ(kinds.size(), kRayKindCount);
 }
 
 // Of a part of the room's picture.
@@ -32,9 +37,9 @@ std::set<RayLook> looksIn(const RenderOptions& options) {
     std::size_t shadows = 0;
     for (const RayLine& line : linesOf(tree)) {
       looks.insert(line.look);
-      shadows += isShadowLook(line.look);
-      if (isShadowLook(line.look)) continue;
-      EXPECT_EQ(line.look, lookOf(tree.nodes[line.node].kind));
+      shadows += isDashed(line.look);
+      if (isDashed(line.look)) continue;
+      EXPECT_EQ(line.look, RayLook{tree.nodes[line.node].kind});
     }
     std::size_t traced = 0;
     for (const RayNode& n : tree.nodes) {
@@ -52,15 +57,16 @@ TEST(RayLines, ShowIndirectLightAndOcclusionAsSuch) {
   options.size = ImageSize{24, 24};
   options.depth = 2;
   const std::set<RayLook> plain = looksIn(options);
-  for (const RayLook look : {RayLook::indirect, RayLook::open, RayLook::occluded})
-    EXPECT_FALSE(plain.contains(look));
+  const RayLook scattered{RayKind::indirect}, open{RayKind::occlusion, false},
+      blocked{RayKind::occlusion, true};
+  for (const RayLook look : {scattered, open, blocked}) EXPECT_FALSE(plain.contains(look));
   options.indirect = 1;
-  EXPECT_TRUE(looksIn(options).contains(RayLook::indirect));
+  EXPECT_TRUE(looksIn(options).contains(scattered));
   options.indirect = 0;
   options.ambientSamples = 2;
   const std::set<RayLook> occluded = looksIn(options);
-  EXPECT_TRUE(occluded.contains(RayLook::open));
-  EXPECT_TRUE(occluded.contains(RayLook::occluded));
+  EXPECT_TRUE(occluded.contains(open));
+  EXPECT_TRUE(occluded.contains(blocked));
 }
 
 }  // namespace

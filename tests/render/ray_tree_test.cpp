@@ -96,7 +96,7 @@ TEST(RayTree, OfAMirror) {
   EXPECT_NEAR(tree.nodes[1].weight.x, 0.5, 1e-6);
   EXPECT_NEAR(tree.nodes[1].radiance.x, 0.8, 1e-6);
   EXPECT_NEAR(double{tree.pixel.x}, 0.4, 1e-6);
-  EXPECT_EQ(tree.nodes[0].reflectionEnd, PathEnd::none);
+  EXPECT_EQ(tree.nodes[0].endOf(RayKind::reflection), PathEnd::none);
 
   const RayTree reference = traceReferenceTree(renderer, camera, film, 4, 4);
   ASSERT_EQ(reference.nodes.size(), 2u);
@@ -115,7 +115,9 @@ TEST(RayTree, SaysWhyPathsEnd) {
   const auto endWith = [&] {
     Renderer renderer(scene, options);
     const Film film = makeFilm(scene, options);
-    return traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4).nodes[0].reflectionEnd;
+    return traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4)
+        .nodes[0]
+        .endOf(RayKind::reflection);
   };
   options.depth = 0;
   EXPECT_EQ(endWith(), PathEnd::depth);
@@ -125,8 +127,7 @@ TEST(RayTree, SaysWhyPathsEnd) {
 }
 
 // How often paths end so, of the first surfaces that 81 pixels show.
-std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options,
-                              PathEnd RayNode::*end, RayKind kind) {
+std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options, RayKind kind) {
   Renderer renderer(scene, options);
   const Film film = makeFilm(scene, options);
   std::map<PathEnd, int> ends;
@@ -134,11 +135,11 @@ std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options,
     const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, i % 9, i / 9);
     const RayNode& first = tree.nodes[0];
     if (first.triangle == kMiss) continue;
-    ++ends[first.*end];
+    ++ends[first.endOf(kind)];
     const bool goesOn =
         std::any_of(first.children.begin(), first.children.end(),
                     [&](std::size_t child) { return tree.nodes[child].kind == kind; });
-    EXPECT_EQ(goesOn, first.*end == PathEnd::none);
+    EXPECT_EQ(goesOn, first.endOf(kind) == PathEnd::none);
   }
   return ends;
 }
@@ -148,30 +149,28 @@ TEST(RayTree, SaysThatRouletteEndsPaths) {
   RenderOptions options;
   options.size = ImageSize{9, 9};
   options.roulette = 1;
-  auto mirrored = endsIn(surfaceAndWall(mirrorMaterial(0.5f)), options, &RayNode::reflectionEnd,
-                         RayKind::reflection);
+  auto mirrored = endsIn(surfaceAndWall(mirrorMaterial(0.5f)), options, RayKind::reflection);
   EXPECT_EQ(mirrored.size(), 2u);
   EXPECT_GT(mirrored[PathEnd::none], 10);
   EXPECT_GT(mirrored[PathEnd::roulette], 10);
 
   const Scene wall = surfaceAndWall(diffuseMaterial(0.5f));
   options.indirect = 1;
-  auto scattered = endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect);
+  auto scattered = endsIn(wall, options, RayKind::indirect);
   EXPECT_EQ(scattered.size(), 2u);
   EXPECT_GT(scattered[PathEnd::none], 10);
   EXPECT_GT(scattered[PathEnd::roulette], 10);
   options.roulette = 0;
-  EXPECT_EQ(endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect).count(PathEnd::none),
-            1u);
+  EXPECT_EQ(endsIn(wall, options, RayKind::indirect).count(PathEnd::none), 1u);
   options.depth = 0;
-  scattered = endsIn(wall, options, &RayNode::indirectEnd, RayKind::indirect);
+  scattered = endsIn(wall, options, RayKind::indirect);
   EXPECT_EQ(scattered.size(), 1u);
   EXPECT_EQ(scattered.count(PathEnd::depth), 1u);
   options.indirect = 0;
   Renderer renderer(wall, options);
   const Film film = makeFilm(wall, options);
   const RayTree unasked = traceRayTree(renderer, chooseCamera(wall, options), film, 4, 4);
-  EXPECT_EQ(unasked.nodes[0].indirectEnd, PathEnd::none);
+  EXPECT_EQ(unasked.nodes[0].endOf(RayKind::indirect), PathEnd::none);
 }
 
 }  // namespace

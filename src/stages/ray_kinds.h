@@ -1,0 +1,75 @@
+// The kinds of rays. What a kind is to reports, explanations and drawings stands here alone; which
+// rays a frame sends, in stages/lobes.h and render/plan.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/effects.h"
+
+namespace whit {
+
+enum class RayKind : std::uint8_t { primary, shadow, reflection, refraction, indirect, occlusion };
+
+// How lines that stand for rays are drawn, and named in a legend.
+struct RayStyle {
+  std::string_view name;
+  std::array<std::uint8_t, 3> color{};  // sRGB
+};
+
+struct RayKindRow {
+  RayKind kind;
+  std::string_view name;   // in tables and files
+  EffectSet effects;       // a frame traces such rays if it has any of these; none: every frame
+  std::string_view light;  // of impulses: what they bring a surface, in sentences
+  RayStyle style;
+  RayStyle blocked;  // of rays that only ask whether something is in between, and find that it is
+
+  // Else they go on to the nearest surface.
+  constexpr bool onlyAsk() const { return !blocked.name.empty(); }
+  constexpr bool calledForBy(EffectSet frame) const {
+    return effects == EffectSet() || (frame.bits() & effects.bits()) != 0;
+  }
+};
+
+// clang-format off
+inline constexpr std::array kRayKinds{
+    RayKindRow{RayKind::primary, "primary", EffectSet(), "",
+               {"primary", {255, 255, 255}}, {}},
+    RayKindRow{RayKind::shadow, "shadow", EffectSet().with(Effect::shadows), "",
+               {"lit", {255, 224, 64}}, {"in shadow", {0, 0, 0}}},
+    RayKindRow{RayKind::reflection, "reflection",
+               EffectSet().with(Effect::mirror).with(Effect::glossyReflection), "reflection",
+               {"reflection", {255, 64, 64}}, {}},
+    RayKindRow{RayKind::refraction, "refraction",
+               EffectSet().with(Effect::transmission), "refraction",
+               {"refraction", {64, 160, 255}}, {}},
+    RayKindRow{RayKind::indirect, "indirect", EffectSet().with(Effect::indirect), "indirect light",
+               {"indirect", {64, 224, 96}}, {}},
+    RayKindRow{RayKind::occlusion, "occlusion", EffectSet().with(Effect::ambientOcclusion), "",
+               {"open", {240, 128, 255}}, {"occluded", {112, 0, 144}}}};
+// clang-format on
+inline constexpr std::size_t kRayKindCount = kRayKinds.size();
+static_assert([] {
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    if (kRayKinds[i].kind != static_cast<RayKind>(i)) return false;
+  }
+  return true;
+}());
+
+constexpr const RayKindRow& rowOf(RayKind kind) {
+  return kRayKinds[static_cast<std::size_t>(kind)];
+}
+
+// Impulses, in the order in which a queue holds them.
+inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,
+                                          RayKind::indirect};
+
+// Of the rays that ask whether a surface sees a light, or ambient light.
+constexpr RayKind shadowKind(bool ofAmbientLight) {
+  return ofAmbientLight ? RayKind::occlusion : RayKind::shadow;
+}
+
+}  // namespace whit
