@@ -220,8 +220,8 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
   const reference::Crossing crossing = reference::crossMedia(
       scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
-  const bool scattered = plan.effects.has(kDiffuseLobe.effect) && !crossing.hidden &&
-                         maxComponent(surfel.diffuse * surfel.coverage) > 0;
+  const bool scattered = kDiffuseLobe.isSampled(scene.materials[surfel.material], plan.effects) &&
+                         !crossing.hidden && maxComponent(surfel.diffuse * surfel.coverage) > 0;
   return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
           crossing, scattered};
 }

@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                                          "glossy"),
                          nameOfScene);
 
-// A surface before a wall that glows.
-Scene surfaceAndWall(const Material& surface) {
+// A surface before a wall, which glows if nothing else is said.
+Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
   SceneBuilder builder;
   const auto wallAt = [&](float z, const Material& material) {
     Mesh wall;
@@ -75,7 +75,7 @@ Scene surfaceAndWall(const Material& surface) {
     builder.add(std::move(wall));
   };
   wallAt(0, surface);
-  wallAt(4, emittingMaterial(0.8f));
+  wallAt(4, behind);
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
   return builder.build();
 }
@@ -166,11 +166,25 @@ TEST(RayTree, SaysThatRouletteEndsPaths) {
   scattered = endsIn(wall, options, RayKind::indirect);
   EXPECT_EQ(scattered.size(), 1u);
   EXPECT_EQ(scattered.count(PathEnd::depth), 1u);
-  options.indirect = 0;
-  Renderer renderer(wall, options);
-  const Film film = makeFilm(wall, options);
-  const RayTree unasked = traceRayTree(renderer, chooseCamera(wall, options), film, 4, 4);
-  EXPECT_EQ(unasked.nodes[0].endOf(RayKind::indirect), PathEnd::none);
+}
+
+TEST(RayTree, TellsOfNoEndOfWhatIsNotAskedFor) {
+  const auto endIn = [](const Scene& scene, const RenderOptions& options) {
+    Renderer renderer(scene, options);
+    const Film film = makeFilm(scene, options);
+    const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4);
+    return tree.nodes[0].endOf(RayKind::indirect);
+  };
+  RenderOptions options;
+  options.size = ImageSize{9, 9};
+  options.depth = 0;
+  Material wall = diffuseMaterial(0.5f);
+  EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::none);
+  options.indirect = 1;
+  EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::depth);
+  const Material other = wall;
+  wall.diffuseReflection = false;
+  EXPECT_EQ(endIn(surfaceAndWall(wall, other), options), PathEnd::none);
 }
 
 }  // namespace
