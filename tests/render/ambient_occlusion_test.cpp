@@ -2,7 +2,6 @@
 // bits must not depend on.
 #include <gtest/gtest.h>
 
-#include "metrics/metrics.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 
@@ -32,15 +31,7 @@ TEST_P(AmbientOcclusion, EveryStageAgreesWithItsTwinOnEveryTarget) {
 }
 
 TEST_P(AmbientOcclusion, PictureAgreesWithTheReference) {
-  RenderOptions o = options();
-  Renderer renderer(scene_, o);
-  Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
-  renderer.render(chooseCamera(scene_, o), packets);
-  renderer.renderReference(chooseCamera(scene_, o), reference);
-  const ImageDifference d = compareImages(packets.image, reference.image);
-  EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
-  EXPECT_LE(d.flipMean, 0.01);
-  EXPECT_EQ(d.nonFinite, 0u);
+  expectSampledPictureAgrees(scene_, options());
 }
 
 TEST_P(AmbientOcclusion, BitsDependOnTheSceneAlone) {

@@ -32,17 +32,7 @@ TEST_P(Glossy, EveryStageAgreesWithItsTwinOnEveryTarget) {
 TEST_P(Glossy, PictureAgreesWithTheReference) {
   RenderOptions o = options();
   o.spp = 2;
-  Renderer renderer(scene_, o);
-  Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
-  renderer.render(chooseCamera(scene_, o), packets);
-  renderer.renderReference(chooseCamera(scene_, o), reference);
-  const ImageDifference d = compareImages(packets.image, reference.image);
-  std::printf("%s: %.4f %% off by two codes or more, FLIP %.6f\n", GetParam().c_str(),
-              d.pixelsGe2CodesPct, d.flipMean);
-  // Half a per cent: each pixel is the mean of dozens of paths, any of which may meet an edge.
-  EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
-  EXPECT_LE(d.flipMean, 0.01);
-  EXPECT_EQ(d.nonFinite, 0u);
+  expectSampledPictureAgrees(scene_, o);
 }
 
 TEST_P(Glossy, BitsDependOnTheSceneAlone) { expectBitsWhateverTheQueues(scene_, options()); }

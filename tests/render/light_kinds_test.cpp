@@ -90,11 +90,7 @@ TEST(LightKinds, AgreeWithTheReference) {
   const Scene scene = load("effects");
   expectStagesAgreeOnEveryTarget(scene, smallOptions());
   const RenderOptions o = smallOptions();
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
-  const ImageDifference d = compareImages(packets.image, reference.image);
+  const ImageDifference d = differenceFromReference(scene, o);
   EXPECT_LE(d.pixelsGe2CodesPct, 0.1);
 }
 

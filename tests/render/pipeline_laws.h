@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "metrics/metrics.h"
 #include "render/shipped_scene.h"
 #include "render/stage_comparison.h"
 #include "simd/kernels.h"
@@ -24,6 +25,24 @@ inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions opt
     }
   }
   simd::chooseTarget("auto");
+}
+
+// How far packets are from the reference.
+inline ImageDifference differenceFromReference(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
+  renderer.render(chooseCamera(scene, options), packets);
+  renderer.renderReference(chooseCamera(scene, options), reference);
+  return compareImages(packets.image, reference.image);
+}
+
+// The picture agrees with the reference where rays are sampled. Half a per cent: each pixel is the
+// mean of dozens of paths, any of which may meet an edge.
+inline void expectSampledPictureAgrees(const Scene& scene, const RenderOptions& options) {
+  const ImageDifference d = differenceFromReference(scene, options);
+  EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
+  EXPECT_LE(d.flipMean, 0.01);
+  EXPECT_EQ(d.nonFinite, 0u);
 }
 
 // However the work is cut up, the picture has the same bits.

@@ -25,11 +25,7 @@ void expectPictureAgrees(const std::string& name, int depth = smallOptions().dep
   const Scene scene = load(name);
   RenderOptions o = smallOptions();
   o.depth = depth;
-  Renderer renderer(scene, o);
-  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
-  renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
-  const ImageDifference d = compareImages(packets.image, reference.image);
+  const ImageDifference d = differenceFromReference(scene, o);
   std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
               name.c_str(), d.pixelsGe2CodesPct, limitPct, d.flipMean, kFlipMean);
   EXPECT_LE(d.pixelsGe2CodesPct, limitPct);
