@@ -5,9 +5,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/meet_sphere.cpp"
+#include "bake/sphere.h"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
-#include "scene/sphere.h"
 #include "stages/packet_words.h"
 
 HWY_BEFORE_NAMESPACE();

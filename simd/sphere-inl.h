@@ -6,7 +6,7 @@
 #define WHIT_SIMD_SPHERE_INL_H_
 #endif
 
-#include "scene/sphere.h"
+#include "bake/sphere.h"
 #include "simd/azimuth-inl.h"
 #include "simd/surface-inl.h"
 

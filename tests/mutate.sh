@@ -144,7 +144,7 @@ mutations() {
     '{u, v, height}; (void)foldedU, (void)foldedV, (void)below'
   plant sphere-inverse-transposed src/accel/sphere_geometry.cpp \
     'inverse.rows[row][column] = rows[row][column]' 'inverse.rows[row][column] = rows[column][row]'
-  plant sphere-mirrored-inside-out src/scene/sphere.cpp \
+  plant sphere-mirrored-inside-out src/bake/sphere.cpp \
     'record.outward = toGeometry.determinant() < 0 ? -1.0f : 1.0f;' 'record.outward = 1.0f;'
   plant sphere-without-offset simd/sphere-inl.h \
     'surface.magnitude = Select3(s.on, magnitude, surface.magnitude);' \

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/interrupt.h"
+#include "bake/move_scene.h"
+#include "cli/app/interrupt.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "io/image_file.h"
-#include "scene/move_scene.h"
+#include "io/image/image_file.h"
 #include "viewer/inspector.h"
 #include "viewer/panel.h"
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <map>
 
+#include "bake/move_scene.h"
 #include "core/formatted.h"
-#include "scene/move_scene.h"
 #include "viewer/app.h"
 #include "viewer/save_scene.h"
 #include "viewer/view_files.h"

@@ -1,7 +1,7 @@
 // Flying, looking around and orbiting. Pure: knows neither window nor clock.
 #pragma once
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 
 namespace whit::view {
 

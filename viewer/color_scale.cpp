@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/formatted.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 
 namespace whit::view {
 

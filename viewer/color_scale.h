@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/debug_view.h"
+#include "inspect/debug_view.h"
 
 namespace whit::view {
 

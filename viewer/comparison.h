@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "render/renderer.h"
 
 namespace whit::view {

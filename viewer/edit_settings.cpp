@@ -1,6 +1,6 @@
 // Edits as settings of the scene.
-#include "io/describe_scene.h"
-#include "io/scene_view.h"
+#include "io/scene/describe_scene.h"
+#include "io/scene/scene_view.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {

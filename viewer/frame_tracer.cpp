@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/frame_summary.h"
-#include "app/image_output.h"
+#include "bake/edit_shading.h"
+#include "bake/move_scene.h"
+#include "cli/app/frame_summary.h"
+#include "cli/app/image_output.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
-#include "io/named_sky.h"
+#include "io/scene/named_sky.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/verdict_schedule.h"
-#include "scene/edit_shading.h"
-#include "scene/move_scene.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::view {

@@ -8,7 +8,7 @@
 
 #include "core/display.h"
 #include "core/formatted.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "viewer/label.h"
 #include "viewer/window.h"
 

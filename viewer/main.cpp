@@ -1,11 +1,11 @@
 // whit-view: the viewer.
 #include <cstdio>
 
-#include "app/completion.h"
-#include "app/man_page.h"
-#include "app/open_scene.h"
-#include "app/program.h"
-#include "app/progress_bar.h"
+#include "cli/app/completion.h"
+#include "cli/app/man_page.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/program.h"
+#include "cli/app/progress_bar.h"
 #include "core/error.h"
 #include "core/version.h"
 #include "io/paths.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/frame_summary.h"
+#include "cli/app/frame_summary.h"
 #include "core/formatted.h"
 #include "scene/light.h"
 #include "scene/material.h"

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/frame_summary.h"
-#include "app/image_output.h"
-#include "app/open_scene.h"
+#include "cli/app/frame_summary.h"
+#include "cli/app/image_output.h"
+#include "cli/app/open_scene.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "render/auto_exposure.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/explained_rays.h"
-#include "app/open_scene.h"
-#include "render/ray_lines.h"
+#include "cli/app/explained_rays.h"
+#include "cli/app/open_scene.h"
+#include "inspect/ray_lines.h"
 
 namespace whit::view {
 

@@ -5,16 +5,16 @@
 #include <map>
 #include <set>
 
-#include "app/interrupt.h"
+#include "cli/app/interrupt.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/describe_scene.h"
-#include "io/distinct_names.h"
 #include "io/model.h"
 #include "io/paths.h"
 #include "io/read_file.h"
-#include "io/scene_settings.h"
-#include "io/scene_view.h"
+#include "io/scene/describe_scene.h"
+#include "io/scene/distinct_names.h"
+#include "io/scene/scene_settings.h"
+#include "io/scene/scene_view.h"
 
 namespace whit::view {
 

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "io/describe_scene.h"
-#include "io/named_sky.h"
-#include "scene/studio_sky.h"
+#include "io/scene/describe_scene.h"
+#include "io/scene/named_sky.h"
+#include "make/studio_sky.h"
 
 namespace whit::view {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/open_scene.h"
-#include "io/json_text.h"
+#include "cli/app/open_scene.h"
+#include "io/scene/json_text.h"
 
 namespace whit::view {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/named_sky.h"
-#include "scene/studio_sky.h"
+#include "io/scene/named_sky.h"
+#include "make/studio_sky.h"
 #include "viewer/panel.h"
 
 namespace whit::view {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene.h"
 #include "scene/animation.h"
-#include "scene/scene.h"
 
 namespace whit::view {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/open_scene.h"
-#include "io/image_file.h"
-#include "render/debug_view.h"
+#include "cli/app/open_scene.h"
+#include "inspect/debug_view.h"
+#include "io/image/image_file.h"
 #include "viewer/comparison.h"
 #include "viewer/knob_measurement.h"
 #include "viewer/sky_choice.h"

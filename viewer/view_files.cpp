@@ -4,17 +4,17 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/image_output.h"
-#include "app/interrupt.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"
-#include "io/describe_scene.h"
-#include "io/json_text.h"
 #include "io/paths.h"
 #include "io/read_file.h"
-#include "io/scene_settings.h"
+#include "io/scene/describe_scene.h"
+#include "io/scene/json_text.h"
+#include "io/scene/scene_settings.h"
 
 namespace whit::view {
 

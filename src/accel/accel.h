@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene.h"
 #include "core/options.h"
 #include "core/progress.h"
-#include "scene/scene.h"
 #include "stages/chunk.h"
 
 namespace whit {

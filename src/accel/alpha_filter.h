@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accel/alpha_map.h"
-#include "scene/scene.h"
+#include "bake/scene.h"
 
 namespace whit {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "bake/instance_bounds.h"
 #include "core/error.h"
-#include "scene/instance_bounds.h"
 
 namespace whit {
 

@@ -6,7 +6,7 @@
 #include "accel/accel_parts.h"
 #include "accel/packets.h"
 #include "accel/single_rays.h"
-#include "scene/eye_in_plane.h"
+#include "bake/eye_in_plane.h"
 
 namespace whit {
 

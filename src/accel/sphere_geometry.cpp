@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "scene/sphere.h"
+#include "bake/sphere.h"
 #include "stages/packet_words.h"
 
 namespace whit {

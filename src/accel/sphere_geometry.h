@@ -6,7 +6,7 @@
 
 #include "accel/alpha_filter.h"
 #include "accel/embree_calls.h"
-#include "scene/scene.h"
+#include "bake/scene.h"
 #include "simd/meet_sphere.h"
 
 namespace whit {

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "bake/scene.h"
 #include "core/image.h"
 #include "core/options.h"
-#include "scene/scene.h"
 
 namespace whit::accuracy {
 

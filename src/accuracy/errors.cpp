@@ -8,7 +8,7 @@
 #include "core/display.h"
 #include "core/quantile.h"
 #include "core/worker_pool.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit::accuracy {
 

@@ -8,8 +8,8 @@
 #include "accuracy/measurement.h"
 #include "accuracy/reference_cache.h"
 #include "accuracy/timing.h"
-#include "metrics/hdr_flip.h"
-#include "render/path_divergence.h"
+#include "inspect/hdr_flip.h"
+#include "inspect/path_divergence.h"
 
 namespace whit::accuracy {
 

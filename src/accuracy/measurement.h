@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "accuracy/knobs.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "inspect/stage_comparison.h"
 #include "render/renderer.h"
-#include "render/stage_comparison.h"
 
 namespace whit::accuracy {
 

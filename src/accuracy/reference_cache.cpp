@@ -7,8 +7,8 @@
 #include "accuracy/pass_mean.h"
 #include "core/error.h"
 #include "core/formatted.h"
-#include "io/image_file.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "io/image/image_file.h"
 #include "render/renderer.h"
 
 namespace whit::accuracy {

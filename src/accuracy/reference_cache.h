@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
+#include "bake/scene.h"
 #include "core/image.h"
 #include "core/options.h"
 #include "core/progress.h"
-#include "scene/scene.h"
 
 namespace whit::accuracy {
 

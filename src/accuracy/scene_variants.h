@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 
 namespace whit::accuracy {
 

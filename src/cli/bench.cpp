@@ -3,8 +3,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/image_output.h"
-#include "app/progress_bar.h"
+#include "cli/app/image_output.h"
+#include "cli/app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"

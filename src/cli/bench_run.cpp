@@ -1,8 +1,8 @@
 #include "cli/bench_run.h"
 
 #include "accuracy/digest.h"
+#include "inspect/floor.h"
 #include "render/auto_exposure.h"
-#include "render/floor.h"
 #include "render/verdict_schedule.h"
 
 namespace whit::cli {

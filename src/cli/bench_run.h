@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "app/frame_summary.h"
-#include "app/open_scene.h"
+#include "cli/app/frame_summary.h"
+#include "cli/app/open_scene.h"
 
 namespace whit::cli {
 

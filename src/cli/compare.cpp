@@ -4,18 +4,18 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/image_output.h"
-#include "app/interrupt.h"
-#include "app/open_scene.h"
-#include "app/progress_bar.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/printable.h"
-#include "io/image_layers.h"
+#include "inspect/path_divergence.h"
+#include "io/image/image_layers.h"
 #include "render/auto_exposure.h"
-#include "render/path_divergence.h"
 
 namespace whit::cli {
 

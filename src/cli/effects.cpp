@@ -2,9 +2,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/image_output.h"
-#include "app/interrupt.h"
-#include "app/progress_bar.h"
+#include "bake/leave_out.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
+#include "cli/app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/effects_report.h"
@@ -12,7 +13,6 @@
 #include "core/formatted.h"
 #include "io/atomic_file.h"
 #include "io/load_scene.h"
-#include "scene/leave_out.h"
 
 namespace whit::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/frame_summary.h"
+#include "cli/app/frame_summary.h"
 
 namespace whit::cli {
 

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/explained_rays.h"
-#include "app/image_output.h"
-#include "app/open_scene.h"
-#include "app/progress_bar.h"
+#include "cli/app/explained_rays.h"
+#include "cli/app/image_output.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "cli/ray_diagram.h"
@@ -16,7 +16,7 @@
 #include "core/formatted.h"
 #include "core/printable.h"
 #include "io/atomic_file.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "render/auto_exposure.h"
 
 namespace whit::cli {

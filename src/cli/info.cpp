@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/image_output.h"
-#include "app/open_scene.h"
-#include "app/progress_bar.h"
+#include "cli/app/image_output.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"

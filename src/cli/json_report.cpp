@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "app/interrupt.h"
+#include "cli/app/interrupt.h"
 #include "cli/machine_facts.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"

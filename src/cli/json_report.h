@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/frame_summary.h"
+#include "cli/app/frame_summary.h"
 #include "core/warnings.h"
-#include "metrics/metrics.h"
-#include "metrics/value_difference.h"
-#include "render/stage_comparison.h"
+#include "inspect/metrics.h"
+#include "inspect/stage_comparison.h"
+#include "inspect/value_difference.h"
 
 namespace whit::cli {
 

@@ -1,9 +1,9 @@
 // whit: the command line program.
 #include <cstdio>
 
-#include "app/completion.h"
-#include "app/man_page.h"
-#include "app/program.h"
+#include "cli/app/completion.h"
+#include "cli/app/man_page.h"
+#include "cli/app/program.h"
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/nearest_name.h"

@@ -1,11 +1,11 @@
 // whit merge: crops of one image, put together.
-#include "io/merge_images.h"
+#include "io/image/merge_images.h"
 
 #include <limits>
 
-#include "app/image_output.h"
-#include "app/interrupt.h"
-#include "app/open_scene.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
+#include "cli/app/open_scene.h"
 #include "cli/commands.h"
 
 namespace whit::cli {

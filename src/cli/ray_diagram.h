@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/ray_lines.h"
+#include "inspect/ray_lines.h"
 
 namespace whit::cli {
 

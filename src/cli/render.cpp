@@ -10,10 +10,11 @@
 #include <utility>
 
 #include "accuracy/digest.h"
-#include "app/background_writer.h"
-#include "app/image_output.h"
-#include "app/open_scene.h"
-#include "app/progress_bar.h"
+#include "bake/move_scene.h"
+#include "cli/app/background_writer.h"
+#include "cli/app/image_output.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "cli/stage_table.h"
@@ -22,12 +23,11 @@
 #include "core/options.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "io/paths.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/verdict_schedule.h"
-#include "scene/move_scene.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::cli {

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "app/option_list.h"
-#include "app/parse_options.h"
+#include "cli/app/option_list.h"
+#include "cli/app/parse_options.h"
 #include "cli/commands.h"
 #include "core/printable.h"
 #include "io/paths.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/frame_summary.h"
+#include "cli/app/frame_summary.h"
 
 namespace whit::cli {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/image_output.h"
-#include "app/interrupt.h"
-#include "app/parse_options.h"
-#include "app/progress_bar.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
+#include "cli/app/parse_options.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/stress_report.h"
 #include "core/display.h"
@@ -17,7 +17,7 @@
 #include "core/nearest_name.h"
 #include "core/progress.h"
 #include "io/atomic_file.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "io/paths.h"
 #include "stress/probe.h"

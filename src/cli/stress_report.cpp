@@ -8,7 +8,7 @@
 #include "accuracy/report.h"
 #include "core/display.h"
 #include "core/formatted.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit::cli {
 

@@ -11,20 +11,20 @@
 #include <utility>
 #include <vector>
 
-#include "app/background_writer.h"
-#include "app/film_pipe.h"
-#include "app/image_output.h"
-#include "app/open_scene.h"
-#include "app/progress_bar.h"
+#include "cli/app/background_writer.h"
+#include "cli/app/film_pipe.h"
+#include "cli/app/image_output.h"
+#include "cli/app/open_scene.h"
+#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/paths.h"
+#include "make/turntable.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
-#include "scene/turntable.h"
 
 namespace whit::cli {
 

@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 #include "core/options.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit::cli {
 

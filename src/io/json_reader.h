@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "io/json_text.h"
+#include "io/scene/json_text.h"
 
 namespace whit {
 

@@ -11,14 +11,14 @@
 #include "io/json_reader.h"
 #include "io/paths.h"
 #include "io/read_file.h"
-#include "io/scene_context.h"
-#include "io/scene_items.h"
-#include "io/scene_materials.h"
-#include "io/scene_settings.h"
-#include "io/scene_view.h"
+#include "io/scene/scene_context.h"
+#include "io/scene/scene_items.h"
+#include "io/scene/scene_materials.h"
+#include "io/scene/scene_settings.h"
+#include "io/scene/scene_view.h"
 #include "io/supply_view.h"
+#include "make/shapes/generators.h"
 #include "scene/generation_limit.h"
-#include "scene/shapes/generators.h"
 
 namespace whit {
 namespace {

@@ -9,9 +9,9 @@
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "io/json_reader.h"
-#include "io/scene_parts.h"
+#include "io/scene/scene_parts.h"
 #include "scene/animation.h"
-#include "scene/scene.h"
+#include "scene/description.h"
 
 namespace whit {
 

@@ -12,10 +12,10 @@
 #include "core/warnings.h"
 #include "io/memory_budget.h"
 #include "io/paths.h"
-#include "io/scene_layout.h"
+#include "io/scene/scene_layout.h"
 #include "io/texture_loader.h"
 #include "scene/animation.h"
-#include "scene/scene.h"
+#include "scene/description.h"
 
 namespace whit {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/light_level.h"
-#include "scene/model_view.h"
-#include "scene/studio_sky.h"
+#include "make/light_level.h"
+#include "make/model_view.h"
+#include "make/studio_sky.h"
 
 namespace whit {
 

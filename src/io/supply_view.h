@@ -2,7 +2,7 @@
 // asked for in place of a scene's own.
 #pragma once
 
-#include "io/scene_context.h"
+#include "io/scene/scene_context.h"
 
 namespace whit {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/texture_from_image.h"
+#include "io/image/texture_from_image.h"
 
 namespace whit {
 namespace {

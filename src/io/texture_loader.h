@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "core/warnings.h"
-#include "io/decode_queue.h"
-#include "io/image_file.h"
+#include "io/image/decode_queue.h"
+#include "io/image/image_file.h"
 #include "io/memory_budget.h"
-#include "io/scene_parts.h"
-#include "scene/scene.h"
+#include "io/scene/scene_parts.h"
+#include "scene/description.h"
 
 namespace whit {
 

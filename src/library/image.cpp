@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/image_layers.h"
+#include "io/image/image_layers.h"
 #include "io/paths.h"
 #include "library/guarded.h"
 #include "library/image_data.h"

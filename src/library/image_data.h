@@ -1,7 +1,7 @@
 // A picture with what it says about itself.
 #pragma once
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "library/whit.h"
 #include "render/film.h"
 

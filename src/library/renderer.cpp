@@ -4,17 +4,17 @@
 #include <set>
 #include <utility>
 
+#include "bake/move_scene.h"
 #include "core/option_table.h"
 #include "core/option_values.h"
-#include "io/edit_scene.h"
-#include "io/image_layers.h"
+#include "io/image/image_layers.h"
+#include "io/scene/edit_scene.h"
 #include "library/guarded.h"
 #include "library/image_data.h"
 #include "library/scene_data.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/render_frame.h"
-#include "scene/move_scene.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::api {

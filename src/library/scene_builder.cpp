@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "io/json_text.h"
-#include "io/scene_settings.h"
+#include "io/scene/json_text.h"
+#include "io/scene/scene_settings.h"
 #include "library/guarded.h"
 #include "library/scene_data.h"
 

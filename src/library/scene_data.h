@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "bake/scene.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
-#include "scene/scene.h"
 
 namespace whit::api {
 

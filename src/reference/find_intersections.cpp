@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/sphere.h"
 #include "reference/media.h"
 #include "reference/sphere.h"
 #include "reference/texture_sampling.h"
-#include "scene/sphere.h"
 
 namespace whit::reference {
 

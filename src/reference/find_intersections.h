@@ -4,13 +4,13 @@
 
 #include <optional>
 
+#include "bake/mip_maps.h"
+#include "bake/scene.h"
 #include "core/effects.h"
 #include "core/shading_choices.h"
 #include "reference/surfel.h"
 #include "reference/triangle.h"
 #include "reference/twin.h"
-#include "scene/mip_maps.h"
-#include "scene/scene.h"
 
 namespace whit::reference {
 

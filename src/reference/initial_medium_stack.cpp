@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "bake/eye_in_plane.h"
 #include "reference/find_intersections.h"
 #include "reference/settle_flush.h"
-#include "scene/eye_in_plane.h"
 
 namespace whit::reference {
 

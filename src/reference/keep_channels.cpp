@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "bake/sphere.h"
 #include "core/worker_pool.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/settle_flush.h"
 #include "sampling/sample_pattern.h"
-#include "scene/sphere.h"
 
 namespace whit::reference {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 
 namespace whit::reference {
 

@@ -9,14 +9,14 @@
 #include <optional>
 #include <vector>
 
+#include "bake/mip_maps.h"
+#include "bake/scene.h"
 #include "core/channels.h"
 #include "core/image.h"
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
 #include "sampling/pixel_edges.h"
-#include "scene/mip_maps.h"
-#include "scene/scene.h"
 #include "stages/ray_kinds.h"
 
 namespace whit::reference {

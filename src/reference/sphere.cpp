@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/sphere.h"
+#include "bake/sphere.h"
 
 namespace whit::reference {
 

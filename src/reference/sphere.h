@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "bake/scene.h"
 #include "reference/triangle.h"
-#include "scene/scene.h"
 
 namespace whit::reference {
 

@@ -1,8 +1,8 @@
 // Texture lookups in double precision. None of these mixes mip levels but those that take MipMaps.
 #pragma once
 
+#include "bake/mip_maps.h"
 #include "core/shading_choices.h"
-#include "scene/mip_maps.h"
 
 namespace whit::reference {
 

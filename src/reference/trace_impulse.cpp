@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bake/eye_in_plane.h"
 #include "reference/add_impulses.h"
 #include "reference/check_shadows.h"
 #include "reference/find_intersections.h"
@@ -11,7 +12,6 @@
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/sample_pattern.h"
-#include "scene/eye_in_plane.h"
 
 namespace whit::reference {
 

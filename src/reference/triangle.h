@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "bake/world_corners.h"
 #include "reference/intersector.h"
-#include "scene/world_corners.h"
 
 namespace whit::reference {
 

@@ -2,9 +2,9 @@
 // in double from what the step has read. A twin has the name of its stage and is in its file.
 #pragma once
 
+#include "bake/mip_maps.h"
 #include "reference/intersector.h"
 #include "reference/surfel.h"
-#include "scene/mip_maps.h"
 #include "stages/chunk.h"
 #include "stages/rows.h"
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <limits>
 
+#include "bake/scene.h"
 #include "core/options.h"
 #include "render/film.h"
 #include "render/frame_stats.h"
 #include "scene/camera.h"
-#include "scene/scene.h"
 #include "stages/chunk.h"
 
 namespace whit {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "bake/sphere.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/twin.h"
 #include "render/embree_intersector.h"
-#include "scene/sphere.h"
 
 namespace whit {
 

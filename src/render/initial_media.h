@@ -3,9 +3,9 @@
 // rectangle, through which such a surface may cut. Then each ray starts in media of its own.
 #pragma once
 
+#include "bake/scene.h"
 #include "core/box.h"
 #include "scene/camera.h"
-#include "scene/scene.h"
 #include "stages/chunk.h"
 
 namespace whit {

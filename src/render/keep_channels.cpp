@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "bake/scene.h"
+#include "bake/sphere.h"
 #include "core/pixel.h"
-#include "scene/scene.h"
-#include "scene/sphere.h"
 
 namespace whit {
 

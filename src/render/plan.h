@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bake/scene.h"
 #include "core/options.h"
-#include "scene/scene.h"
 #include "stages/chunk.h"
 #include "stages/contract.h"
 

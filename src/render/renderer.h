@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accel/accel.h"
+#include "bake/scene.h"
 #include "core/box.h"
 #include "core/options.h"
 #include "core/progress.h"
@@ -21,8 +22,7 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/scheduler.h"
-#include "scene/scene.h"
-#include "verdicts/verdict_tables.h"
+#include "shadow_cache/verdict_tables.h"
 
 namespace whit {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/mip_maps.h"
-#include "scene/scene.h"
+#include "bake/mip_maps.h"
+#include "bake/scene.h"
 
 namespace whit {
 

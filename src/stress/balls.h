@@ -2,7 +2,7 @@
 // own, from the very floats that the scene and the ray hold.
 #pragma once
 
-#include "scene/sphere.h"
+#include "bake/sphere.h"
 #include "stress/bodies.h"
 
 namespace whit::stress {

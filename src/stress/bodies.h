@@ -1,7 +1,7 @@
 // Closed bodies and rays onto them.
 #pragma once
 
-#include "scene/shapes/mesh_builder.h"
+#include "make/shapes/mesh_builder.h"
 #include "stress/probe.h"
 #include "stress/scene_builder.h"
 

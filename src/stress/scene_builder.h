@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "bake/scene.h"
 #include "core/box.h"
-#include "scene/scene.h"
 
 namespace whit::stress {
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "accuracy/digest.h"
-#include "app/parse_options.h"
+#include "cli/app/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
 

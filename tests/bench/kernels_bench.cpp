@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "bench/bench_tile.h"
-#include "render/stage_comparison.h"
+#include "inspect/stage_comparison.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::bench {

@@ -1,5 +1,5 @@
 // Files written beside other work: in order, one at a time, errors told, interruptions waited for.
-#include "app/background_writer.h"
+#include "cli/app/background_writer.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/interrupt.h"
+#include "cli/app/interrupt.h"
 
 namespace whit::cli {
 namespace {

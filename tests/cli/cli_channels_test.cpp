@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/image_file.h"
-#include "io/image_layers.h"
+#include "io/image/image_file.h"
+#include "io/image/image_layers.h"
 #include "run_program.h"
 
 namespace whit::cli {

@@ -6,7 +6,7 @@
 
 #include "cli/run_program.h"
 #include "core/options.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit::cli {
 namespace {

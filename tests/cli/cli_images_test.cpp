@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "run_program.h"
 #include "simd/kernels.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "app/interrupt.h"
+#include "cli/app/interrupt.h"
 
 namespace whit::cli {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <sstream>
 
-#include "app/help_text.h"
-#include "app/image_output.h"
-#include "app/parse_options.h"
+#include "cli/app/help_text.h"
+#include "cli/app/image_output.h"
+#include "cli/app/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/option_values.h"

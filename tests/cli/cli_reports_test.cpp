@@ -1,8 +1,8 @@
 // Tables and summaries of made-up frames, whose numbers are known.
 #include <gtest/gtest.h>
 
-#include "app/frame_summary.h"
-#include "app/progress_bar.h"
+#include "cli/app/frame_summary.h"
+#include "cli/app/progress_bar.h"
 #include "cli/stage_table.h"
 
 namespace whit::cli {

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "run_program.h"
 
 namespace whit::cli {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/film_pipe.h"
+#include "cli/app/film_pipe.h"
 #include "core/option_values.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "run_program.h"
 
 namespace whit::cli {

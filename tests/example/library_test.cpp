@@ -10,8 +10,8 @@
 #include <fstream>
 #include <functional>
 
-#include "io/image_file.h"
-#include "io/image_layers.h"
+#include "io/image/image_file.h"
+#include "io/image/image_layers.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
 #include "render/renderer.h"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <limits>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "library_scenes.h"
 
 namespace whit::api {

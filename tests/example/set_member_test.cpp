@@ -1,5 +1,5 @@
 // Members of a scene that are set between frames: the picture of a scene that was read so.
-#include "io/scene_settings.h"
+#include "io/scene/scene_settings.h"
 #include "library_scenes.h"
 
 namespace whit::api {

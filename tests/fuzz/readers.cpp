@@ -13,12 +13,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bake/scene.h"
 #include "core/error.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
+#include "io/image/texture_from_image.h"
 #include "io/load_scene.h"
-#include "io/mtl_reader.h"
-#include "io/texture_from_image.h"
-#include "scene/scene.h"
+#include "io/obj/mtl_reader.h"
 
 namespace whit::fuzz {
 namespace {

@@ -20,7 +20,7 @@ set_target_properties(make_corpus PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BI
 # With WHIT_FUZZ: a libFuzzer program for each reader, all built by the target `fuzzers`. What they run
 # is instrumented; other programs of the build, which link the same objects, do without libFuzzer.
 if(WHIT_FUZZ)
-  foreach(folder core scene io readers)
+  foreach(folder core scene bake make io readers)
     target_compile_options(whit_${folder} PRIVATE -fsanitize=fuzzer-no-link)
   endforeach()
   add_custom_target(fuzzers)

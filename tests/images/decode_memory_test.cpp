@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "image_samples.h"
-#include "io/decode_queue.h"
+#include "io/image/decode_queue.h"
 
 namespace whit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/srgb.h"
 #include "flat_image.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 
 namespace whit {
 namespace {

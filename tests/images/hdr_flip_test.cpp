@@ -1,5 +1,5 @@
 // HDR-FLIP against values worked out from the paper's definition.
-#include "metrics/hdr_flip.h"
+#include "inspect/hdr_flip.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "flat_image.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 
 namespace whit {
 namespace {

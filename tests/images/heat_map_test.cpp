@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/srgb.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 
 namespace whit {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/image_layers.h"
+#include "io/image/image_layers.h"
 
 #include <png.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "image_samples.h"
-#include "io/merge_images.h"
+#include "io/image/merge_images.h"
 
 namespace whit {
 namespace {

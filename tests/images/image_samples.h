@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit {
 

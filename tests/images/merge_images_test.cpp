@@ -1,4 +1,4 @@
-#include "io/merge_images.h"
+#include "io/image/merge_images.h"
 
 #include "image_samples.h"
 

@@ -1,4 +1,4 @@
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 
 #include <gtest/gtest.h>
 

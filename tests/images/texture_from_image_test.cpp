@@ -1,4 +1,4 @@
-#include "io/texture_from_image.h"
+#include "io/image/texture_from_image.h"
 #include "core/srgb.h"
 #include "image_samples.h"
 

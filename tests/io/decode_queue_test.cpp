@@ -1,4 +1,4 @@
-#include "io/decode_queue.h"
+#include "io/image/decode_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Emission maps from images that hold radiance: what is above 1 stays above 1.
 #include "gltf_pictures.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace whit {
 namespace {

@@ -1,6 +1,6 @@
 // Meshes and nodes of glTF files: each way the format has to say where a triangle is.
+#include "bake/scene.h"
 #include "gltf_files.h"
-#include "scene/scene.h"
 
 namespace whit {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bake/scene.h"
 #include "gltf_files.h"
-#include "scene/scene.h"
 
 namespace whit {
 namespace {

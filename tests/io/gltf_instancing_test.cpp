@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "gltf_files.h"
-#include "scene/scene.h"
+#include "scene/description.h"
 
 namespace whit {
 namespace {

@@ -1,6 +1,6 @@
 // Values of glTF files that are mended and counted, and files that show nothing.
 #include "gltf_files.h"
-#include "scene/scene.h"
+#include "scene/description.h"
 
 namespace whit {
 namespace {

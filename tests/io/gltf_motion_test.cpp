@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/move_scene.h"
 #include "gltf_files.h"
-#include "scene/move_scene.h"
 
 namespace whit {
 namespace {

@@ -1,6 +1,6 @@
 // glTF files that are valid but odd.
+#include "bake/scene.h"
 #include "gltf_files.h"
-#include "scene/scene.h"
 
 namespace whit {
 namespace {

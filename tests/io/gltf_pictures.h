@@ -7,7 +7,7 @@
 
 #include "core/srgb.h"
 #include "gltf_files.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "pi.h"
 #include "render/renderer.h"
 

@@ -1,7 +1,7 @@
 // OBJ files as they should be, and as other programs write them.
 #include <map>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 #include "scene_files.h"
 
 namespace whit {

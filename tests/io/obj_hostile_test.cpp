@@ -1,7 +1,7 @@
 // OBJ files that are wrong: repaired and counted, or refused with the line.
 #include <cmath>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 #include "scene_files.h"
 
 namespace whit {

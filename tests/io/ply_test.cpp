@@ -3,7 +3,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/scene.h"
+#include "scene/description.h"
 #include "scene_files.h"
 
 namespace whit {

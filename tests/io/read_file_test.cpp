@@ -1,6 +1,6 @@
 // What stands in the place of a file, or is written in another way than text is.
 #include "gltf_files.h"
-#include "scene/scene.h"
+#include "scene/description.h"
 
 namespace whit {
 namespace {

@@ -1,7 +1,7 @@
 // Items, transforms, groups, objects and models of scene files.
 #include <cmath>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 #include "scene_files.h"
 
 namespace whit {

@@ -1,5 +1,5 @@
 // Cameras, lights, sky, materials and textures of scene files.
-#include "scene/studio_sky.h"
+#include "make/studio_sky.h"
 #include "scene/texture.h"
 #include "scene_files.h"
 

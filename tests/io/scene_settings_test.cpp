@@ -1,7 +1,7 @@
 // --set: members of a scene's description that are given apart from its file.
-#include "io/scene_settings.h"
+#include "io/scene/scene_settings.h"
 
-#include "scene/scene.h"
+#include "scene/description.h"
 #include "scene_files.h"
 
 namespace whit {

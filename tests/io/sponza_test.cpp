@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "scene/scene.h"
+#include "bake/scene.h"
 #include "scene_files.h"
 
 namespace whit {

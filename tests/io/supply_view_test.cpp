@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/studio_sky.h"
+#include "make/studio_sky.h"
 #include "scene_files.h"
 
 namespace whit {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/display.h"
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "render/shipped_scene.h"
 #include "sampling/sample_pattern.h"
 

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "inspect/stage_comparison.h"
 #include "pi.h"
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
-#include "render/stage_comparison.h"
 
 namespace whit::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
+#include "bake/move_scene.h"
 #include "sampling/sample_pattern.h"
-#include "scene/move_scene.h"
 #include "shipped_scene.h"
 #include "simd/deform_vertices.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/display.h"
-#include "render/debug_view.h"
+#include "inspect/debug_view.h"
 #include "shipped_scene.h"
 
 namespace whit::test {

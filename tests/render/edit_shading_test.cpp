@@ -3,9 +3,9 @@
 
 #include <functional>
 
+#include "bake/edit_shading.h"
 #include "core/error.h"
-#include "scene/edit_shading.h"
-#include "scene/studio_sky.h"
+#include "make/studio_sky.h"
 #include "shipped_scene.h"
 
 namespace whit::test {

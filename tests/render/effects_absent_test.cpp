@@ -1,8 +1,8 @@
 // A scene without an effect, and the same scene with it: what the effect costs when it is absent.
 #include <gtest/gtest.h>
 
+#include "bake/leave_out.h"
 #include "render/shipped_scene.h"
-#include "scene/leave_out.h"
 
 namespace whit::test {
 namespace {

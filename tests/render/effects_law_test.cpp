@@ -1,7 +1,7 @@
 // Only the effects that a scene calls for.
 #include <gtest/gtest.h>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {

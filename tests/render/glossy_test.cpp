@@ -2,7 +2,7 @@
 // must not depend on.
 #include <gtest/gtest.h>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 

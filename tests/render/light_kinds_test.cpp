@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "pi.h"
 #include "reference/generate_rays.h"
 #include "render/pipeline_laws.h"

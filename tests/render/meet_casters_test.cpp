@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
+#include "shadow_cache/caster.h"
+#include "shadow_cache/shaft.h"
 #include "simd/kernels.h"
-#include "verdicts/caster.h"
-#include "verdicts/shaft.h"
 
 namespace whit::test {
 namespace {

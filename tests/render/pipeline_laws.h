@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "inspect/stage_comparison.h"
 #include "render/shipped_scene.h"
-#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {

@@ -1,6 +1,6 @@
 // The tree of a pixel's rays against the pixel: its sum is the radiance of the picture, to the last
 // bit, and the reference's likewise.
-#include "render/ray_tree.h"
+#include "inspect/ray_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "inspect/stage_comparison.h"
 #include "render/shipped_scene.h"
-#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "inspect/metrics.h"
+#include "inspect/path_divergence.h"
 #include "io/paths.h"
-#include "metrics/metrics.h"
-#include "render/path_divergence.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "inspect/stage_comparison.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
-#include "render/stage_comparison.h"
 #include "simd/kernels.h"
 
 namespace whit::test {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene.h"
 #include "io/load_scene.h"
 #include "render/renderer.h"
-#include "scene/scene.h"
 
 namespace whit::test {
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
+#include "make/shapes/generators.h"
 #include "pi.h"
 #include "render/row_of_tiles.h"
-#include "scene/shapes/generators.h"
 
 namespace whit::test {
 namespace {

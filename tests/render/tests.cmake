@@ -1,1 +1,1 @@
-whit_tests(render whit_render whit_io whit_metrics)
+whit_tests(render whit_inspect whit_io)

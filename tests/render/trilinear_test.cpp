@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "metrics/metrics.h"
+#include "inspect/metrics.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "render/renderer.h"

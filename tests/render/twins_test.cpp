@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "inspect/metrics.h"
 #include "io/paths.h"
-#include "metrics/metrics.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 

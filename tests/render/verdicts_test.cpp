@@ -1,6 +1,6 @@
 // Verdicts of shadow (verdicts/verdict_tables.h) say what the rays would have found: every ray that
 // they decide is traced beside (--verdicts audit), and pictures keep their bits.
-#include "verdicts/verdict_tables.h"
+#include "shadow_cache/verdict_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <functional>
 #include <random>
 
+#include "bake/edit_shading.h"
 #include "core/error.h"
 #include "render/audit_shadows.h"
 #include "render/shipped_scene.h"
 #include "render/verdict_schedule.h"
-#include "scene/edit_shading.h"
+#include "shadow_cache/caster.h"
 #include "simd/kernels.h"
-#include "verdicts/caster.h"
 
 namespace whit::test {
 namespace {

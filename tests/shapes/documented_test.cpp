@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene.h"
 #include "io/load_scene.h"
-#include "scene/scene.h"
-#include "scene/shape.h"
+#include "make/shape.h"
 
 namespace whit {
 namespace {

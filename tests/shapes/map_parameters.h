@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/shape.h"
+#include "make/shape.h"
 
 namespace whit::test {
 

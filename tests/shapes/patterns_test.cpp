@@ -1,7 +1,7 @@
 // Procedural textures: exact squares, seams, normals, masks.
 #include <gtest/gtest.h>
 
-#include "scene/patterns/noise.h"
+#include "make/patterns/noise.h"
 #include "shapes/map_parameters.h"
 
 namespace whit::test {

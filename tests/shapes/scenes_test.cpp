@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bake/scene.h"
 #include "io/load_scene.h"
-#include "scene/scene.h"
 
 namespace whit::test {
 namespace {

@@ -1,7 +1,7 @@
 // Terrain, trees and forests.
 #include <gtest/gtest.h>
 
-#include "scene/shapes/terrain.h"
+#include "make/shapes/terrain.h"
 #include "shapes/map_parameters.h"
 #include "shapes/mesh_measures.h"
 

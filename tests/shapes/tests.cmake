@@ -1,1 +1,1 @@
-whit_tests(shapes whit_io whit_scene)
+whit_tests(shapes whit_io)

@@ -1,5 +1,5 @@
 // Triangles that share their place with another one in its plane.
-#include "scene/flush_triangles.h"
+#include "bake/flush_triangles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // How bright lights are, and the studio that goes with them.
-#include "scene/light_level.h"
+#include "make/light_level.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "make/studio_sky.h"
 #include "pi.h"
-#include "scene/studio_sky.h"
 #include "scene_builder.h"
 
 namespace whit {

@@ -1,5 +1,5 @@
 // Mip levels: means of what they cover.
-#include "scene/mip_maps.h"
+#include "bake/mip_maps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // How models are looked at that bring no camera.
-#include "scene/model_view.h"
+#include "make/model_view.h"
 
 #include <gtest/gtest.h>
 

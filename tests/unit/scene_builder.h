@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "bake/scene.h"
 #include "core/error.h"
-#include "scene/scene.h"
 
 namespace whit::test {
 

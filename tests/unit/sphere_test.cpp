@@ -1,5 +1,5 @@
 // Exact spheres: what a hit's weights stand for, where lines meet them, and how they are baked.
-#include "scene/sphere.h"
+#include "bake/sphere.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "scene/eye_in_plane.h"
-#include "scene/shapes/generators.h"
+#include "bake/eye_in_plane.h"
+#include "make/shapes/generators.h"
 #include "stress/scene_builder.h"
 
 namespace whit {

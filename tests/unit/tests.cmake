@@ -1,1 +1,1 @@
-whit_tests(unit whit_scene whit_sampling)
+whit_tests(unit whit_make whit_sampling)

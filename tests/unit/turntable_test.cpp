@@ -1,4 +1,4 @@
-#include "scene/turntable.h"
+#include "make/turntable.h"
 
 #include <cmath>
 #include <numbers>

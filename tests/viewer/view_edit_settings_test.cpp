@@ -4,7 +4,7 @@
 #include <random>
 
 #include "cli/run_program.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "viewer/traced_frame.h"
 

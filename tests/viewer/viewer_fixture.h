@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "virtual_display.h"
 
 namespace whit::view {

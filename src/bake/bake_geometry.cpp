@@ -1,0 +1,435 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "bake/bake_triangles.h"
+#include "bake/finalize_steps.h"
+#include "bake/instance_bounds.h"
+#include "bake/sphere.h"
+
+namespace whit {
+
+namespace {
+
+constexpr std::uint64_t kIndexLimit = std::numeric_limits<std::uint32_t>::max();
+
+// A mesh on its way into a geometry.
+struct Source {
+  Mesh* mesh = nullptr;
+  Affine toGeometry;
+  std::uint32_t firstVertex = 0;
+  SceneOrder::PlacedMesh place;
+  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, as numberOf() has it
+  TriangleClassification classified;
+
+  // Of a triangle, in the order in which they were written.
+  std::uint32_t numberOf(std::size_t triangle) const {
+    const std::vector<std::uint32_t>& order = mesh->order;
+    return place.firstTriangle +
+           (order.empty() ? static_cast<std::uint32_t>(triangle) : order[triangle]);
+  }
+  // Whether triangles of both come among each other.
+  bool mingles(const Source& other) const {
+    return !mesh->order.empty() && !other.mesh->order.empty() && place.rank == other.place.rank &&
+           place.instance == other.place.instance;
+  }
+};
+
+struct PlacedSphere {
+  Affine map;
+  std::uint32_t material = 0;
+  std::uint64_t rank = 0;  // in the order of the scene
+  std::uint32_t item = 0, number = 0;
+};
+
+class Baker {
+ public:
+  Baker(SceneDescription& description, Scene& scene, Warnings& warnings, Progress* progress)
+      : description_(description), scene_(scene), warnings_(warnings), progress_(progress) {
+    for (const Material& m : scene.materials) uses_.push_back(useOf(m, scene.textures));
+  }
+
+  SceneOrder run() {
+    plan();
+    for (std::size_t g = 0; g < sources_.size(); ++g) {
+      place(g);
+      dropCoincident(g);
+      countClasses(g);
+    }
+    dropEmptyGeometries();
+    reserveTables();
+    for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
+    scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
+    for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
+    findWhatMoves();
+    if (!scene_.motion.ofGeometry) {
+      boundInstances(scene_, boxes_, warnings_);
+    } else {
+      scene_.motion.instances = scene_.instances;
+      countInstanced(scene_);
+      scene_.motion.boxes = std::move(boxes_);
+    }
+    return std::move(order_);
+  }
+
+ private:
+  void plan();
+  void nameItems();
+  std::uint32_t firstItemOf(std::size_t instance) const;
+  void numberTriangles(std::size_t g);
+  void place(std::size_t g);
+  std::vector<std::uint32_t> fromTheLast(std::size_t g) const;
+  void placeSpheres(const Source& source, std::size_t g);
+  void dropCoincident(std::size_t g);
+  void countClasses(std::size_t g);
+  void dropEmptyGeometries();
+  void reserveTables();
+  void emit(std::size_t g);
+  void emitSpheres(std::size_t g);
+  void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
+  void findWhatMoves();
+
+  SceneDescription& description_;
+  Scene& scene_;
+  Warnings& warnings_;
+  Progress* progress_;
+  SceneOrder order_;
+  std::vector<MaterialUse> uses_;                   // one a material
+  std::vector<std::vector<Source>> sources_;        // one list a geometry
+  std::vector<std::vector<PlacedSphere>> spheres_;  // likewise
+  std::vector<Box> boxes_;                          // one a geometry, in its own space
+  bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
+  bool isSearched_ = false;  // for flush triangles
+};
+
+void Baker::findWhatMoves() {
+  BakedMotion& motion = scene_.motion;
+  const auto isBent = [&](const InstanceRecord& i) {
+    return std::any_of(motion.bent.begin(), motion.bent.end(),
+                       [&](const BentVertices& b) { return b.geometry == i.geometry; });
+  };
+  for (InstanceRecord& i : scene_.instances) {
+    i.moves = i.mover != kNoNode || isBent(i);
+    motion.ofGeometry |= i.moves;
+  }
+  const auto& cameras = motion.given.cameras;
+  const bool carried = std::any_of(cameras.begin(), cameras.end(),
+                                   [](const MovingCamera& m) { return m.node != kNoNode; });
+  motion.ofGeometry |= carried && !scene_.instances.empty();
+}
+
+bool bends(const Object& object) {
+  return std::any_of(object.meshes.begin(), object.meshes.end(),
+                     [](const Mesh& mesh) { return mesh.deformation != nullptr; });
+}
+
+void Baker::nameItems() {
+  ItemNumbers& items = scene_.items;
+  items.count = description_.items;
+  items.names = std::move(description_.itemNames);
+  if (items.count > 0) return;
+  items.count = description_.instances.size();
+  for (const Instance& instance : description_.instances) {
+    if (items.names.size() == kNamedItems) break;
+    items.names.push_back(description_.objects[instance.object].name);
+  }
+}
+
+std::uint32_t Baker::firstItemOf(std::size_t instance) const {
+  const std::uint64_t item =
+      description_.items > 0 ? description_.instances[instance].firstItem : instance;
+  return static_cast<std::uint32_t>(std::min(item, kIndexLimit - 1));
+}
+
+// Which mesh goes where: those of objects used once that stand still into geometry 0, others into
+// one of their own.
+void Baker::plan() {
+  std::vector<Object>& objects = description_.objects;
+  nameItems();
+  std::vector<std::uint64_t> uses(objects.size());
+  std::vector<bool> moves(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
+  for (const Instance& instance : description_.instances) {
+    ++uses[instance.object];
+    if (instance.mover != kNoNode) moves[instance.object] = true;
+  }
+  std::vector<std::uint32_t> geometryOf(objects.size());
+  std::uint32_t geometries = 1;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
+    if (uses[i] == 0) objects[i] = {};
+  }
+  sources_.resize(geometries);
+  order_.meshes.resize(geometries);
+  spheres_.resize(geometries);
+  scene_.geometries.resize(geometries);
+  for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
+    const Instance& instance = description_.instances[i];
+    const std::uint32_t g = geometryOf[instance.object];
+    const bool inWorld = g == 0;
+    order_.instances.push_back(instance.rank);
+    if (!inWorld) {
+      scene_.instances.push_back(
+          {g, i, instance.toWorld, instance.mover, instance.toWorld, false, firstItemOf(i)});
+    }
+    if (!inWorld && !sources_[g].empty()) continue;
+    for (Mesh& mesh : objects[instance.object].meshes) {
+      Source source;
+      source.mesh = &mesh;
+      source.place.rank = mesh.rank;
+      source.item = mesh.item;
+      if (inWorld) {
+        source.toGeometry = instance.toWorld;
+        source.place.instance = i;
+        source.place.rank += instance.rank;
+        source.item += firstItemOf(i);
+      }
+      sources_[g].push_back(std::move(source));
+      withNormals_ = withNormals_ || !mesh.normals.empty();
+      withColors_ = withColors_ || !mesh.colors.empty();
+      withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
+    }
+  }
+}
+
+void Baker::numberTriangles(std::size_t g) {
+  std::vector<Source>& sources = sources_[g];
+  std::uint32_t end = 0;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const bool mingles = s > 0 && sources[s].mingles(sources[s - 1]);
+    sources[s].place.firstTriangle = mingles ? sources[s - 1].place.firstTriangle : end;
+    const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
+    sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
+    end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
+    order_.meshes[g].push_back(sources[s].place);
+  }
+}
+
+// Transforms the vertices of a geometry and says which of its triangles stay.
+void Baker::place(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  std::uint64_t vertices = 0, triangles = 0;
+  for (const Source& source : sources_[g]) {
+    vertices += source.mesh->positions.size();
+    triangles += source.mesh->triangles.size();
+  }
+  if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
+  if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+  numberTriangles(g);
+  geometry.position.reserve(vertices + 1);
+  for (Source& source : sources_[g]) {
+    transform(*source.mesh, source.toGeometry);
+    placeSpheres(source, g);
+    source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
+    const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
+    geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
+    source.classified =
+        classifyTriangles(*source.mesh, geometry.position.data() + source.firstVertex,
+                          positions.size(), uses_, warnings_);
+  }
+}
+
+// A geometry's sources by the order of the scene, the last first.
+std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
+  std::vector<std::uint32_t> numbers(sources_[g].size());
+  std::iota(numbers.rbegin(), numbers.rend(), 0u);
+  std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return sources_[g][a].place.rank > sources_[g][b].place.rank;
+  });
+  return numbers;
+}
+
+// What Embree would not take, or what has no inside, is left out.
+void Baker::placeSpheres(const Source& source, std::size_t g) {
+  const Mesh& mesh = *source.mesh;
+  std::uint64_t dropped = 0;
+  std::uint32_t number = 0;
+  for (const Affine& map : mesh.spheres) {
+    const Box box = sphereBounds(map);
+    const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
+                      maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
+    const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
+    if (fits && std::isnormal(volume)) {
+      spheres_[g].push_back({map, mesh.materials[0], source.place.rank, source.item, number});
+    } else {
+      ++dropped;
+    }
+    ++number;
+  }
+  warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
+                dropped);
+}
+
+// Of triangles in the same place the last in the scene stays, which is the one that would be met.
+// Not of glass: two faces there are two boundaries; nor of what bends: they may part.
+void Baker::dropCoincident(std::size_t g) {
+  const std::vector<Vec3f>& position = scene_.geometries[g].position;
+  struct Place {
+    std::uint32_t source, triangle;
+  };
+  std::vector<Place> places;  // from the last on
+  for (const std::uint32_t s : fromTheLast(g)) {
+    const Source& source = sources_[g][s];
+    if (source.mesh->deformation) continue;
+    for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
+      if (source.classified.has(i, kDroppedClass)) continue;
+      if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
+      places.push_back({s, i});
+    }
+  }
+  const auto triangle = [&](std::uint64_t k) {
+    const auto& [s, i] = places[k];
+    const Source& source = sources_[g][s];
+    const auto& [a, b, c] = source.mesh->triangles[i];
+    const Vec3f* own = position.data() + source.firstVertex;
+    const std::uint32_t material = source.mesh->material(i);
+    return PlacedTriangle{
+        {own[a], own[b], own[c]}, material, scene_.materials[material].doubleSided};
+  };
+  for (const std::uint64_t k : findCoincident(places.size(), triangle)) {
+    const auto& [s, i] = places[k];
+    Source& source = sources_[g][s];
+    source.classified.drop(i, source.mesh->triangles.size());
+    warnings_.add("triangle in the place of another of its material dropped",
+                  "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
+  }
+}
+
+void Baker::countClasses(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  for (const Source& source : sources_[g]) {
+    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      geometry.classBegin[c + 1] += source.classified.count[c];
+    }
+  }
+  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    geometry.classBegin[c + 1] += geometry.classBegin[c];
+  }
+}
+
+// A geometry of which nothing is left takes its instances with it.
+void Baker::dropEmptyGeometries() {
+  std::vector<std::uint32_t> newNumber(sources_.size());
+  std::uint32_t kept = 1;
+  for (std::size_t g = 1; g < sources_.size(); ++g) {
+    if (scene_.geometries[g].classBegin.back() == 0 && spheres_[g].empty()) continue;
+    if (kept != g) {
+      scene_.geometries[kept] = std::move(scene_.geometries[g]);
+      sources_[kept] = std::move(sources_[g]);
+      order_.meshes[kept] = std::move(order_.meshes[g]);
+      spheres_[kept] = std::move(spheres_[g]);
+    }
+    newNumber[g] = kept++;
+  }
+  scene_.geometries.resize(kept);
+  sources_.resize(kept);
+  spheres_.resize(kept);
+  std::erase_if(scene_.instances,
+                [&](const InstanceRecord& i) { return newNumber[i.geometry] == 0; });
+  for (InstanceRecord& i : scene_.instances) i.geometry = newNumber[i.geometry];
+}
+
+void Baker::reserveTables() {
+  std::uint64_t triangles = 0;
+  for (const Geometry& geometry : scene_.geometries) triangles += geometry.classBegin.back();
+  std::uint64_t total = triangles;
+  for (const auto& spheres : spheres_) total += spheres.size();
+  if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
+  scene_.triangles.reserve(total);
+  if (withNormals_) scene_.normals.reserve(total);
+  if (withColors_) scene_.colors.reserve(total);
+  if (withSecondUvs_) scene_.secondUvs.reserve(total);
+  isSearched_ = triangles <= kMostSearched;
+  if (isSearched_) order_.triangles.reserve(triangles);
+  boxes_.resize(scene_.geometries.size());
+}
+
+// Class by class and in order, so that the tables grow at their ends while the meshes go: at no
+// time are both wholly in memory.
+void Baker::emit(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
+  geometry.index.reserve(geometry.classBegin.back());
+  for (const Source& source : sources_[g]) {
+    if (!source.mesh->deformation) continue;
+    scene_.motion.bent.push_back(
+        {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
+  }
+  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (Source& source : sources_[g]) {
+      auto& count = source.classified.count;
+      if (count[c] == 0) continue;
+      emitClass(source, c, geometry, boxes_[g]);
+      count[c] = 0;
+      const bool done = std::all_of(count.begin(), count.begin() + kTriangleClasses,
+                                    [](std::uint32_t n) { return n == 0; });
+      if (done) *source.mesh = {};
+      reportProgress(progress_, "baking geometry",
+                     static_cast<double>(scene_.triangles.size()) /
+                         static_cast<double>(scene_.triangles.capacity()));
+    }
+  }
+}
+
+// What other tables say of a sphere's number is never looked at, but may be read.
+void Baker::emitSpheres(std::size_t g) {
+  Geometry& geometry = scene_.geometries[g];
+  geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
+  geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
+  std::stable_sort(spheres_[g].begin(), spheres_[g].end(),
+                   [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
+  for (const PlacedSphere& sphere : spheres_[g]) {
+    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), sphere.item,
+                     sphere.number);
+    scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
+    if (withSecondUvs_) scene_.secondUvs.push_back({});
+    if (withNormals_) scene_.normals.push_back({});
+    if (withColors_) scene_.colors.push_back({{1, 1, 1, 1, 1, 1, 1, 1, 1}});
+    const Box own = sphereBounds(sphere.map);
+    boxes_[g].add(own.lower);
+    boxes_[g].add(own.upper);
+  }
+  spheres_[g] = {};
+}
+
+void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
+  const Mesh& mesh = *source.mesh;
+  Tally badUv, badNormal, badColor;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!source.classified.has(i, wanted)) continue;
+    auto corners = mesh.triangles[i];
+    for (std::uint32_t& corner : corners) {
+      corner += source.firstVertex;
+      box.add(geometry.position[corner]);
+    }
+    geometry.index.push_back(corners);
+    if (isSearched_) order_.triangles.push_back(source.numberOf(i));
+    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
+                     source.numberOf(i) - source.firstOfItem);
+    std::uint64_t uvs = 0, normals = 0, colors = 0;
+    const MaterialUse& use = uses_[mesh.material(i)];
+    scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
+    if (withSecondUvs_) scene_.secondUvs.push_back(makeSecondUvRecord(mesh, i, use, uvs));
+    if (withNormals_) {
+      scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
+    }
+    if (withColors_) scene_.colors.push_back(makeColorRecord(mesh, i, colors));
+    badUv.add(i, uvs);
+    badNormal.add(i, normals);
+    badColor.add(i, colors);
+  }
+  badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
+  badColor.report(warnings_, "vertex color out of range clamped", mesh);
+  badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
+}
+
+}  // namespace
+
+SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                        Progress* progress) {
+  return Baker(description, scene, warnings, progress).run();
+}
+
+}  // namespace whit

@@ -1,0 +1,110 @@
+// What bakeGeometry() makes the tables of a Scene of: each triangle's entries in them, its class,
+// and whether it is dropped. Internal to finalize().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bake/scene.h"
+#include "core/warnings.h"
+
+namespace whit {
+
+// What the tables depend on of a material.
+struct MaterialUse {
+  std::uint8_t triangleClass = 0;
+  bool repeatU = false, repeatV = false;  // textured, and every texture repeats along that axis
+};
+MaterialUse useOf(const Material& material, const std::vector<Texture>& textures);
+
+// Twice the area along the normal. Differences of floats and their products lose next to nothing in
+// double, so that zero means collinear corners (hard cases H23, H24).
+inline Vec3d areaVector(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const Vec3d origin(a);
+  return cross(Vec3d(b) - origin, Vec3d(c) - origin);
+}
+
+// Unit length, by the winding of the corners.
+Vec3d faceNormal(const TriangleRecord& record);
+
+// `corners` index `position`, the mesh's triangle indexes its uvs. Coordinates that are not finite
+// become 0 and are added to `repaired`. Where all corners lie far from uv 0 along an axis that
+// repeats, the same whole number is taken from each, which saves bits without changing the picture.
+TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
+                                  const std::vector<Vec3f>& position,
+                                  const std::array<std::uint32_t, 3>& corners,
+                                  const MaterialUse& use, std::uint64_t& repaired);
+
+// The second coordinates, treated alike; zeros where the mesh has none.
+UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
+                            std::uint64_t& repaired);
+
+// The mesh's normals have unit length, or are zero where they are of no use: those become the
+// face's and are added to `repaired`. Where Mesh::fromModel has stretched the model, they get the
+// lengths back that it gave them.
+NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
+                              std::uint64_t& repaired);
+
+// White where the mesh has no colors. What is not in [0, 1] is clamped, or 0 if it is no number,
+// and added to `repaired`.
+ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& repaired);
+
+inline constexpr std::uint8_t kDroppedClass = kTriangleClasses;
+
+struct TriangleClassification {
+  // Class or kDroppedClass, one a triangle; empty where all triangles are of `only`.
+  std::vector<std::uint8_t> classes;
+  std::uint8_t only = kDroppedClass;
+  std::array<std::uint32_t, kTriangleClasses + 1> count{};
+
+  bool has(std::size_t triangle, std::size_t wanted) const {
+    return (classes.empty() ? only : classes[triangle]) == wanted;
+  }
+  // Of a mesh of so many triangles.
+  void drop(std::size_t triangle, std::size_t triangles) {
+    if (classes.empty()) classes.assign(triangles, only);
+    --count[classes[triangle]];
+    classes[triangle] = kDroppedClass;
+    ++count[kDroppedClass];
+  }
+};
+
+// Something repaired in one mesh: how often, and where first.
+struct Tally {
+  std::uint64_t count = 0;
+  std::size_t first = 0;
+  void add(std::size_t triangle, std::uint64_t times = 1) {
+    if (count == 0) first = triangle;
+    count += times;
+  }
+  void report(Warnings& warnings, const char* kind, const Mesh& mesh) const {
+    warnings.add(kind, "mesh '" + mesh.name + "', triangle " + std::to_string(first), count);
+  }
+};
+
+// `position` are the mesh's `vertices` baked positions; `uses` is indexed by material. Drops and
+// counts triangles that have an index out of range, a corner that Embree would not take, or no
+// area. At most 2^32 - 1 triangles.
+TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position,
+                                         std::size_t vertices, const std::vector<MaterialUse>& uses,
+                                         Warnings& warnings);
+
+// A triangle by its baked corners, and what must be equal too for one of two in the same place to
+// be redundant. Which of them a ray meets would be left to the order in which they are tested, and
+// with it the last bits of the picture.
+struct PlacedTriangle {
+  std::array<Vec3f, 3> corners;
+  std::uint32_t material = 0;
+  bool bothSides = true;  // whichever way round its corners go
+};
+
+// Numbers, ascending, of triangles that have the three corners, in whatever order, and the material
+// of one with a lower number. `triangle(i)` is asked for each i below `count`, more than once.
+// Takes 8 bytes a triangle while it runs.
+std::vector<std::uint64_t> findCoincident(
+    std::uint64_t count, const std::function<PlacedTriangle(std::uint64_t)>& triangle);
+
+}  // namespace whit

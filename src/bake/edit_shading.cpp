@@ -1,0 +1,99 @@
+#include "bake/edit_shading.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bake/finalize_steps.h"
+#include "core/error.h"
+
+namespace whit {
+
+namespace {
+
+// Whether exchanging one for the other can neither bring nor take away an effect or a medium.
+bool sameKind(const Material& a, const Material& b) {
+  const bool sameMedium = !a.boundsMedium() || (a.ior == b.ior && a.absorption == b.absorption &&
+                                                a.priority == b.priority);
+  return sameMedium && a.boundsMedium() == b.boundsMedium() && effectsOf(a) == effectsOf(b);
+}
+
+bool sameKindOfLight(const Light& a, const Light& b) {
+  return a.kind == b.kind && isBlack(a.intensity) == isBlack(b.intensity);
+}
+
+void keepBaked(const Material& from, Material& to) {
+  to.diffuseMap = from.diffuseMap;
+  to.specularMap = from.specularMap;
+  to.roughnessMap = from.roughnessMap;
+  to.emissionMap = from.emissionMap;
+  to.normalMap = from.normalMap;
+  to.emissionBySecondUvs = from.emissionBySecondUvs;
+  to.normalBySecondUvs = from.normalBySecondUvs;
+  to.alphaMap = from.alphaMap;
+  to.alphaCutoff = from.alphaCutoff;
+  to.coverage = from.coverage;
+  to.coverageMap = from.coverageMap;
+  to.doubleSided = from.doubleSided;
+  to.castsShadow = from.castsShadow;
+}
+
+// As Scene::finalize() does: throws, or repairs what has an obvious nearest value.
+void checkAndMend(const Scene& scene, std::vector<Material>& materials,
+                  std::vector<Light>& lights) {
+  SceneDescription d;
+  d.name = scene.name;
+  d.lights = lights;
+  d.materials = materials;
+  for (Material& m : d.materials) {  // maps were judged with the textures that they name
+    m.diffuseMap = m.specularMap = m.roughnessMap = kNoTexture;
+    m.emissionMap = m.normalMap = m.alphaMap = m.coverageMap = kNoTexture;
+  }
+  Warnings warnings(false);
+  validate(d, warnings);
+  materials = std::move(d.materials);
+  lights = std::move(d.lights);
+}
+
+}  // namespace
+
+void editShading(Scene& scene, std::vector<Material> materials, std::vector<Light> lights) {
+  if (materials.size() != scene.materials.size() || lights.size() != scene.lights.size()) {
+    throwUsage("an edit cannot change the number of materials or lights");
+  }
+  checkAndMend(scene, materials, lights);
+  for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
+  const bool kindsStay =
+      std::equal(materials.begin(), materials.end(), scene.materials.begin(), sameKind) &&
+      std::equal(lights.begin(), lights.end(), scene.lights.begin(), sameKindOfLight);
+  scene.materials.swap(materials);
+  scene.lights.swap(lights);
+  if (kindsStay) return;
+  try {
+    numberMedia(scene);
+  } catch (...) {  // too many media
+    scene.materials.swap(materials);
+    scene.lights.swap(lights);
+    numberMedia(scene);
+    throw;
+  }
+  gatherEffects(scene);
+}
+
+void editSky(Scene& scene, Sky& sky, const Ambient& ambient) {
+  SceneDescription d;
+  d.name = scene.name;
+  d.sky = std::move(sky);
+  d.ambient = ambient;
+  Warnings warnings(false);
+  try {
+    validate(d, warnings);
+  } catch (...) {
+    sky = std::move(d.sky);
+    throw;
+  }
+  sky = std::exchange(scene.sky, std::move(d.sky));
+  scene.ambient = ambient;
+  gatherEffects(scene);
+}
+
+}  // namespace whit

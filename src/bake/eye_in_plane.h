@@ -1,0 +1,21 @@
+// Surfaces that the eye lies in. It sees nothing of them, on whichever side a rounded distance of
+// next to 0 would put it.
+#pragma once
+
+#include "bake/world_corners.h"
+
+namespace whit {
+
+// Whether the eye lies in the triangle's plane as far as the eye's coordinates can tell.
+bool liesInPlane(const Vec3d& eye, const Corners& corners);
+
+// The same for a surface of the scene, by its number: a triangle's plane, or a sphere.
+bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
+                   std::uint32_t instance);
+
+// Along a ray from the eye: how far, in lengths of its direction, what lies in the eye is passed
+// over at the first attempt, numbered 0; twice as far at each further one.
+double wayPastEye(const Vec3d& eye, int attempt);
+inline constexpr int kAttemptsPastEye = 40;
+
+}  // namespace whit

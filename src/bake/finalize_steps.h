@@ -1,0 +1,42 @@
+// The steps of Scene::finalize(), in this order. Internal to it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/scene.h"
+#include "bake/scene_order.h"
+
+namespace whit {
+
+// Throws Error(badScene), naming the thing at fault, for anything but triangles that cannot be
+// rendered; repairs and counts what has an obvious nearest sensible value.
+void validate(SceneDescription& description, Warnings& warnings);
+
+// Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
+// fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes
+// that are not searched for flush triangles the order comes back empty.
+SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
+                        Progress* progress);
+
+// Makes materials double-sided whose back faces nobody can pass or see: of what transmits light,
+// and of closed surfaces without holes alone, as seen from outside.
+void settleSides(SceneDescription& description);
+
+// Gives each dielectric its number. Materials that describe the same one share it, so that leaving
+// one of them counts as leaving the other. Throws Error(limit) beyond 255.
+void numberMedia(Scene& scene);
+
+// What the material calls for where a triangle uses it.
+EffectSet effectsOf(const Material& material);
+
+// The number of triangles that use each material, instances not multiplied out.
+std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
+
+// Whether some corner's normal differs from its triangle's by more than rounding.
+bool hasSmoothNormals(const Scene& scene);
+
+// Whether some corner's color is not white.
+bool hasVertexColors(const Scene& scene);
+
+}  // namespace whit

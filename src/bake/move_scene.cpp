@@ -1,0 +1,146 @@
+#include "bake/move_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "bake/bake_triangles.h"
+#include "bake/instance_bounds.h"
+#include "bake/sphere.h"
+#include "core/error.h"
+#include "core/usable_threads.h"
+#include "core/warnings.h"
+
+namespace whit {
+
+namespace {
+
+void moveCamera(const Scene& scene, const MovingCamera& moving, const std::vector<Affine>& poses,
+                double seconds, Camera& camera) {
+  if (moving.node != kNoNode) return carry(moving.own, poses[moving.node], camera);
+  camera = cameraAt(scene.cameraPath, seconds);
+  camera.name = moving.own.name;
+}
+
+void moveView(Scene& scene, const std::vector<Affine>& poses, double seconds) {
+  for (const MovingCamera& moving : scene.motion.given.cameras) {
+    moveCamera(scene, moving, poses, seconds, scene.cameras[moving.camera]);
+  }
+  for (const MovingLight& moving : scene.motion.given.lights) {
+    carry(moving, poses[moving.node], scene.lights[moving.light]);
+  }
+}
+
+void setCorners(const Geometry& geometry, const std::array<std::uint32_t, 3>& corners,
+                TriangleRecord& record) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3f& p = geometry.position[corners[i]];
+    std::copy_n(&p.x, 3, record.position + 3 * i);
+  }
+}
+
+// `normals` are those of the bent vertices, by their places among them; the face's where there are
+// none or where one has no direction.
+void setNormals(const std::vector<Vec3f>& normals, const std::array<std::uint32_t, 3>& places,
+                const TriangleRecord& triangle, NormalRecord& record) {
+  const Vec3f face(faceNormal(triangle));
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3f n = normals.empty() ? face : normals[places[i]];
+    if (n == Vec3f()) n = face;
+    std::copy_n(&n.x, 3, record.normal + 3 * i);
+  }
+}
+
+void bend(Scene& scene, const BentVertices& bent, double seconds, DeformVertices deformVertices) {
+  Geometry& geometry = scene.geometries[bent.geometry];
+  const DeformedVertices vertices =
+      deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
+  std::copy(vertices.positions.begin(), vertices.positions.end(),
+            geometry.position.begin() + bent.firstVertex);
+  const std::size_t count = vertices.positions.size();
+  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+    const auto& corners = geometry.index[i];
+    if (corners[0] < bent.firstVertex || corners[0] - bent.firstVertex >= count) continue;
+    TriangleRecord& record = scene.triangles[geometry.firstTriangle + i];
+    setCorners(geometry, corners, record);
+    if (scene.normals.empty()) continue;
+    const auto place = [&](std::size_t k) { return corners[k] - bent.firstVertex; };
+    setNormals(vertices.normals, {place(0), place(1), place(2)}, record,
+               scene.normals[geometry.firstTriangle + i]);
+  }
+}
+
+Box boxOf(const Scene& scene, const Geometry& geometry) {
+  Box box;
+  for (const auto& corners : geometry.index) {
+    for (const std::uint32_t corner : corners) box.add(geometry.position[corner]);
+  }
+  for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+    const Box own = sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i]));
+    box.add(own.lower);
+    box.add(own.upper);
+  }
+  return box;
+}
+
+bool setMotion(const std::string& name, const std::shared_ptr<const Motion>& motion, Rig& rig) {
+  bool found = false;
+  for (RigNode& node : rig) {
+    if (node.name.empty() || node.name != name) continue;  // most have none
+    node.motion = motion;
+    found = true;
+  }
+  return found;
+}
+
+}  // namespace
+
+Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
+  const SceneMotion& motion = scene.motion.given;
+  const auto moving = std::find_if(motion.cameras.begin(), motion.cameras.end(),
+                                   [&](const MovingCamera& m) { return m.camera == camera; });
+  if (moving == motion.cameras.end()) return scene.cameras[camera];
+  Camera carried = moving->own;
+  moveCamera(scene, *moving, poseRig(motion.rig, seconds), seconds, carried);
+  return carried;
+}
+
+void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
+  const auto motion = std::make_shared<const FixedMotion>(place);
+  bool found = setMotion(pointer, motion, scene.motion.given.rig);
+  for (BentVertices& bent : scene.motion.bent) {
+    if (!bent.deformation->hasSkin()) continue;
+    Rig skeleton = *bent.deformation->skeleton;
+    if (!setMotion(pointer, motion, skeleton)) continue;
+    Deformation deformation = *bent.deformation;  // other scenes may share it
+    deformation.skeleton = std::make_shared<const Rig>(std::move(skeleton));
+    bent.deformation = std::make_shared<const Deformation>(std::move(deformation));
+    found = true;
+  }
+  if (!found) {
+    throwUsage("\"" + pointer + "\" is not among what was to be moved when " + scene.name +
+               " was loaded");
+  }
+}
+
+void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
+  BakedMotion& motion = scene.motion;
+  if (motion.empty()) return;
+  const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
+  moveView(scene, poses, seconds);
+  if (!motion.ofGeometry) return;
+  for (const BentVertices& bent : motion.bent) {
+    bend(scene, bent, seconds, deformVertices);
+    motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
+  }
+  scene.instances = motion.instances;
+  for (InstanceRecord& instance : scene.instances) {
+    if (instance.mover != kNoNode) instance.toWorld = poses[instance.mover] * instance.toMover;
+  }
+  Warnings expected;  // that some are flattened at times
+  boundInstances(scene, motion.boxes, expected);
+  updateFlushTriangles(scene, motion.still, motion.order, usableThreads());
+}
+
+}  // namespace whit

@@ -1,0 +1,182 @@
+// The scene as renderers read it: validated, baked and frozen. After Scene::finalize() nothing
+// about the scene can fail.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bake/flush_triangles.h"
+#include "bake/item_numbers.h"
+#include "bake/scene_order.h"
+#include "core/box.h"
+#include "core/effects.h"
+#include "core/huge_vector.h"
+#include "core/progress.h"
+#include "core/warnings.h"
+#include "scene/description.h"
+
+namespace whit {
+
+// Triangles of one class lie together and become one Embree geometry, whose id is the class: bit 0
+// set when they cast no shadow, bit 1 set when hits on them are filtered: an alpha mask cuts them,
+// or they are seen from one side only.
+inline constexpr int kTriangleClasses = 4;
+inline constexpr std::uint32_t kNoShadowBit = 1, kMaskedBit = 2;
+
+// What shading reads of a triangle, one cache line: corners, texture coordinates, material.
+struct alignas(64) TriangleRecord {
+  float position[9];
+  float uv[6];
+  std::uint32_t material;
+};
+static_assert(sizeof(TriangleRecord) == 64);
+
+// One a corner; all three equal the face's where the mesh has none. Of unit length, or where a
+// transform has stretched the model, of lengths in the proportion that this gives them, the longest
+// about 1: so their mean anywhere on the triangle is that of the model's unit normals, carried
+// along.
+struct NormalRecord {
+  float normal[9];
+};
+// By the square of a normal's length: whether that is not 1 up to the rounding of its components.
+inline constexpr double kStretchedNormal = 1e-6;
+inline bool isStretched(double square) { return std::abs(square - 1) > kStretchedNormal; }
+
+struct UvRecord {
+  float uv[6];  // as in TriangleRecord
+};
+
+struct ColorRecord {
+  float color[9];  // linear RGB, one a corner
+};
+
+// One object's triangles as Embree wants them. `index` refers to `position`; triangles are sorted
+// by class (stable), class c occupying [classBegin[c], classBegin[c + 1]). The triangle i of a
+// geometry is number firstTriangle + i in Scene::triangles. `position` has the capacity for one
+// more element than it holds, because Embree reads 16 bytes at every vertex.
+struct Geometry {
+  std::vector<Vec3f> position;
+  std::vector<std::array<std::uint32_t, 3>> index;
+  std::array<std::uint32_t, kTriangleClasses + 1> classBegin{};
+  std::uint32_t firstTriangle = 0;
+  std::uint32_t firstSphere = 0, spheres = 0;  // in Scene::triangles too
+};
+
+// A dielectric that some triangle bounds. Number 0 is the vacuum around everything (ior 1).
+struct Medium {
+  float ior = 1;
+  Rgb absorption{0, 0, 0};
+  int priority = 0;
+};
+
+struct InstanceRecord {
+  std::uint32_t geometry = 0;  // index into Scene::geometries, never 0
+  std::uint32_t written = 0;   // index into SceneDescription::instances
+  Affine toWorld;
+  std::uint32_t mover = kNoNode;  // of the scene's rig
+  Affine toMover;
+  bool moves = false;  // is carried by something, or bends
+  std::uint32_t firstItem = 0;
+};
+
+// The vertices of a baked geometry that a mesh bends, from `firstVertex` on.
+struct BentVertices {
+  std::uint32_t geometry = 0, firstVertex = 0;
+  std::shared_ptr<const Deformation> deformation;
+};
+
+// What moveScene() starts from.
+struct BakedMotion {
+  SceneMotion given;
+  // Instances move, meshes bend, or cameras may go to where instances are too small to be traced.
+  // If not, only cameras and lights move, and all below is empty.
+  bool ofGeometry = false;
+  std::vector<InstanceRecord> instances;  // all of them, also those that are flattened at times
+  std::vector<Box> boxes;                 // of geometries, each in its own space
+  std::vector<BentVertices> bent;
+  SceneOrder order;
+  StillFlush still;
+
+  bool ofLights() const { return !given.lights.empty(); }
+  bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }
+};
+
+struct EffectReason {
+  bool on = false;
+  std::string because;  // "3 materials have a mirror", "no mesh uses a material that light passes"
+};
+
+class Scene {
+ public:
+  // Validates and bakes. Non-finite or enormous vertices (beyond Embree's 1.844e18), out-of-range
+  // indices and degenerate triangles are dropped and counted in `warnings`. Throws Error(badScene)
+  // where nothing sensible remains, Error(limit) beyond 2^32 - 1 triangles or 255 media.
+  static Scene finalize(SceneDescription&& description, Warnings& warnings,
+                        Progress* progress = nullptr);
+
+  std::string name;
+  bool isModel = false;  // as in SceneDescription
+  int width = 480, height = 300;
+  std::vector<Camera> cameras;  // at least one
+  std::vector<Keyframe> cameraPath;
+  std::vector<Animation> animations;
+  std::vector<Light> lights;
+  Sky sky;
+  Ambient ambient;
+  std::vector<Material> materials;
+  std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material bounds none
+  std::vector<Medium> media;                   // [0] is vacuum
+  std::vector<Texture> textures;
+
+  // Geometry 0 is the world (may be empty), the others are instanced.
+  std::vector<Geometry> geometries;
+  std::vector<InstanceRecord> instances;
+  // Those of all geometries, one after the other; from firstSphere on they are spheres
+  // (scene/sphere.h), in the same order.
+  HugeVector<TriangleRecord> triangles;
+  std::uint32_t firstSphere = 0;
+  // Same length, or empty when no mesh has normals other than its triangles'.
+  HugeVector<NormalRecord> normals;
+  HugeVector<ColorRecord> colors;  // same length, or empty when every vertex is white
+  // Same length, or empty when no map is looked up with second texture coordinates.
+  HugeVector<UvRecord> secondUvs;
+
+  // Bounds of everything, instances (each by its object's box) included; zero without triangles.
+  Vec3f lower, upper;
+  // As seen, instances multiplied out.
+  std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
+
+  ItemNumbers items;
+  FlushTriangles flush;  // that share their place with others
+  BakedMotion motion;    // see scene/move_scene.h
+
+  EffectSet effects;
+  std::array<EffectReason, kEffectCount> reasons;
+
+  // The number of the item that a triangle (or sphere) belongs to where it stands, `instance` being
+  // kNoInstance in the world; and its own among that item's triangles. What is beyond 2^32 - 2 has
+  // that number.
+  struct MetNumbers {
+    std::uint32_t item = 0, triangle = 0;
+  };
+  MetNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
+
+  bool isSphere(std::uint32_t number) const { return number >= firstSphere; }
+
+  // The three corners' texture coordinates for a map that is looked up with the first or second.
+  const float* uvsOf(std::uint32_t triangle, bool second) const {
+    return second && !secondUvs.empty() ? secondUvs[triangle].uv : triangles[triangle].uv;
+  }
+
+  // Bytes held by geometry and by textures (without Embree's).
+  std::uint64_t memoryBytes() const;
+};
+
+// Fills effects and reasons from what the geometry really uses.
+void gatherEffects(Scene& scene);
+
+}  // namespace whit

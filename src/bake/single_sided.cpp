@@ -1,0 +1,135 @@
+// Where back faces are to be passed at all: the filter that does so is not for surfaces that have
+// none to be seen.
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "bake/finalize_steps.h"
+
+namespace whit {
+
+namespace {
+
+// A mesh whose corners are one where they lie in one place.
+class WeldedMesh {
+ public:
+  explicit WeldedMesh(const Mesh& mesh) : positions_(mesh.positions) {
+    const std::vector<std::uint32_t> welded = weld();
+    triangles_.reserve(mesh.triangles.size());
+    for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
+      if (std::max({t[0], t[1], t[2]}) >= positions_.size()) continue;
+      const std::array<std::uint32_t, 3> corners{welded[t[0]], welded[t[1]], welded[t[2]]};
+      const bool flat =
+          corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+      if (!flat) triangles_.push_back(corners);
+    }
+  }
+
+  // Each edge belongs to as many triangles in one direction as in the other.
+  bool isClosed() const {
+    std::vector<std::pair<std::array<std::uint32_t, 2>, int>> edges;
+    edges.reserve(3 * triangles_.size());
+    for (const std::array<std::uint32_t, 3>& t : triangles_) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        edges.emplace_back(std::array{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1);
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    int balance = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      balance += edges[i].second;
+      const bool last = i + 1 == edges.size() || edges[i + 1].first != edges[i].first;
+      if (last && balance != 0) return false;
+    }
+    return true;
+  }
+
+  // Every connected part encloses a volume on its inside.
+  bool facesOutwards() const {
+    std::vector<std::uint32_t> part(positions_.size());
+    std::iota(part.begin(), part.end(), 0u);
+    const auto partOf = [&](std::uint32_t vertex) {
+      while (part[vertex] != vertex) vertex = part[vertex] = part[part[vertex]];
+      return vertex;
+    };
+    for (const std::array<std::uint32_t, 3>& t : triangles_) {
+      part[partOf(t[1])] = partOf(t[0]);
+      part[partOf(t[2])] = partOf(t[0]);
+    }
+    std::vector<double> volume(positions_.size(), 0.0);
+    for (const std::array<std::uint32_t, 3>& t : triangles_) {
+      const std::uint32_t own = partOf(t[0]);
+      const auto at = [&](std::size_t i) { return Vec3d(positions_[t[i]] - positions_[own]); };
+      volume[own] += dot(at(0), cross(at(1), at(2)));
+    }
+    return std::all_of(triangles_.begin(), triangles_.end(),
+                       [&](const auto& t) { return volume[partOf(t[0])] > 0; });
+  }
+
+ private:
+  // For each vertex the first in its place.
+  std::vector<std::uint32_t> weld() const {
+    std::vector<std::uint32_t> order(positions_.size()), first(positions_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) {
+      return std::array{positions_[i].x, positions_[i].y, positions_[i].z};
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(key(a), a) < std::pair(key(b), b);
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+      first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+  }
+
+  const std::vector<Vec3f>& positions_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+
+bool isShell(const Mesh& mesh) {
+  const bool finite = std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                                  [](const Vec3f& p) { return isFinite(Vec3d(p)); });
+  if (!finite) return false;
+  const WeldedMesh welded(mesh);
+  return welded.isClosed() && welded.facesOutwards();
+}
+
+}  // namespace
+
+void settleSides(SceneDescription& description) {
+  std::vector<bool> culls(description.materials.size(), false);
+  const auto isSingle = [&](const Mesh& mesh) {
+    return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
+      return m < culls.size() && !culls[m] && !description.materials[m].doubleSided &&
+             !description.materials[m].boundsMedium();
+    });
+  };
+  // Through which its inside is seen.
+  const auto hasHoles = [&](const Mesh& mesh) {
+    return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
+      if (m >= culls.size()) return false;
+      const Material& material = description.materials[m];
+      return material.alphaMap != kNoTexture || material.passesLight();
+    });
+  };
+  for (const Object& object : description.objects) {
+    for (const Mesh& mesh : object.meshes) {
+      if (!isSingle(mesh)) continue;
+      if (!hasHoles(mesh) && isShell(mesh)) continue;
+      for (const std::uint32_t m : mesh.materials) {
+        if (m < culls.size()) culls[m] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < culls.size(); ++i) {
+    Material& m = description.materials[i];
+    m.doubleSided = m.doubleSided || m.boundsMedium() || !culls[i];
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,130 @@
+#include "bake/sphere.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace whit {
+
+namespace {
+
+Vec3d fold(double x, double y) {
+  const auto sign = [](double a) { return a < 0 ? -1.0 : 1.0; };
+  return {(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), 0};
+}
+
+// The rows of the inverse's linear part.
+std::array<Vec3d, 3> inverseRows(const Affine& m) {
+  const double volume = m.determinant();
+  return {cross(m.y, m.z) / volume, cross(m.z, m.x) / volume, cross(m.x, m.y) / volume};
+}
+
+Vec3d multiply(const std::array<Vec3d, 3>& rows, const Vec3d& v) {
+  return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+}
+
+}  // namespace
+
+TriangleRecord makeSphereRecord(const Affine& toGeometry, std::uint32_t material) {
+  SphereRecord record{};
+  const Vec3d columns[] = {toGeometry.x, toGeometry.y, toGeometry.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 3; ++i) record.axes[3 * axis + i] = static_cast<float>(columns[axis][i]);
+    record.center[axis] = static_cast<float>(toGeometry.p[axis]);
+  }
+  record.outward = toGeometry.determinant() < 0 ? -1.0f : 1.0f;
+  record.material = material;
+  return std::bit_cast<TriangleRecord>(record);
+}
+
+Affine sphereMap(const TriangleRecord& record) {
+  const auto r = std::bit_cast<SphereRecord>(record);
+  const auto column = [&](int i) {
+    return Vec3d(double{r.axes[i]}, double{r.axes[i + 1]}, double{r.axes[i + 2]});
+  };
+  return {column(0), column(3), column(6),
+          Vec3d(double{r.center[0]}, double{r.center[1]}, double{r.center[2]})};
+}
+
+Box sphereBounds(const Affine& map) {
+  Vec3f lower, upper;
+  for (int i = 0; i < 3; ++i) {
+    const double reach = std::sqrt(map.x[i] * map.x[i] + map.y[i] * map.y[i] + map.z[i] * map.z[i]);
+    const double room = 0x1p-21 * (reach + std::abs(map.p[i]));
+    lower[i] = static_cast<float>(map.p[i] - reach - room);
+    upper[i] = static_cast<float>(map.p[i] + reach + room);
+  }
+  Box box;
+  box.add(lower);
+  box.add(upper);
+  return box;
+}
+
+std::array<double, 2> sphereWeights(const Vec3d& unit) {
+  const Vec3d on = unit / (std::abs(unit.x) + std::abs(unit.y) + std::abs(unit.z));
+  const Vec3d flat = on.z < 0 ? fold(on.x, on.y) : on;
+  return {kSphereWeightBegin + kSphereWeightScale * (flat.x + 1),
+          kSphereWeightBegin + kSphereWeightScale * (flat.y + 1)};
+}
+
+Vec3d spherePoint(double u, double v) {
+  const double x = (u - kSphereWeightBegin) / kSphereWeightScale - 1;
+  const double y = (v - kSphereWeightBegin) / kSphereWeightScale - 1;
+  const double z = 1 - std::abs(x) - std::abs(y);
+  const Vec3d flat = z < 0 ? fold(x, y) : Vec3d{x, y, 0};
+  return normalized(Vec3d{flat.x, flat.y, z});
+}
+
+std::array<double, 2> sphereUv(const Vec3d& unit) {
+  const double turn = std::atan2(-unit.z, unit.x) / (2 * std::numbers::pi);
+  const double rho = std::hypot(unit.x, unit.z);
+  return {turn < 0 ? turn + 1 : turn, std::atan2(rho, -unit.y) / std::numbers::pi};
+}
+
+TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v) {
+  const Affine map = sphereMap(sphere);
+  const Vec3d q = spherePoint(u, v);
+  const auto [s, t] = sphereUv(q);
+  const double rho = std::hypot(q.x, q.z);
+  const double cosine = rho > 0 ? q.x / rho : 1, sine = rho > 0 ? q.z / rho : 0;
+  const double step = double{kTouchingEdge} * std::numbers::pi;
+  const double round = 2 * step * std::max(rho, double{kPoleRadius});
+  const Vec3d along = map.vector(Vec3d{sine, 0, -cosine} * round);
+  const Vec3d across = map.vector(Vec3d{-q.y * cosine, rho, -q.y * sine} * step);
+  TriangleRecord record{};
+  const bool mirrored = map.determinant() < 0;
+  const Vec3d corners[] = {{}, mirrored ? across : along, mirrored ? along : across};
+  const auto edge = double{kTouchingEdge};
+  const double uvs[] = {s,
+                        t,
+                        s + (mirrored ? 0 : edge),
+                        t + (mirrored ? edge : 0),
+                        s + (mirrored ? edge : 0),
+                        t + (mirrored ? 0 : edge)};
+  for (int i = 0; i < 9; ++i) record.position[i] = static_cast<float>(corners[i / 3][i % 3]);
+  for (int i = 0; i < 6; ++i) record.uv[i] = static_cast<float>(uvs[i]);
+  record.material = sphere.material;
+  return record;
+}
+
+std::optional<SphereRoots> meetSphere(const Affine& fromUnit, const Vec3d& origin,
+                                      const Vec3d& direction) {
+  const std::array<Vec3d, 3> rows = inverseRows(fromUnit);
+  const Vec3d f = multiply(rows, origin - fromUnit.p), d = multiply(rows, direction);
+  const double a = dot(d, d), b = -dot(f, d);
+  const Vec3d nearest = f + d * (b / a);
+  const double inside = 1 - dot(nearest, nearest);
+  if (!(inside >= 0)) return std::nullopt;
+  const double q = b + std::copysign(std::sqrt(a * inside), b);
+  const double first = (dot(f, f) - 1) / q, second = q / a;
+  if (!(std::isfinite(first) && std::isfinite(second))) return std::nullopt;
+  return SphereRoots{std::min(first, second), std::max(first, second)};
+}
+
+Vec3d onUnitSphere(const Affine& fromUnit, const Vec3d& point) {
+  return multiply(inverseRows(fromUnit), point - fromUnit.p);
+}
+
+}  // namespace whit

@@ -1,0 +1,67 @@
+// Exact spheres: the unit sphere about the origin, carried by an affine map, so ellipsoids too.
+// They share the numbers of triangles: those from Scene::firstSphere on. A hit on one says with its
+// two weights which point of the unit sphere was met, so that everything that follows a hit
+// (position, normal, texture coordinates) follows from its number and its weights, as on a
+// triangle.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "bake/scene.h"
+#include "core/affine.h"
+#include "core/box.h"
+
+namespace whit {
+
+// What the 64 bytes of a TriangleRecord are where it is a sphere.
+struct alignas(64) SphereRecord {
+  float axes[9];  // images of the unit vectors, one after the other
+  float center[3];
+  float outward;  // -1 where the map mirrors, else 1: times the cofactors, they carry normals
+  float spare[2];
+  std::uint32_t material;
+};
+static_assert(sizeof(SphereRecord) == sizeof(TriangleRecord));
+
+TriangleRecord makeSphereRecord(const Affine& toGeometry, std::uint32_t material);
+// From the unit sphere to the space of the geometry.
+Affine sphereMap(const TriangleRecord& record);
+// Around the sphere that `map` makes of the unit sphere, rounded outwards.
+Box sphereBounds(const Affine& map);
+
+// The two weights are an octahedral map of the unit sphere (Cigolle et al. 2014, "A Survey of
+// Efficient Representations for Independent Unit Vectors"), drawn into a triangle and away from its
+// edges: nothing that looks for hits near a triangle's edge finds one.
+inline constexpr double kSphereWeightBegin = 0x1p-11, kSphereWeightScale = 1.0 / 8;
+std::array<double, 2> sphereWeights(const Vec3d& unit);
+Vec3d spherePoint(double u, double v);
+
+// The texture coordinates of a point of the unit sphere: u turns about y from +x towards -z, v
+// rises from the lower pole to the upper one.
+std::array<double, 2> sphereUv(const Vec3d& unit);
+
+// A triangle as one that touches the sphere at the point has it, but that the point, its first
+// corner, is moved to the origin: along its edges texture coordinates grow as they do on the
+// sphere.
+TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v);
+// Of the sum of what the unit vectors become, per axis: in the place of a triangle's edges where
+// the error of a position is bounded.
+inline constexpr float kSphereSpan = 0.25f;
+// The edges' length in texture coordinates.
+inline constexpr float kTouchingEdge = 0x1p-4f;
+// Nearer to the axis than this, u grows as it does here: at a pole it has no direction.
+inline constexpr float kPoleRadius = 0x1p-10f;
+
+// Where a line meets the sphere, in lengths of its direction, ascending. Without cancellation:
+// Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
+// chapter 7.
+struct SphereRoots {
+  double near = 0, far = 0;
+};
+std::optional<SphereRoots> meetSphere(const Affine& fromUnit, const Vec3d& origin,
+                                      const Vec3d& direction);
+// The inverse of the map, at a point.
+Vec3d onUnitSphere(const Affine& fromUnit, const Vec3d& point);
+
+}  // namespace whit

@@ -1,0 +1,88 @@
+#include "cli/app/explained_rays.h"
+
+#include "core/formatted.h"
+#include "core/printable.h"
+#include "reference/media.h"
+
+namespace whit::cli {
+
+namespace {
+
+std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
+  return name.empty() ? kind + (" " + std::to_string(number)) : printable(name);
+}
+
+}  // namespace
+
+bool ExplainedRays::partsAt(std::size_t node) const {
+  return counterpart[node] == kNoCounterpart ||
+         !agree(packets.nodes[node], reference.nodes[counterpart[node]]);
+}
+
+bool ExplainedRays::partsFirstAt(std::size_t node) const {
+  const std::size_t parent = packets.nodes[node].parent;
+  return partsAt(node) && (parent == node || !partsAt(parent));
+}
+
+ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x,
+                          int y) {
+  ExplainedRays rays{traceRayTree(renderer, camera, film, x, y),
+                     traceReferenceTree(renderer, camera, film, x, y),
+                     {}};
+  rays.counterpart = counterparts(rays.packets, rays.reference);
+  return rays;
+}
+
+RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own) {
+  return weightAtEye(tree, node) * own * (1.0 / static_cast<double>(tree.primaries.size()));
+}
+
+std::string materialName(const Scene& scene, std::uint32_t material) {
+  return nameOf(scene.materials[material].name, "material", material);
+}
+
+std::string lightName(const Scene& scene, std::uint32_t light) {
+  if (light == kAmbientLight) return "ambient light";
+  return nameOf(scene.lights[light].name, "light", light);
+}
+
+std::string mediumName(const Scene& scene, std::uint32_t media) {
+  const std::uint32_t medium = reference::currentMedium(scene, media);
+  if (medium == 0) return "vacuum";
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+    if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
+  }
+  return "medium " + std::to_string(medium);
+}
+
+const char* nameOf(PathEnd end) {
+  switch (end) {
+    case PathEnd::depth:
+      return "depth";
+    case PathEnd::cutoff:
+      return "cutoff";
+    case PathEnd::roulette:
+      return "roulette";
+    case PathEnd::totalReflection:
+      return "total reflection";
+    case PathEnd::none:
+      break;
+  }
+  return "";
+}
+
+std::string metText(const Scene& scene, const RayNode& node) {
+  if (node.triangle == kMiss) return "leaves the scene";
+  return formatted("%s, %.6g away%s", materialName(scene, node.material).c_str(), node.distance,
+                   node.hidden ? ", hidden in another medium" : "");
+}
+
+std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
+  const std::size_t other = rays.counterpart[node];
+  if (other == kNoCounterpart) return "it does not follow this ray";
+  const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
+  if (!meetsTheSame(n, reference)) return metText(scene, reference);
+  return seesTheSame(n, reference) ? "it sends on other rays" : "it sees other lights";
+}
+
+}  // namespace whit::cli

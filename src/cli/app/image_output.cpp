@@ -1,0 +1,162 @@
+#include "cli/app/image_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "cli/app/interrupt.h"
+#include "core/display.h"
+#include "core/error.h"
+#include "core/option_values.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr int kFrameLimit = 10'000'000;
+
+bool readFrameNumber(const std::string& text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && value >= 0 &&
+         value <= kFrameLimit;
+}
+
+void writeDisplay(const std::string& path, const DisplayImage& image,
+                  const ImageMetadata& metadata) {
+  if (path != kStandardOutput) {
+    writePng(path, image, metadata);
+    return;
+  }
+  const std::string bytes = encodePng(image, metadata);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+      std::fflush(stdout) != 0) {
+    throwIo(std::string("cannot write to standard output: ") + std::strerror(errno));
+  }
+}
+
+}  // namespace
+
+void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
+  const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
+  if (!extensions.empty() && found == extensions.end()) {
+    std::string known;
+    for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;
+    throwUsage("'" + path + "': expected a name that ends in " + known);
+  }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throwIo("cannot write '" + path + "': it is a folder");
+  }
+  if (std::filesystem::is_other(path, error)) return;  // a device or a pipe
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const std::string place = folder.empty() ? "." : folder.string();
+  if (!std::filesystem::is_directory(place, error)) {
+    throwIo("cannot write '" + path + "': there is no folder '" + place + "'");
+  }
+  if (access(place.c_str(), W_OK) != 0) {
+    throwIo("cannot write '" + path + "': the folder '" + place + "' is write-protected");
+  }
+}
+
+void requireJsonWritable(const std::string& path) {
+  if (!path.empty() && path != "-") requireWritable(path, {});
+}
+
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
+}
+
+void addSettings(const std::vector<std::string>& settings, const std::string& sky,
+                 ImageMetadata& metadata) {
+  std::string text;
+  for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
+  if (!text.empty()) metadata.emplace_back("set", text);
+  if (!sky.empty()) metadata.emplace_back("sky", sky);
+}
+
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
+  if (kept.empty() || extensionOf(path) != ".png") return std::nullopt;
+  std::string name = std::filesystem::path(path).stem().string();
+  if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
+  while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+  const std::string last = name.substr(name.rfind('.') + 1);
+  std::optional<Channel> channel;
+  kept.forEach([&](Channel c) {
+    if (infoOf(c).name == last) channel = c;
+  });
+  return channel;
+}
+
+ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
+  if (format.channel) return {{"channel", std::string(infoOf(*format.channel).name)}};
+  if (extensionOf(path) != ".exr") return {};
+  ImageMetadata own = format.aboutChannels;
+  if (format.exr != ExrStorage::zip) {
+    own.emplace_back(kExrOption.name, formatValue(kExrOption, format.exr));
+  }
+  return own;
+}
+
+void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
+                const ImageMetadata& metadata, const ImageFormat& format) {
+  const WriteScope scope;
+  ImageMetadata said = metadata;
+  const ImageMetadata own = ownMetadata(path, format);
+  said.insert(said.end(), own.begin(), own.end());
+  if (extensionOf(path) == ".exr") {
+    writeExr(path, film.image, said, format.exr, format.threads, viewsOf(film.channels));
+  } else if (format.channel) {
+    writeChannelPng(path, film.image, film.channels, *format.channel, said);
+  } else if (options.mode == Mode::packets && film.wantDisplay) {
+    writeDisplay(path, film.display, metadata);
+  } else {
+    writeDisplay(path, toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb),
+                 metadata);
+  }
+}
+
+FrameRange parseFrameRange(const std::string& text) {
+  FrameRange range;
+  const std::size_t dots = text.find("..");
+  const bool good = dots == std::string::npos
+                        ? readFrameNumber(text, range.first)
+                        : readFrameNumber(text.substr(0, dots), range.first) &&
+                              readFrameNumber(text.substr(dots + 2), range.last);
+  if (dots == std::string::npos) range.last = range.first;
+  if (!good || range.last < range.first) {
+    throwUsage("--frames: expected a frame number, or first..last as 0..47, got '" + text + "'");
+  }
+  return range;
+}
+
+std::string frameName(const std::string& pattern, int frame) {
+  if (pattern == kStandardOutput) return pattern;
+  const std::filesystem::path path(pattern);
+  std::string name = path.filename().string();
+  const std::size_t begin = name.find('#');
+  if (begin == std::string::npos) {
+    throwUsage("'" + pattern +
+               "': --frames needs a place for the frame's number, as in out-####.exr");
+  }
+  const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+  std::string digits = std::to_string(frame);
+  if (digits.size() < end - begin) digits.insert(0, end - begin - digits.size(), '0');
+  name.replace(begin, end - begin, digits);
+  return (path.parent_path() / name).string();
+}
+
+void requireNoFrameName(const std::string& name) {
+  if (std::filesystem::path(name).filename().string().find("##") == std::string::npos) return;
+  throwUsage("'" + name + "': #### is the number of a frame, and there is no --frames A..B");
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,65 @@
+// Images as results: checked names, what they say about themselves, frame numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/options.h"
+#include "io/image/image_file.h"
+#include "io/image/image_layers.h"
+#include "io/paths.h"
+#include "render/renderer.h"
+
+namespace whit::cli {
+
+// Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
+// its folder is there and can be written to. No extensions: any name will do.
+void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
+// Makes the folder of results if it is not there. Throws Error(io).
+void makeFolder(const std::string& path);
+// As requireWritable() for the value of --json: empty and "-" are fine.
+void requireJsonWritable(const std::string& path);
+
+// Says with which settings of LoadOptions the scene was read; nothing without any.
+void addSettings(const std::vector<std::string>& settings, const std::string& sky,
+                 ImageMetadata& metadata);
+
+// Where pictures may go besides files.
+inline constexpr const char* kStandardOutput = "-";
+
+inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dwaa"};
+
+// How an image is to be written, apart from what is in it.
+struct ImageFormat {
+  ExrStorage exr = ExrStorage::zip;
+  int threads = 1;                      // that compress it
+  std::optional<Channel> channel = {};  // that a PNG shows in place of the picture
+  ImageMetadata aboutChannels = {};     // of describeChannels()
+};
+
+// Which of the channels that are kept a PNG of this name shows, by the part of the name before its
+// end or before the frame's number: "out.depth.png", "normal-####.png". None: the picture.
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
+
+// Writes .exr (linear, with the film's channels) or .png (display, or a channel) by the name's
+// extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
+void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
+                const ImageMetadata& metadata, const ImageFormat& format = {});
+// What writeImage() adds to the metadata of that file: of an EXR its channels, and how it is
+// stored, unless as usual; of a channel which it is.
+ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
+
+// Frames a to b, both included.
+struct FrameRange {
+  int first = 0, last = 0;
+};
+FrameRange parseFrameRange(const std::string& text);  // "3" or "0..47"; throws Error(usage)
+
+// The run of '#' in the file's name becomes the frame's number, zero-padded to its length; throws
+// Error(usage) when the name has none. Standard output takes all frames.
+std::string frameName(const std::string& pattern, int frame);
+// Throws Error(usage) when the name is meant for frames: two '#' or more.
+void requireNoFrameName(const std::string& name);
+
+}  // namespace whit::cli

@@ -1,0 +1,55 @@
+// A scene as the commands need it, and the frames made of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "bake/scene.h"
+#include "cli/app/parse_options.h"
+#include "core/warnings.h"
+#include "farm/farm.h"
+#include "render/render_frame.h"
+
+namespace whit::cli {
+
+struct OpenScene {
+  explicit OpenScene(bool strict) : warnings(strict) {}
+  Scene scene;
+  Warnings warnings;
+  // That it was read with, as LoadOptions has them.
+  std::vector<std::string> settings;
+  std::string sky;
+  double loadMs = 0;  // reading and baking
+  // Held while the scene is brought to another time, where other threads look at it.
+  mutable std::mutex moving;
+};
+
+// Loads and bakes; tells people on standard error what was repaired, unless --quiet. `look`, if
+// any, sees the scene before it is baked.
+using LookAtScene = std::function<void(const SceneDescription&)>;
+std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
+                                     Progress* progress, const LookAtScene& look = {});
+
+// The options of a frame of the scene: models have defaults of their own. An automatic exposure is
+// still to be settled (render/auto_exposure.h).
+RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
+
+// What was repaired, one line each on standard error.
+void tellWarnings(const Warnings& warnings);
+
+// A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.
+Film openFilm(const Scene& scene, const CommonOptions& common);
+
+// Throws Error(usage) for what several ranks cannot share.
+void checkShared(const Farm& farm, const CommonOptions& common);
+// The ranks beside the leader keep to themselves.
+void quietUnlessLeading(const Farm& farm, CommonOptions& common);
+
+// One frame, shared with the other ranks if there are any.
+FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
+                        const Camera& camera, Film& film, Progress* progress = nullptr);
+
+}  // namespace whit::cli

@@ -1,0 +1,59 @@
+// What else there is to see of a frame than its colors: for finding out, not for speed.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "inspect/false_colors.h"
+#include "render/renderer.h"
+
+namespace whit {
+
+enum class DebugView { none, depth, normals, albedo, rays, cost, effects, occupancy };
+inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo",
+                                            "rays", "cost",  "effects", "occupancy"};
+
+struct DebugFrame {
+  FrameStats stats;  // of one worker, who was looked at all the time
+  // What the colors stand for, for people: "rays a pixel, from 1 to 23".
+  std::string legend;
+  AmountScale scale;                 // of those views that have one
+  std::vector<WatchedPixel> pixels;  // of the window
+};
+
+// Traces the frame as ever, but with one worker, and paints film.display (the window's pixels):
+//   depth      distance along the primary ray, near ones bright; black: nothing hit
+//   normals    shading normals, (n + 1) / 2 a channel
+//   albedo     diffuse reflectance, textures included
+//   rays       all that were traced for the pixel
+//   cost       the pixel's share of the time of the stages that it took part in
+//   effects    those of the surface that the primary ray hits, by effectColors(), added up
+//   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
+// Several samples are averaged. film.image is what render() makes of it. `view` is not none.
+DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
+
+// The parts of the above, for pictures that are watched piece by piece: `frame.pixels` and its
+// statistics; then for any pixels, of so many samples each, scale, picture and words. A pixel's
+// occupancy is that of a whole picture only where pieces are of whole tiles.
+DebugFrame watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
+AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples);
+void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
+               const AmountScale& scale, DisplayImage& display);
+std::string legendOf(DebugView view, const AmountScale& scale);
+// What was seen of a pixel, with its unit: "5.3 rays a sample".
+std::string textOf(DebugView view, const WatchedPixel& pixel, int samples);
+
+// Of views with a scale: its color at that share of the way from low to high, and the amount there.
+bool hasScale(DebugView view);
+std::array<std::uint8_t, 3> colorAt(DebugView view, double share);
+double amountAt(DebugView view, const AmountScale& scale, double share);
+
+// The colors of DebugView::effects.
+struct EffectColor {
+  Effect effect;
+  std::array<float, 3> color;  // as displayed, 0 to 1
+};
+std::span<const EffectColor> effectColors();
+
+}  // namespace whit

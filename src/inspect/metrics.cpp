@@ -1,0 +1,120 @@
+#include "inspect/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "core/display.h"
+#include "core/error.h"
+#include "inspect/flip.h"
+
+namespace whit {
+
+namespace {
+
+constexpr double kRelativeEpsilon = 1e-2;
+
+// What is measured on linear values. Pixels that are not finite in either image are only counted:
+// one of them would make every mean meaningless.
+void measureLinear(const Image& a, const Image& b, ImageDifference& difference) {
+  double squares = 0, relative = 0, sumA = 0, sumB = 0;
+  std::uint64_t values = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (!isFinite(a.pixels[i]) || !isFinite(b.pixels[i])) {
+      ++difference.nonFinite;
+      continue;
+    }
+    values += 3;
+    for (int c = 0; c < 3; ++c) {
+      const double x = static_cast<double>(a.pixels[i][c]);
+      const double reference = static_cast<double>(b.pixels[i][c]);
+      const double square = (x - reference) * (x - reference);
+      squares += square;
+      relative += square / (reference * reference + kRelativeEpsilon);
+      sumA += x;
+      sumB += reference;
+    }
+  }
+  if (values == 0) return;
+  difference.rmse = std::sqrt(squares / static_cast<double>(values));
+  difference.relmse = relative / static_cast<double>(values);
+  difference.energyRatio = sumA == sumB ? 1 : sumA / sumB;
+}
+
+double psnr(const DisplayImage& a, const DisplayImage& b) {
+  std::uint64_t squares = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+    if (i % 4 == 3) continue;  // alpha
+    const int d = int{a.rgba[i]} - int{b.rgba[i]};
+    squares += static_cast<std::uint64_t>(d * d);
+  }
+  if (squares == 0) return std::numeric_limits<double>::infinity();
+  const std::size_t values = a.rgba.size() / 4 * 3;
+  return 10 *
+         std::log10(255.0 * 255.0 * static_cast<double>(values) / static_cast<double>(squares));
+}
+
+void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference& difference) {
+  std::uint64_t one = 0, two = 0;
+  const std::vector<std::uint8_t> codes = codeDifferences(a, b);
+  for (const int code : codes) {
+    difference.maxCode = std::max(difference.maxCode, code);
+    one += code >= 1;
+    two += code >= 2;
+  }
+  const double percent = 100.0 / static_cast<double>(codes.size());
+  difference.pixelsGe1CodePct = percent * static_cast<double>(one);
+  difference.pixelsGe2CodesPct = percent * static_cast<double>(two);
+}
+
+std::string describe(const Image& image) {
+  const Crop& w = image.window;
+  return std::to_string(image.width) + "x" + std::to_string(image.height) + " with pixels " +
+         std::to_string(w.x0) + "," + std::to_string(w.y0) + "," + std::to_string(w.x1) + "," +
+         std::to_string(w.y1);
+}
+
+}  // namespace
+
+void checkComparable(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.window != b.window)
+    throwUsage("expected two images of the same size and crop, found " + describe(a) + " and " +
+               describe(b));
+  if (a.pixels.empty()) throwUsage("expected images with at least one pixel");
+}
+
+std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
+  std::vector<std::uint8_t> differences(a.rgba.size() / 4);
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    int largest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
+    differences[i] = static_cast<std::uint8_t>(largest);
+  }
+  return differences;
+}
+
+ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve,
+                              SrgbEncoding encodingOfA) {
+  checkComparable(a, b);
+  ImageDifference difference;
+  measureLinear(a, b, difference);
+  const DisplayImage shownA = toDisplay(a, exposure, curve, encodingOfA);
+  const DisplayImage shownB = toDisplay(b, exposure, curve);
+  difference.psnrDb = psnr(shownA, shownB);
+  measureCodes(shownA, shownB, difference);
+  const std::vector<float> flip = flipOfCodes(shownA, shownB);
+  difference.flipMean =
+      std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size());
+  return difference;
+}
+
+std::vector<float> flipMap(const Image& a, const Image& b) {
+  checkComparable(a, b);
+  return flipOfCodes(toDisplay(a, 0, ToneCurve::none), toDisplay(b, 0, ToneCurve::none));
+}
+
+}  // namespace whit

@@ -1,0 +1,131 @@
+#include "inspect/path_divergence.h"
+
+#include <atomic>
+
+#include "core/pixel.h"
+#include "reference/reference.h"
+#include "render/embree_intersector.h"
+#include "render/pixel_tracker.h"
+
+namespace whit {
+
+namespace {
+
+// splitmix64's finalizer: sums of it tell multisets apart.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+std::uint64_t hitEvent(std::uint32_t triangle, std::uint32_t instance) {
+  return mixed(mixed(triangle) ^ instance);
+}
+std::uint64_t shadowEvent(bool visible) { return mixed(visible ? 0x51 : 0x52); }
+
+// A pixel's signature: the sum of its events, whatever their order. Observers of workers that share
+// the tiles write to the same signatures, one a pixel of the window.
+class SignatureObserver : public StageObserver {
+ public:
+  SignatureObserver(const Crop& window, std::vector<std::uint64_t>& signatures)
+      : window_(window),
+        width_(static_cast<std::size_t>(window.x1 - window.x0)),
+        signatures_(signatures) {}
+
+  void after(Stage stage, const Chunk& chunk) override {
+    tracker_.follow(stage, chunk);
+    if (stage == Stage::findIntersections) {
+      for (std::size_t i = 0; i < chunk.n; ++i) {
+        if (chunk.hits.triangle[i] == kMiss) continue;
+        const std::uint32_t instance =
+            chunk.has(Feature::instances) ? chunk.hits.instance[i] : kMiss;
+        at(tracker_.pixel(chunk, i)) += hitEvent(chunk.hits.triangle[i], instance);
+      }
+    } else if (stage == Stage::checkShadows) {
+      for (std::size_t k = 0; k < chunk.shadowCount; ++k) {
+        const std::uint32_t slot = chunk.shadows.slot[k];
+        at(tracker_.pixel(chunk, slot)) += shadowEvent(chunk.unshadowed.visible[slot] > 0);
+      }
+    }
+  }
+
+ private:
+  std::uint64_t& at(std::uint32_t pixel) {
+    const auto x = static_cast<std::size_t>(pixelX(pixel) - window_.x0);
+    const auto y = static_cast<std::size_t>(pixelY(pixel) - window_.y0);
+    return signatures_[y * width_ + x];
+  }
+
+  Crop window_;
+  std::size_t width_;
+  PixelTracker tracker_;
+  std::vector<std::uint64_t>& signatures_;
+};
+
+class RecordingIntersector : public reference::Intersector {
+ public:
+  explicit RecordingIntersector(const Accel& accel) : embree_(accel) {}
+  bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
+    return embree_.closest(ray, c);
+  }
+  void met(const reference::Candidate& c) const override {
+    signature += hitEvent(c.triangle, c.instance);
+  }
+  bool occluded(const reference::Ray& ray, double tFar) const override {
+    const bool blocked = embree_.occluded(ray, tFar);
+    signature += shadowEvent(!blocked);
+    return blocked;
+  }
+  mutable std::uint64_t signature = 0;
+
+ private:
+  EmbreeIntersector embree_;
+};
+
+}  // namespace
+
+ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+  const CameraFrame frame = renderer.lookFrom(camera, film);
+  const reference::Settings settings = renderer.referenceSettings();
+  ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
+  const Crop& window = film.image.window;
+  std::atomic<int> nextRow{window.y0};
+  renderer.scheduler().pool().run([&](int) {
+    const RecordingIntersector intersector(renderer.accel());
+    const reference::Tracer tracer(renderer.scene(), intersector, settings);
+    reference::RayCounts counts;
+    for (int y = nextRow++; y < window.y1; y = nextRow++) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        intersector.signature = 0;
+        paths.image.at(x, y) = Rgb(tracer.pixel(frame, x, y, counts));
+        paths.signatures[paths.image.index(x, y)] = intersector.signature;
+      }
+    }
+  });
+  return paths;
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film) {
+  return comparePaths(renderer, camera, film, traceReferencePaths(renderer, camera, film));
+}
+
+PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,
+                            const ReferencePaths& reference) {
+  Film scratch = film;
+  std::vector<std::uint64_t> signatures(film.image.pixels.size());
+  std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
+                                         SignatureObserver(film.image.window, signatures));
+  std::vector<StageObserver*> observers;
+  observers.reserve(signers.size());
+  for (SignatureObserver& signer : signers) observers.push_back(&signer);
+  renderer.observe(camera, scratch, observers);
+  PathComparison result{scratch.image, reference.image, {}, 0};
+  result.diverged.resize(signatures.size());
+  for (std::size_t i = 0; i < signatures.size(); ++i) {
+    result.diverged[i] = signatures[i] != reference.signatures[i];
+    result.divergences += result.diverged[i];
+  }
+  return result;
+}
+
+}  // namespace whit

@@ -1,0 +1,62 @@
+// The tree of a pixel's rays as lines in space, and what a camera sees of them.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <optional>
+#include <vector>
+
+#include "inspect/ray_tree.h"
+
+namespace whit {
+
+// What a line stands for: a ray of that kind; of those that only ask whether something is in
+// between, one that is blocked or is not.
+struct RayLook {
+  RayKind kind = RayKind::primary;
+  bool blocked = false;
+
+  auto operator<=>(const RayLook&) const = default;
+};
+// In the order of a legend: rays that go on before those that only ask.
+std::vector<RayLook> rayLooks();
+constexpr const RayStyle& styleOf(RayLook look) {
+  return look.blocked ? rowOf(look.kind).blocked : rowOf(look.kind).style;
+}
+constexpr bool isDashed(RayLook look) { return rowOf(look.kind).onlyAsk(); }
+
+struct RayLine {
+  Vec3d from, to;
+  RayLook look;
+  std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
+  double width = 0;      // pixels; thinner for what weighs less at the eye
+};
+
+// Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
+std::vector<RayLine> linesOf(const RayTree& tree);
+
+// Where the rays are seen from unless the user says so: from aside and above, with all that they
+// met in view.
+Camera cameraAside(const RayTree& tree, const Camera& camera);
+
+// Pixels from the top left.
+struct ScreenLine {
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+};
+
+class LineView {
+ public:
+  LineView(const Camera& camera, int width, int height);
+
+  // The part before the camera, which may reach beyond the picture; nothing if all of it lies
+  // behind.
+  std::optional<ScreenLine> see(Vec3d from, Vec3d to) const;
+
+ private:
+  std::array<double, 2> project(const Vec3d& point) const;
+
+  CameraFrame frame_;
+  double near_;
+};
+
+}  // namespace whit

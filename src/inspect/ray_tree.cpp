@@ -1,0 +1,351 @@
+#include "inspect/ray_tree.h"
+
+#include <algorithm>
+
+#include "reference/add_impulses.h"
+#include "reference/find_intersections.h"
+#include "render/embree_intersector.h"
+#include "render/observer.h"
+
+namespace whit {
+
+namespace {
+
+RgbD at(const RadianceColumns& c, std::size_t i) {
+  return {double{c.r[i]}, double{c.g[i]}, double{c.b[i]}};
+}
+Vec3d at(const float* x, const float* y, const float* z, std::size_t i) {
+  return {double{x[i]}, double{y[i]}, double{z[i]}};
+}
+
+// Writes the tree down while the pipeline traces its pixel alone.
+class TreeObserver : public StageObserver {
+ public:
+  explicit TreeObserver(RayTree& tree) : tree_(tree) {}
+
+  void after(Stage stage, const Chunk& chunk) override {
+    switch (stage) {
+      case Stage::generateRays:
+        levels_.assign(1, {append(0, RayKind::primary, 0)});
+        tree_.primaries.push_back(levels_[0][0]);
+        return;
+      case Stage::findIntersections:
+        for (std::size_t i = 0; i < chunk.n; ++i) meet(chunk, i);
+        shadows_.assign(chunk.n, {});
+        return;
+      case Stage::writeEmittedAndReflectiveAmbient:
+        for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).emitted = at(chunk.radiance, i);
+        break;
+      case Stage::checkShadows:
+        for (std::size_t k = 0; k < chunk.shadowCount; ++k) lookForLight(chunk, k);
+        return;
+      case Stage::addShading:
+        for (std::size_t i = 0; i < chunk.n; ++i) addLight(chunk, i);
+        break;
+      case Stage::addImpulses:
+        follow(chunk);
+        return;
+      default:
+        return;
+    }
+    for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance, i);
+  }
+
+ private:
+  std::size_t append(std::size_t parent, RayKind kind, int depth) {
+    RayNode& fresh = tree_.nodes.emplace_back();
+    const std::size_t number = tree_.nodes.size() - 1;
+    fresh.kind = kind;
+    fresh.depth = depth;
+    fresh.parent = depth == 0 ? number : parent;
+    return number;
+  }
+  std::size_t numberOf(const Chunk& chunk, std::size_t i) const {
+    return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
+  }
+  RayNode& node(const Chunk& chunk, std::size_t i) { return tree_.nodes[numberOf(chunk, i)]; }
+
+  void meet(const Chunk& chunk, std::size_t i) {
+    RayNode& n = node(chunk, i);
+    const reference::Ray ray = reference::rayOf(chunk, i);
+    n.origin = ray.origin;
+    n.direction = ray.direction;
+    n.weight = at(chunk.rays.weightR, chunk.rays.weightG, chunk.rays.weightB, i);
+    n.media = reference::mediaOf(chunk, i);
+    if (chunk.hits.triangle[i] == kMiss) return;
+    const reference::Candidate met = reference::candidateOf(chunk, i);
+    n.triangle = met.triangle;
+    n.instance = met.instance;
+    n.u = met.u, n.v = met.v;
+    n.distance = double{chunk.hits.t[i]};
+    n.material = chunk.surfels.material[i];
+    n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
+    n.alsoCrossed = reference::alsoCrossedAt(chunk, i);
+    n.hidden = reference::isHidden(chunk, i);
+  }
+
+  void lookForLight(const Chunk& chunk, std::size_t k) {
+    const ShadowColumns& s = chunk.shadows;
+    LightContribution& light = shadows_[s.slot[k]];
+    light.traced = true;
+    light.origin = at(s.orgX, s.orgY, s.orgZ, k);
+    light.toLight = at(s.dirX, s.dirY, s.dirZ, k);
+    light.visible = chunk.unshadowed.visible[s.slot[k]] > 0;
+  }
+
+  void addLight(const Chunk& chunk, std::size_t i) {
+    RayNode& n = node(chunk, i);
+    LightContribution light = shadows_[i];
+    shadows_[i] = {};
+    light.radiance = at(chunk.radiance, i) - n.local;
+    if (!light.traced && light.radiance == RgbD()) return;
+    light.light = chunk.lightNumber;
+    light.sample = chunk.lightSample;
+    n.lights.push_back(light);
+  }
+
+  void follow(const Chunk& chunk) {
+    const auto depth = static_cast<std::size_t>(chunk.depth);
+    levels_.resize(depth + 2);
+    levels_[depth + 1].clear();
+    for (std::size_t s = 0; s < chunk.childSegmentCount; ++s) {
+      const Segment& segment = chunk.childSegments[s];
+      for (std::size_t i = segment.begin; i < segment.end; ++i) {
+        const std::size_t parent = numberOf(chunk, chunk.children.parent[i]);
+        const std::size_t child = append(parent, segment.kind, chunk.depth + 1);
+        tree_.nodes[parent].children.push_back(child);
+        levels_[depth + 1].push_back(child);
+      }
+    }
+  }
+
+  RayTree& tree_;
+  std::vector<std::vector<std::size_t>> levels_;  // a queue a depth
+  std::vector<LightContribution> shadows_;        // of the light in hand, a slot each
+};
+
+// As the reference follows its paths, one after the other.
+class TreeIntersector : public reference::Intersector {
+ public:
+  TreeIntersector(const Accel& accel, RayTree& tree) : embree_(accel), tree_(tree) {}
+
+  void beginSample() {
+    current_ = tree_.nodes.size();
+    tree_.primaries.push_back(current_);
+    RayNode& fresh = tree_.nodes.emplace_back();
+    fresh.parent = current_;
+  }
+  void endSample(const RgbD& radiance) { tree_.nodes[tree_.primaries.back()].radiance = radiance; }
+
+  bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
+    RayNode& n = tree_.nodes[current_];
+    n.origin = ray.origin;
+    n.direction = ray.direction;
+    return embree_.closest(ray, c);
+  }
+  void met(const reference::Candidate& c) const override {
+    RayNode& n = tree_.nodes[current_];
+    n.triangle = c.triangle;
+    n.instance = c.instance;
+    n.u = c.u, n.v = c.v;
+  }
+  bool occluded(const reference::Ray& ray, double tFar) const override {
+    LightContribution light;
+    light.traced = true;
+    light.origin = ray.origin;
+    light.toLight = ray.direction;
+    light.visible = !embree_.occluded(ray, tFar);
+    tree_.nodes[current_].lights.push_back(light);
+    return !light.visible;
+  }
+  void began(const reference::Impulse& impulse, RayKind kind) const override {
+    const std::size_t number = tree_.nodes.size();
+    RayNode fresh;
+    fresh.kind = kind;
+    fresh.parent = current_;
+    fresh.depth = tree_.nodes[current_].depth + 1;
+    fresh.weight = impulse.weight;
+    fresh.media = impulse.media;
+    tree_.nodes[current_].children.push_back(number);
+    tree_.nodes.push_back(std::move(fresh));
+    current_ = number;
+  }
+  void ended(const RgbD& radiance) const override {
+    tree_.nodes[current_].radiance = radiance;
+    current_ = tree_.nodes[current_].parent;
+  }
+
+ private:
+  EmbreeIntersector embree_;
+  RayTree& tree_;
+  mutable std::size_t current_ = 0;
+};
+
+// The order of these sums is the pipeline's (render/tile_tracer.h); products are rounded, too.
+Rgb sumRadiance(RayTree& tree, std::size_t number) {
+  Rgb sum(tree.nodes[number].local);
+  for (const std::size_t child : tree.nodes[number].children) {
+    const Rgb weight(tree.nodes[child].weight);
+    sum += weight * sumRadiance(tree, child);
+  }
+  tree.nodes[number].radiance = RgbD(sum);
+  return sum;
+}
+
+bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
+  return std::any_of(n.children.begin(), n.children.end(),
+                     [&](std::size_t child) { return tree.nodes[child].kind == kind; });
+}
+
+// What the surface would have sent on, by the reference.
+struct Wanted {
+  reference::Impulses impulses;
+  reference::Crossing crossing;
+  // By the diffuse lobe. Of a glossy one all samples may end in the surface: it is not told.
+  bool scattered = false;
+
+  bool isWanted(RayKind kind) const {
+    return maxComponent(impulses.of(kind).weight) > 0 || (kind == kDiffuseLobe.kind && scattered);
+  }
+  // No ray is refracted where the media would have one.
+  bool isReflectedTotally(RayKind kind) const {
+    return kind == RayKind::refraction && crossing.dielectric && !crossing.hidden;
+  }
+};
+Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
+                const RayNode& n) {
+  const reference::Ray ray{n.origin, n.direction};
+  const reference::Candidate met{n.triangle, n.instance, n.u, n.v};
+  const reference::TriangleHit hit = reference::refineHit(scene, ray, met);
+  const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
+  const reference::Crossing crossing = reference::crossMedia(
+      scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
+  const bool scattered = kDiffuseLobe.isSampled(scene.materials[surfel.material], plan.effects) &&
+                         !crossing.hidden && maxComponent(surfel.diffuse * surfel.coverage) > 0;
+  return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
+          crossing, scattered};
+}
+
+// Of what the surface would send on, and does not.
+PathEnd endOf(const RenderOptions& options, const RayNode& n) {
+  if (n.depth >= options.depth) return PathEnd::depth;
+  return options.roulette > 0 ? PathEnd::roulette : PathEnd::cutoff;
+}
+
+void explainEnds(const Renderer& renderer, RayTree& tree) {
+  const RenderOptions& options = renderer.options();
+  for (RayNode& n : tree.nodes) {
+    if (n.triangle == kMiss) continue;
+    const Wanted wanted = wantedOf(renderer.scene(), renderer.plan(), options, n);
+    for (const RayKind kind : kImpulseKinds) {
+      if (sends(tree, n, kind)) continue;
+      if (wanted.isWanted(kind)) {
+        n.endOf(kind) = endOf(options, n);
+      } else if (wanted.isReflectedTotally(kind)) {
+        n.endOf(kind) = PathEnd::totalReflection;
+      }
+    }
+  }
+}
+
+Film filmOfPixel(const Film& film, int x, int y) {
+  Film one = film;
+  one.image.window = {x, y, x + 1, y + 1};
+  one.image.pixels.assign(1, Rgb());
+  one.wantDisplay = false;
+  return one;
+}
+
+void fillHits(const Scene& scene, RayTree& tree) {
+  for (RayNode& n : tree.nodes) {
+    if (n.triangle == kMiss) continue;
+    const reference::Ray ray{n.origin, n.direction};
+    n.distance = reference::refineHit(scene, ray, {n.triangle, n.instance, n.u, n.v}).t;
+    n.position = n.origin + n.direction * n.distance;
+    n.material = scene.triangles[n.triangle].material;
+  }
+}
+
+}  // namespace
+
+RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y) {
+  RayTree tree;
+  TreeObserver observer(tree);
+  StageObserver* const observers[] = {&observer};
+  Film one = filmOfPixel(film, x, y);
+  renderer.observe(camera, one, observers);
+  tree.pixel = one.image.pixels[0];
+  for (const std::size_t primary : tree.primaries) sumRadiance(tree, primary);
+  explainEnds(renderer, tree);
+  return tree;
+}
+
+RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x,
+                           int y) {
+  RayTree tree;
+  TreeIntersector intersector(renderer.accel(), tree);
+  const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
+  const CameraFrame frame = renderer.lookFrom(camera, film);
+  reference::RayCounts counts;
+  RgbD sum;
+  const int samples = renderer.options().spp;
+  for (int s = 0; s < samples; ++s) {
+    intersector.beginSample();
+    const RgbD radiance = tracer.sample(frame, x, y, static_cast<std::size_t>(s), counts);
+    intersector.endSample(radiance);
+    sum += radiance;
+  }
+  tree.pixel = Rgb(sum / samples);
+  fillHits(renderer.scene(), tree);
+  return tree;
+}
+
+RgbD weightAtEye(const RayTree& tree, std::size_t node) {
+  RgbD weight = tree.nodes[node].weight;
+  while (tree.nodes[node].parent != node) {
+    node = tree.nodes[node].parent;
+    weight = weight * tree.nodes[node].weight;
+  }
+  return weight;
+}
+
+std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
+  std::vector<std::size_t> found(a.nodes.size(), kNoCounterpart);
+  for (std::size_t s = 0; s < std::min(a.primaries.size(), b.primaries.size()); ++s) {
+    found[a.primaries[s]] = b.primaries[s];
+  }
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+    if (found[i] == kNoCounterpart) continue;
+    std::vector<std::size_t> left = b.nodes[found[i]].children;
+    for (const std::size_t child : a.nodes[i].children) {
+      const auto same = std::find_if(left.begin(), left.end(), [&](std::size_t other) {
+        return b.nodes[other].kind == a.nodes[child].kind;
+      });
+      if (same == left.end()) continue;
+      found[child] = *same;
+      left.erase(same);
+    }
+  }
+  return found;
+}
+
+bool meetsTheSame(const RayNode& a, const RayNode& b) {
+  return a.triangle == b.triangle && a.instance == b.instance;
+}
+
+bool seesTheSame(const RayNode& a, const RayNode& b) {
+  const auto shadows = [](const RayNode& n) {
+    std::vector<bool> seen;
+    for (const LightContribution& light : n.lights) {
+      if (light.traced) seen.push_back(light.visible);
+    }
+    return seen;
+  };
+  return shadows(a) == shadows(b);
+}
+
+bool agree(const RayNode& a, const RayNode& b) {
+  return meetsTheSame(a, b) && seesTheSame(a, b) && a.children.size() == b.children.size();
+}
+
+}  // namespace whit

@@ -1,0 +1,200 @@
+// glTF files as models.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "io/gltf/document.h"
+#include "io/gltf/maps.h"
+#include "io/gltf/material.h"
+#include "io/gltf/mesh.h"
+#include "io/gltf/nodes.h"
+#include "io/gltf/shading.h"
+#include "io/model.h"
+
+namespace whit {
+
+namespace {
+
+class GltfModel : public Model {
+ public:
+  GltfModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+            Warnings& warnings, const Instant& instant);
+
+  const std::vector<Material>& materials() const override { return materials_; }
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
+                            TextureLoader& textures) override;
+  // A body for each mesh of the file, which nodes share unless they bend it.
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
+  // The picture takes the first camera's aspect ratio.
+  void addView(SceneDescription& scene) override;
+  std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
+
+ private:
+  std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
+                        const std::vector<std::uint32_t>& materials) const;
+  std::string nameOf(const GltfPlacedMesh& placed) const;
+
+  GltfDocument document_;
+  std::vector<GltfMaterial> sources_;
+  std::vector<Material> materials_;  // of sources_
+  GltfMapMaker maps_;
+  GltfStage stage_;
+};
+
+// What is not `given` becomes what `fresh` has: what a scene file has changed stays.
+void renew(Material& to, const Material& fresh, const GivenMembers& given) {
+  const auto member = [&](const char* name, auto Material::*m) {
+    if (!given.contains(name)) to.*m = fresh.*m;
+  };
+  member("diffuse", &Material::diffuse);
+  member("specular", &Material::specular);
+  member("emission", &Material::emission);
+  member("roughness", &Material::roughness);
+  member("glossyReflection", &Material::glossyReflection);
+  member("mirror", &Material::mirror);
+  member("mirrorGrazing", &Material::mirrorGrazing);
+  member("transmission", &Material::transmission);
+  member("thin", &Material::thin);
+  member("ior", &Material::ior);
+  member("absorption", &Material::absorption);
+  member("vertexTint", &Material::vertexTint);
+  member("castsShadow", &Material::castsShadow);
+  member("coverage", &Material::coverage);
+  if (!given.contains("alphaMap")) member("alphaCutoff", &Material::alphaCutoff);
+}
+
+// Bodies of nodes that move, each in that of its parent, where the first of what it holds comes.
+class MoverBodies {
+ public:
+  MoverBodies(const Rig& movers, SceneLayout& layout, Body& scene)
+      : movers_(movers), layout_(layout), scene_(scene), bodies_(movers.size(), 0) {}
+
+  Body& of(std::uint32_t mover) {
+    if (mover == kNoNode) return scene_;
+    if (bodies_[mover] == 0) {
+      const RigNode& node = movers_[mover];
+      Body& parent = of(node.parent);
+      bodies_[mover] = layout_.add("");
+      parent.children.push_back({bodies_[mover], node.toParent, 0, node.motion, node.name});
+    }
+    return layout_.body(bodies_[mover]);
+  }
+
+ private:
+  const Rig& movers_;
+  SceneLayout& layout_;
+  Body& scene_;
+  std::vector<std::uint32_t> bodies_;  // 0, the layout's scene: none yet
+};
+
+GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
+                     MemoryBudget& budget, Warnings& warnings, const Instant& instant)
+    : document_(path, rules, budget, warnings),
+      sources_(readGltfMaterials(document_)),
+      maps_(document_),
+      stage_(readGltfNodes(document_, readGltfTracks(document_, instant), instant.movable)) {
+  for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
+}
+
+TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
+                                     TextureLoader& textures) {
+  const GltfMaps maps = maps_.ask(sources_[i], textures);
+  if (!given.contains("diffuseMap")) material.diffuseMap = maps.diffuse;
+  if (!given.contains("specularMap")) material.specularMap = maps.specular;
+  // A roughness that is given is meant as it stands.
+  if (!given.contains("roughness") && !given.contains("roughnessMap")) {
+    material.roughnessMap = maps.roughness;
+  }
+  if (!given.contains("emissionMap")) material.emissionMap = maps.emission;
+  if (!given.contains("normalMap")) material.normalMap = maps.normal;
+  if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;
+  if (!given.contains("coverage") && !given.contains("coverageMap")) {
+    material.coverageMap = maps.coverage;
+  }
+  const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
+    renew(m, shadedAs(source, *means), given);
+  };
+  return {std::move(material), renewed};
+}
+
+std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
+                                 const std::vector<std::uint32_t>& materials) const {
+  const std::uint32_t body = layout.add(document_.model().meshes[placed.mesh].name);
+  addParts(readGltfMesh(document_, placed.mesh, sources_, placed.deformation), materials,
+           document_.name(), document_.budget(), layout.body(body));
+  return body;
+}
+
+// The node's, or its mesh's.
+std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
+  const std::string& node = document_.model().nodes[placed.node].name;
+  const std::string& mesh = document_.model().meshes[placed.mesh].name;
+  if (!node.empty()) return node;
+  return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
+}
+
+Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) {
+  std::map<std::size_t, std::uint32_t> bodies;
+  bool empty = true;
+  Body all;
+  MoverBodies movers(stage_.movers, layout, all);
+  for (const GltfPlacedMesh& placed : stage_.meshes) {
+    const auto known = bodies.find(placed.mesh);
+    const bool shared = placed.deformation.none() && known != bodies.end();
+    const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
+    if (placed.deformation.none()) bodies.emplace(placed.mesh, body);
+    empty = empty && layout.body(body).parts.empty();
+    movers.of(placed.mover)
+        .children.push_back({body,
+                             placed.toMover,
+                             0,
+                             nullptr,
+                             {},
+                             std::make_shared<const std::string>(nameOf(placed))});
+  }
+  if (empty) {
+    warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"
+                      : stage_.meshes.empty()          ? "no node shows a mesh"
+                                                       : "its meshes have no triangles",
+                      document_.name(), document_.warnings());
+  }
+  return all;
+}
+
+void GltfModel::addView(SceneDescription& scene) {
+  constexpr double kNarrowest = 0.1, kWidest = 10;
+  if (stage_.aspect > 0) {
+    const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
+    scene.width = static_cast<int>(std::lround(aspect * scene.height));
+  }
+  scene.cameras = stage_.cameras;
+  scene.lights = stage_.lights;
+  const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
+  for (RigNode node : stage_.movers) {
+    if (node.parent != kNoNode) node.parent += first;
+    scene.motion.rig.push_back(std::move(node));
+  }
+  for (std::uint32_t i = 0; i < stage_.cameras.size(); ++i) {
+    const std::uint32_t mover = stage_.cameraMovers[i];
+    if (mover != kNoNode) scene.motion.cameras.push_back({i, first + mover, stage_.cameras[i]});
+  }
+  for (std::uint32_t i = 0; i < stage_.lights.size(); ++i) {
+    const Light& light = stage_.lights[i];
+    const std::uint32_t mover = stage_.lightMovers[i];
+    if (mover == kNoNode) continue;
+    scene.motion.lights.push_back({i, first + mover, light.position, light.direction});
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
+                                MemoryBudget& budget, Warnings& warnings, const Instant& instant) {
+  return std::make_unique<GltfModel>(path, rules, budget, warnings, instant);
+}
+
+}  // namespace whit

@@ -1,0 +1,49 @@
+// What an EXR has beside its colors: channels with names of their own, "depth.Z".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/scene.h"
+#include "core/channels.h"
+#include "core/image.h"
+#include "io/image/image_file.h"
+
+namespace whit {
+
+// A value a pixel of the data window, row by row from the top: 32-bit unsigned numbers, or floats.
+struct ImageLayer {
+  std::string name;
+  bool countsThings = false;
+  std::vector<float> floats;
+  std::vector<std::uint32_t> numbers;
+};
+
+// Of an EXR's first part, all that are no colors (R, G, B, A, or Y, RY, BY), in the order of their
+// names; of the part of its data window that lies inside the display window, as readImage() has it.
+// Half floats come as floats. None of another format. Throws as readImage() does; badScene for one
+// that is subsampled.
+std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits);
+
+// Copies, named as in a file.
+std::vector<ImageLayer> layersOf(const ChannelLayers& channels);
+
+// As writeExr() takes them; what they view must outlive it.
+std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers);
+std::vector<LayerView> viewsOf(const ChannelLayers& channels);
+
+// What an EXR says of its channels: which there are ("channels"), and the names of objects
+// ("whit:objects", by their numbers, of the first kNamedItems) and materials ("whit:materials") as
+// JSON objects. Nothing without channels.
+ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
+
+// A channel as a 16-bit PNG, its metadata as text chunks: the distance along the camera's axis in
+// thousandths of a unit, 0 where nothing is met; normals, (n + 1) / 2 a component, else 0; albedo
+// as sRGB; u and v without their whole parts, and 0; numbers as they are, 65535 where nothing is
+// met. Throws Error(usage) for positions, which have no such picture, Error(limit) where a value
+// does not fit into 16 bits.
+void writeChannelPng(const std::string& path, const Image& image, const ChannelLayers& channels,
+                     Channel channel, const ImageMetadata& metadata);
+
+}  // namespace whit

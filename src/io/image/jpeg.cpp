@@ -1,0 +1,146 @@
+// Reading JPEG, by libjpeg.
+#include <cstddef>
+#include <cstdio>
+// libjpeg's header wants the two above.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <iterator>
+
+#include "core/error.h"
+#include "io/image/image_decoders.h"
+
+namespace whit {
+
+namespace {
+
+// libjpeg reports errors by longjmp, so the functions that it may leave that way hold nothing that
+// has a destructor; this object lives outside of them.
+class Decoder {
+ public:
+  Decoder() {
+    decoder_.err = jpeg_std_error(&errors_);
+    decoder_.client_data = this;
+    errors_.error_exit = [](j_common_ptr common) { fail(common); };
+    errors_.emit_message = onMessage;
+    created_ = guarded([](Decoder& d) { jpeg_create_decompress(&d.decoder_); });
+  }
+  ~Decoder() {
+    if (created_) jpeg_destroy_decompress(&decoder_);
+  }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  // False: message() says why.
+  bool readHeader(std::span<const std::uint8_t> file) {
+    file_ = file;
+    return created_ && guarded([](Decoder& d) {
+             jpeg_mem_src(&d.decoder_, d.file_.data(), d.file_.size());
+             jpeg_read_header(&d.decoder_, TRUE);
+           });
+  }
+  // Rows of width() * channels() codes.
+  bool readPixels(std::uint8_t* codes) {
+    codes_ = codes;
+    return guarded([](Decoder& d) {
+      jpeg_decompress_struct& j = d.decoder_;
+      if (d.channels() == 3) j.out_color_space = JCS_RGB;
+      jpeg_start_decompress(&j);
+      const std::size_t stride = std::size_t{j.output_width} * j.output_components;
+      while (j.output_scanline < j.output_height) {
+        JSAMPROW row = d.codes_ + j.output_scanline * stride;
+        jpeg_read_scanlines(&j, &row, 1);
+      }
+      jpeg_finish_decompress(&j);
+    });
+  }
+
+  int width() const { return static_cast<int>(decoder_.image_width); }
+  int height() const { return static_cast<int>(decoder_.image_height); }
+  // 0: colors that libjpeg does not turn into RGB.
+  int channels() const {
+    if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
+    return decoder_.num_components == 3 ? 3 : 0;
+  }
+  // What libjpeg takes to decode, at most: some rows of each component, and all of its
+  // coefficients where they come in more than one scan.
+  std::uint64_t workingBytes() {
+    constexpr std::uint64_t kRows = 64;
+    const bool many = jpeg_has_multiple_scans(&decoder_) != 0;
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < decoder_.num_components; ++i) {
+      const jpeg_component_info& component = decoder_.comp_info[i];
+      const std::uint64_t across = component.width_in_blocks + std::uint64_t{8};
+      const std::uint64_t down = component.height_in_blocks + std::uint64_t{8};
+      bytes += across * DCTSIZE * kRows * sizeof(int);
+      if (many) bytes += across * down * DCTSIZE2 * sizeof(JCOEF);
+    }
+    return bytes;
+  }
+  int components() const { return decoder_.num_components; }
+  const char* message() const { return message_; }
+
+ private:
+  template <typename Use>
+  bool guarded(Use use) {
+    if (setjmp(escape_) != 0) return false;
+    use(*this);
+    return true;
+  }
+
+  [[noreturn]] static void fail(j_common_ptr common) {
+    Decoder& self = *static_cast<Decoder*>(common->client_data);
+    common->err->format_message(common, self.message_);
+    std::longjmp(self.escape_, 1);
+  }
+  // libjpeg goes on with gray where data is missing, and with anything where it is damaged. Other
+  // warnings are of oddities that every viewer overlooks.
+  static void onMessage(j_common_ptr common, int level) {
+    constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
+                               JWRN_MUST_RESYNC};
+    const int code = common->err->msg_code;
+    if (level < 0 && std::count(std::begin(kDamage), std::end(kDamage), code) > 0) fail(common);
+  }
+
+  jpeg_decompress_struct decoder_{};
+  jpeg_error_mgr errors_{};
+  std::jmp_buf escape_{};
+  char message_[JMSG_LENGTH_MAX] = "out of memory";
+  std::span<const std::uint8_t> file_;
+  std::uint8_t* codes_ = nullptr;
+  bool created_ = false;
+};
+
+}  // namespace
+
+bool isJpeg(std::span<const std::uint8_t> file) {
+  return file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;
+}
+
+RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
+                    const ImageLimits& limits) {
+  Decoder decoder;
+  const auto refuse = [&] {
+    throwBadScene(path, std::string("not a valid JPEG image (") + decoder.message() + ")");
+  };
+  if (!decoder.readHeader(file)) refuse();
+  RawImage image;
+  image.width = decoder.width();
+  image.height = decoder.height();
+  image.channels = decoder.channels();
+  if (image.channels == 0)
+    throwBadScene(path,
+                  "expected gray or RGB, found " + std::to_string(decoder.components()) + " inks");
+  image.held = holdImage(path, image.width, image.height,
+                         static_cast<std::uint64_t>(image.channels), limits);
+  const MemoryHold working(limits.budget, decoder.workingBytes(), 1, path);
+  image.codes.resize(static_cast<std::size_t>(image.width) *
+                     static_cast<std::size_t>(image.height) *
+                     static_cast<std::size_t>(image.channels));
+  if (!decoder.readPixels(image.codes.data())) refuse();
+  return image;
+}
+
+}  // namespace whit

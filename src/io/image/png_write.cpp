@@ -1,0 +1,184 @@
+// Writing PNG.
+#include <png.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/image/image_file.h"
+
+namespace whit {
+
+namespace {
+
+constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
+
+// Nothing here has a destructor, because libpng reports errors by longjmp.
+struct Libpng {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  char message[160] = "";
+};
+
+void onError(png_structp png, png_const_charp message) {
+  auto* own = static_cast<Libpng*>(png_get_error_ptr(png));
+  std::snprintf(own->message, sizeof own->message, "%s", message);
+  png_longjmp(png, 1);
+}
+void onWarning(png_structp, png_const_charp) {}
+
+bool isAscii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
+}
+
+// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, and the
+// keywords into `keywords`.
+std::vector<png_text> textChunks(const ImageMetadata& metadata,
+                                 std::vector<std::string>& keywords) {
+  std::vector<png_text> chunks;
+  keywords.reserve(metadata.size());
+  for (const auto& [name, text] : metadata) {
+    keywords.push_back(name.substr(0, kKeywordLimit));
+    png_text chunk{};
+    chunk.compression = isAscii(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+    chunk.key = keywords.back().data();
+    chunk.text = const_cast<char*>(text.c_str());  // libpng only reads it
+    chunk.text_length = text.size();
+    chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+// Values as libpng takes them.
+struct Rows {
+  int width = 0, height = 0, bits = 8;
+  int colorType = PNG_COLOR_TYPE_RGB;
+  bool isSrgb = true;
+  bool hasFiller = false;  // a fourth value a pixel, which is left out
+  const std::uint8_t* first = nullptr;
+  std::size_t stride = 0;  // bytes
+};
+
+Rows rowsOf(const DisplayImage& image) {
+  return {image.width,
+          image.height,
+          8,
+          PNG_COLOR_TYPE_RGB,
+          true,
+          true,
+          image.rgba.data(),
+          std::size_t{4} * static_cast<std::size_t>(image.width)};
+}
+
+// Most significant byte first.
+std::vector<std::uint8_t> bytesOf(const DeepImage& image) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(2 * image.values.size());
+  for (const std::uint16_t value : image.values) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
+  }
+  return bytes;
+}
+
+// False: `writer.message` says why.
+bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* texts,
+           int textCount) {
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
+  if (writer.png == nullptr) return false;
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  writer.info = png_create_info_struct(writer.png);
+  if (writer.info == nullptr) return false;
+  png_init_io(writer.png, file);
+  const auto width = static_cast<png_uint_32>(rows.width);
+  const auto height = static_cast<png_uint_32>(rows.height);
+  png_set_IHDR(writer.png, writer.info, width, height, rows.bits, rows.colorType,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // A film is to be written as fast as it is traced. Against libpng's defaults, for six shipped
+  // scenes at 1280x720, this takes a fourth to a tenth of the time and makes files 1 to 13 %
+  // larger, of the flat areas of `matte` 44 %. libdeflate at its first level is no faster.
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_strategy(writer.png, Z_RLE);
+  if (rows.isSrgb) {
+    png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+  }
+  if (textCount > 0) png_set_text(writer.png, writer.info, texts, textCount);
+  png_write_info(writer.png, writer.info);
+  if (rows.hasFiller) png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
+  for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows.first + y * rows.stride);
+  png_write_end(writer.png, writer.info);
+  return true;
+}
+
+// Throws Error(io) naming `what`; closes the file in any case.
+void writeTo(std::FILE* file, const std::string& what, const Rows& rows,
+             const ImageMetadata& metadata) {
+  std::vector<std::string> keywords;
+  const std::vector<png_text> texts = textChunks(metadata, keywords);
+  Libpng writer;
+  const bool written = write(writer, file, rows, texts.data(), static_cast<int>(texts.size()));
+  const int error = errno;  // of the last write, if that was what failed
+  png_destroy_write_struct(&writer.png, &writer.info);
+  const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
+  const bool closed = std::fclose(file) == 0;
+  if (!written) throwIo(what, "cannot write '" + what + "': " + reason);
+  if (!closed) throwIo(what, "cannot write '" + what + "': " + std::strerror(errno));
+}
+
+void requirePixels(const std::string& what, const DisplayImage& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
+                               static_cast<std::size_t>(image.height))
+    throwUsage("cannot write '" + what + "': the image has no pixels");
+}
+
+void writeFile(const std::string& path, const Rows& rows, const ImageMetadata& metadata) {
+  AtomicFile target(path);
+  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
+  if (file == nullptr) throwIo(path, "cannot write '" + path + "': " + std::strerror(errno));
+  writeTo(file, path, rows, metadata);
+  target.commit();
+}
+
+}  // namespace
+
+void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
+  requirePixels(path, image);
+  writeFile(path, rowsOf(image), metadata);
+}
+
+void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+              const ImageMetadata& metadata) {
+  if (image.values.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
+  const std::vector<std::uint8_t> bytes = bytesOf(image);
+  const int colorType = image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+  const auto width = static_cast<std::size_t>(image.width);
+  writeFile(path,
+            {image.width, image.height, 16, colorType, isSrgb, false, bytes.data(),
+             2 * width * static_cast<std::size_t>(image.channels)},
+            metadata);
+}
+
+std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
+  requirePixels("a PNG", image);
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  std::FILE* file = open_memstream(&bytes, &size);
+  if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
+  // The buffer belongs to this function as soon as the stream has been flushed, thrown or not.
+  const auto release = [](char** buffer) { std::free(*buffer); };
+  const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
+  writeTo(file, "a PNG", rowsOf(image), metadata);
+  return {bytes, size};
+}
+
+}  // namespace whit

@@ -1,0 +1,204 @@
+#include "io/image/texture_from_image.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/srgb.h"
+
+namespace whit {
+
+namespace {
+
+std::size_t texelCount(const RawImage& raw) {
+  return static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
+}
+
+// Channel `c` of texel `i`, as stored.
+float channel(const RawImage& raw, std::size_t i, int c) {
+  const std::size_t at = i * static_cast<std::size_t>(raw.channels) + static_cast<std::size_t>(c);
+  return raw.linear ? raw.values[at] : static_cast<float>(raw.codes[at]) / 255.0f;
+}
+
+int wrapped(int i, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
+}
+
+// The channels of pixel `i` as r, g, b, a; `one` is what a missing alpha is.
+template <typename Value>
+std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, std::size_t i,
+                                Value one) {
+  const Value* v = values.data() + i * static_cast<std::size_t>(channels);
+  switch (channels) {
+    case 1:
+      return {v[0], v[0], v[0], one};
+    case 2:
+      return {v[0], v[0], v[0], v[1]};
+    case 3:
+      return {v[0], v[1], v[2], one};
+    default:
+      return {v[0], v[1], v[2], v[3]};
+  }
+}
+
+// The 10 bits that a color texel keeps of each sRGB code: the same for every image, so the square
+// roots are taken once.
+const std::array<std::uint32_t, 256>& colorBitsOfCode() {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> bits{};
+    for (int code = 0; code < 256; ++code) {
+      bits[static_cast<std::size_t>(code)] = encodeColorTexel({linearOfCode(code), 0, 0}) & 1023u;
+    }
+    return bits;
+  }();
+  return table;
+}
+
+std::uint32_t texelOfCodes(const std::array<std::uint8_t, 4>& c, TexelFormat format) {
+  if (format == TexelFormat::color) {
+    const auto& bits = colorBitsOfCode();
+    return bits[c[0]] | bits[c[1]] << 10 | bits[c[2]] << 20;
+  }
+  return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 |
+         std::uint32_t{c[3]} << 24;
+}
+
+std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
+  if (format == TexelFormat::data) return encodeDataTexel(v[0], v[1], v[2], v[3]);
+  return encodeTexel({v[0], v[1], v[2]}, format);
+}
+
+// The pixels of a linear image of which some color is larger.
+std::uint64_t countAbove(const RawImage& raw, float limit) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; raw.linear && i < texelCount(raw); ++i) {
+    const auto c = channelsOf(raw.values, raw.channels, i, 1.0f);
+    count += std::max({c[0], c[1], c[2]}) > limit;
+  }
+  return count;
+}
+
+}  // namespace
+
+Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
+  Texture texture;
+  texture.name = name;
+  texture.format = format;
+  texture.width = raw.width;
+  texture.height = raw.height;
+  const std::size_t count = texelCount(raw);
+  texture.texels.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    texture.texels.push_back(
+        raw.linear
+            ? texelOfValues(channelsOf(raw.values, raw.channels, i, 1.0f), format)
+            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format));
+  }
+  return texture;
+}
+
+TexelFormat emissionFormat(const RawImage& raw) {
+  return countAbove(raw, 1) > 0 ? TexelFormat::radiance : TexelFormat::color;
+}
+
+std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format) {
+  return format == TexelFormat::radiance ? encodeRadianceTexel(linear) : encodeColorTexel(linear);
+}
+
+void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings& warnings) {
+  warnings.add("color texel above 1 clamped", name, countAbove(raw, 1));
+}
+
+Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings) {
+  warnings.add("emission texel above 65408 clamped", name, countAbove(raw, kLargestRadianceTexel));
+  return makeTexture(name, raw, emissionFormat(raw));
+}
+
+EnvironmentImage makeEnvironment(const RawImage& raw) {
+  EnvironmentImage environment;
+  environment.width = raw.width;
+  environment.height = raw.height;
+  const std::size_t count = texelCount(raw);
+  for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<float, 4> value{};
+    if (raw.linear) {
+      value = channelsOf(raw.values, raw.channels, i, 1.0f);
+    } else {
+      const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
+      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode(codes[c]);
+    }
+    environment.r[i] = value[0];
+    environment.g[i] = value[1];
+    environment.b[i] = value[2];
+  }
+  return environment;
+}
+
+bool hasTranslucentAlpha(const RawImage& raw) {
+  if (raw.channels != 2 && raw.channels != 4) return false;
+  const std::size_t count = texelCount(raw);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (channel(raw, i, raw.channels - 1) < 1.0f) return true;
+  }
+  return false;
+}
+
+RawImage alphaOf(const RawImage& raw) {
+  RawImage alpha;
+  alpha.width = raw.width;
+  alpha.height = raw.height;
+  alpha.channels = 1;
+  alpha.linear = raw.linear;
+  const std::size_t stride = static_cast<std::size_t>(raw.channels), count = texelCount(raw);
+  if (raw.linear) {
+    alpha.values.resize(count);
+    for (std::size_t i = 0; i < count; ++i) alpha.values[i] = raw.values[i * stride + stride - 1];
+  } else {
+    alpha.codes.resize(count);
+    for (std::size_t i = 0; i < count; ++i) alpha.codes[i] = raw.codes[i * stride + stride - 1];
+  }
+  return alpha;
+}
+
+bool looksLikeHeights(const RawImage& raw) {
+  if (raw.channels < 3) return true;
+  constexpr float kChromaNoise = 16.0f / 255.0f;  // of a gray picture stored as JPEG
+  const std::size_t count = texelCount(raw);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);
+    if (std::max({r, g, b}) - std::min({r, g, b}) > kChromaNoise) return false;
+  }
+  return true;
+}
+
+Texture normalsFromHeights(const std::string& name, const RawImage& raw, float bumpScale,
+                           Wrap wrapU, Wrap wrapV) {
+  Texture texture;
+  texture.name = name;
+  texture.format = TexelFormat::data;
+  texture.width = raw.width;
+  texture.height = raw.height;
+  texture.texels.resize(texelCount(raw));
+  const auto height = [&](int x, int y) {
+    const std::size_t row = static_cast<std::size_t>(wrapped(y, raw.height, wrapV));
+    const std::size_t column = static_cast<std::size_t>(wrapped(x, raw.width, wrapU));
+    return channel(raw, row * static_cast<std::size_t>(raw.width) + column, 0);
+  };
+  // Slopes per tile width, so that the relief does not depend on the resolution.
+  const float scaleX = bumpScale / kTileHeights * static_cast<float>(raw.width) / 2;
+  const float scaleY = bumpScale / kTileHeights * static_cast<float>(raw.height) / 2;
+  std::size_t i = 0;
+  for (int y = 0; y < raw.height; ++y) {
+    for (int x = 0; x < raw.width; ++x, ++i) {
+      // Row 0 is the top: v grows as y falls.
+      const float slopeU = (height(x + 1, y) - height(x - 1, y)) * scaleX;
+      const float slopeV = (height(x, y - 1) - height(x, y + 1)) * scaleY;
+      const Vec3f n = normalized(Vec3f{-slopeU, -slopeV, 1.0f}, Vec3f{0, 0, 1});
+      texture.texels[i] =
+          encodeDataTexel(n.x * 0.5f + 0.5f, n.y * 0.5f + 0.5f, n.z * 0.5f + 0.5f, 1.0f);
+    }
+  }
+  return texture;
+}
+
+}  // namespace whit

@@ -1,0 +1,27 @@
+// Numbers and paths as scene files have them; what is read of that is the same bit for bit.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/vec3.h"
+#include "io/scene/json_text.h"
+
+namespace whit {
+
+// The shortest decimals that are read as this float.
+Json describe(float x);
+Json describe(const Vec3f& v);
+
+// The path of a file for a scene in `folder`: "$WHIT_DATA/..." where it lies below that, else
+// relative to the folder.
+std::string describePath(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+// Whether that path leaves the folder, so that a scene there needs --allow-outside for it.
+bool leavesFolder(const std::string& path);
+
+// Of the scene file `root` in the folder `from`, all paths as a scene in `to` has them. Whether one
+// of them leaves that folder.
+bool movePaths(Json& root, const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace whit

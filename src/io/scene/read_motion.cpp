@@ -1,0 +1,159 @@
+#include "io/scene/read_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "scene/track.h"
+
+namespace whit {
+
+namespace {
+
+constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
+
+// What a key sets, one after the other: three of translation, the degrees, three of scale.
+constexpr std::size_t kKeyNumbers = 7;
+
+class KeyReader {
+ public:
+  void read(const JsonValue& value) {
+    JsonObject key(value);
+    const JsonValue time = key.need("time");
+    if (!times.empty() && !(time.number() > times.back())) {
+      time.fail("a time after that of the key before");
+    }
+    times.push_back(time.number());
+    const auto translate = key.find("translate");
+    add(translate ? translate->vector() : Vec3d());
+    const auto rotate = key.find("rotate");
+    values.push_back(rotate ? readDegrees(*rotate) : 0);
+    const auto scale = key.find("scale");
+    add(scale ? readScale(*scale) : Vec3d(1.0));
+    key.finish();
+  }
+
+  std::vector<double> times, values;
+  Vec3d axis;  // none: nothing is turned
+
+ private:
+  void add(const Vec3d& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+
+  static Vec3d readScale(const JsonValue& value) {
+    const Vec3d scale = value.isNumber() ? Vec3d(value.number()) : value.vector();
+    for (const double s : {scale.x, scale.y, scale.z}) {
+      if (!(s >= kLeastScale && s <= kLargestScale)) value.fail("a scale above 0");
+    }
+    return scale;
+  }
+
+  double readDegrees(const JsonValue& value) {
+    const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
+    const Vec3d about{e[0].number(), e[1].number(), e[2].number()};
+    if (about == Vec3d()) value.fail("an axis other than 0");
+    if (axis == Vec3d()) axis = about;
+    if (!(axis == about)) value.fail("the axis of the keys before: groups turn about several");
+    return e[3].number();
+  }
+};
+
+// Along the line between the neighbors; at the ends along that to the only one, but where a loop
+// ends as it begins: there it goes on.
+void addTangents(bool loops, Track& track) {
+  const std::size_t last = track.times.size() - 1;
+  const auto value = [&](std::size_t key) {
+    return std::span(track.values).subspan(key * kKeyNumbers, kKeyNumbers);
+  };
+  const bool closed = loops && last > 1 && std::ranges::equal(value(0), value(last));
+  std::vector<double> all;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool joined = closed && (i == 0 || i == last);
+    const std::size_t a = joined ? last - 1 : i - std::min<std::size_t>(i, 1);
+    const std::size_t b = joined ? 1 : std::min(i + 1, last);
+    double span = track.times[b] - track.times[a];
+    if (joined) span += track.times[last] - track.times[0];
+    std::vector<double> tangent(kKeyNumbers);
+    for (std::size_t k = 0; a != b && k < kKeyNumbers; ++k) {
+      tangent[k] = (value(b)[k] - value(a)[k]) / span;
+    }
+    all.insert(all.end(), tangent.begin(), tangent.end());
+    all.insert(all.end(), value(i).begin(), value(i).end());
+    all.insert(all.end(), tangent.begin(), tangent.end());
+  }
+  track.values = std::move(all);
+}
+
+Track::Interpolation readInterpolation(JsonObject& motion) {
+  const auto value = motion.find("interpolation");
+  const std::string word = value ? value->word({"linear", "step", "cubic"}) : "linear";
+  if (word == "step") return Track::Interpolation::step;
+  return word == "cubic" ? Track::Interpolation::cubic : Track::Interpolation::linear;
+}
+
+double looped(double seconds, double first, double last) {
+  const double period = last - first;
+  if (!(period > 0)) return first;
+  const double within = std::fmod(seconds - first, period);
+  return first + (within < 0 ? within + period : within);
+}
+
+class KeyedMotion : public Motion {
+ public:
+  KeyedMotion(Track track, const Vec3d& axis, bool loops)
+      : track_(std::move(track)), axis_(axis), loops_(loops) {}
+
+  Affine at(double seconds) const override {
+    const std::vector<double> v = valueAt(
+        track_, loops_ ? looped(seconds, track_.times.front(), track_.times.back()) : seconds);
+    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
+    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis_, v[3]) *
+           Affine::scaling(scale);
+  }
+
+ private:
+  Track track_;
+  Vec3d axis_;
+  bool loops_;
+};
+
+void count(double seconds, SceneDescription& scene) {
+  const auto known = std::find_if(scene.animations.begin(), scene.animations.end(),
+                                  [](const Animation& a) { return a.name == kSceneMotion; });
+  Animation& all = known != scene.animations.end() ? *known : scene.animations.emplace_back();
+  all.name = kSceneMotion;
+  all.seconds = std::max(all.seconds, seconds);
+  ++all.nodes;
+}
+
+}  // namespace
+
+std::string movableName(const JsonObject& object, const Instant& instant) {
+  const std::string& pointer = object.value().pointer();
+  return instant.movable.contains(pointer) ? pointer : std::string();
+}
+
+std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
+                                         SceneDescription& scene) {
+  const auto value = object.find("motion");
+  if (!value) {
+    if (movableName(object, instant).empty()) return nullptr;
+    return std::make_shared<const FixedMotion>(Affine());
+  }
+  JsonObject motion(*value);
+  KeyReader keys;
+  const JsonValue list = motion.need("keys");
+  for (const JsonValue& key : list.elements()) keys.read(key);
+  if (keys.times.empty()) list.fail("at least one key");
+  Track track{readInterpolation(motion), false, kKeyNumbers, keys.times, keys.values};
+  const auto loop = motion.find("loop");
+  const bool loops = loop && loop->flag();
+  motion.finish();
+  if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
+  count(track.times.back(), scene);
+  return std::make_shared<const KeyedMotion>(std::move(track), keys.axis, loops);
+}
+
+}  // namespace whit

@@ -1,0 +1,346 @@
+#include "io/scene/scene_items.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/affine.h"
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "io/json_reader.h"
+#include "io/scene/distinct_names.h"
+#include "io/scene/find_named.h"
+#include "io/scene/read_motion.h"
+#include "io/scene/shape_parameters.h"
+#include "scene/generation_limit.h"
+
+namespace whit {
+
+namespace {
+
+constexpr int kRepeatLimit = 10'000'000;  // copies made by one "repeat"
+
+Affine readScale(const JsonValue& value) {
+  const Vec3d scale = value.isNumber() ? Vec3d(value.number()) : value.vector();
+  if (scale.x == 0 || scale.y == 0 || scale.z == 0) value.fail("a scale other than 0");
+  return Affine::scaling(scale);
+}
+
+Affine readRotation(const JsonValue& value) {
+  const auto e = value.elements(4, "a rotation [x, y, z, degrees] or a list of such");
+  const Vec3d axis{e[0].number(), e[1].number(), e[2].number()};
+  if (axis == Vec3d()) value.fail("an axis other than 0");
+  return Affine::rotation(axis, e[3].number());
+}
+
+Affine readRotations(const JsonValue& value) {
+  const auto elements = value.elements();
+  if (elements.empty() || !elements[0].isArray()) return readRotation(value);
+  Affine result;
+  for (const JsonValue& element : elements) result = readRotation(element) * result;
+  return result;
+}
+
+Affine readMatrix(const JsonValue& value) {
+  const auto e = value.elements(12, "12 numbers: a matrix of 3 rows of 4");
+  const auto column = [&](std::size_t i) {
+    return Vec3d{e[i].number(), e[i + 4].number(), e[i + 8].number()};
+  };
+  return {column(0), column(1), column(2), column(3)};
+}
+
+Affine readOne(const JsonValue& value) {
+  JsonObject object(value);
+  Affine result;
+  if (const auto matrix = object.find("matrix")) {
+    result = readMatrix(*matrix);
+  } else {
+    if (const auto scale = object.find("scale")) result = readScale(*scale);
+    if (const auto rotate = object.find("rotate")) result = readRotations(*rotate) * result;
+    if (const auto translate = object.find("translate")) {
+      result = Affine::translation(translate->vector()) * result;
+    }
+  }
+  object.finish();
+  return result;
+}
+
+// {"translate", "rotate", "scale"} (scale first, translate last), {"matrix": 12 numbers, row-major
+// 3x4}, or a list of those, the first applied first. Fails for maps that flatten space.
+Affine readTransform(const JsonValue& value) {
+  Affine result;
+  if (value.isArray()) {
+    for (const JsonValue& element : value.elements()) result = readOne(element) * result;
+  } else {
+    result = readOne(value);
+  }
+  const double volume = result.determinant();
+  if (!std::isfinite(volume) || volume == 0) value.fail("a transform that can be undone");
+  return result;
+}
+
+// Where the copies of an item stand in its parent: "transform", then moved by multiples of the step
+// of "repeat". At least one.
+std::vector<Affine> readPlacements(JsonObject& item) {
+  const auto transform = item.find("transform");
+  const Affine once = transform ? readTransform(*transform) : Affine();
+  const auto value = item.find("repeat");
+  if (!value) return {once};
+  JsonObject repeat(*value);
+  const JsonValue countValue = repeat.need("count");
+  const auto counts = countValue.elements(3, "three numbers of copies [nx, ny, nz]");
+  const Vec3d step = repeat.need("step").vector();
+  repeat.finish();
+  int n[3];
+  double total = 1;
+  for (std::size_t i = 0; i < 3; ++i) total *= n[i] = counts[i].integer(1, kRepeatLimit);
+  if (total > kRepeatLimit) {
+    countValue.fail("at most " + std::to_string(kRepeatLimit) + " copies");
+  }
+  std::vector<Affine> result;
+  result.reserve(static_cast<std::size_t>(total));
+  for (int z = 0; z < n[2]; ++z) {
+    for (int y = 0; y < n[1]; ++y) {
+      for (int x = 0; x < n[0]; ++x) {
+        result.push_back(Affine::translation(step * Vec3d(x, y, z)) * once);
+      }
+    }
+  }
+  return result;
+}
+
+// What a shape or a model has not named itself is one item, or one each where it is placed often.
+void nameItem(Body& content, const std::string& pointer) {
+  if (content.parts.empty() && content.children.empty()) return;
+  const ItemName name = std::make_shared<const std::string>(pointer);
+  if (!content.parts.empty() && content.items.empty()) content.items = {name};
+  for (Placement& child : content.children) {
+    if (!child.item) child.item = name;
+  }
+}
+
+// The member of "materials" that has to do with `name` is read; the rest must be names as well.
+[[noreturn]] void failSlot(const JsonValue& slot, const std::string& key,
+                           const std::vector<std::string>& names, const std::string& kind) {
+  const std::string nearest = nearestName(key, names);
+  throwBadScene(
+      slot.where(),
+      "unknown " + kind + (nearest.empty() ? std::string() : "; is \"" + nearest + "\" meant?"));
+}
+
+// By which scene files call them.
+std::vector<std::string> namesOf(const std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  names.reserve(materials.size());
+  for (const Material& material : materials) names.push_back(material.name);
+  return distinctNames(names);
+}
+
+}  // namespace
+
+void ItemReader::read(JsonObject& file) {
+  const auto objects = file.find("objects");
+  if (objects) {
+    for (const auto& [name, value] : objects->members()) {
+      objects_.emplace(name, NamedObject{value});
+    }
+    for (const auto& [name, value] : objects->members()) readObject(objects_.at(name), name);
+  }
+  if (const auto scene = file.find("scene")) {
+    const std::vector<JsonValue> items = scene->elements();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      reportProgress(context_.progress, "reading scene",
+                     static_cast<double>(i) / static_cast<double>(items.size()));
+      readItem(items[i], layout_.body(0));
+    }
+  }
+  layout_.moveTo(context_.scene);
+}
+
+void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
+  Model& model = context_.model(path);
+  const std::vector<std::uint32_t> materials = modelMaterials(model, file);
+  Body content = contentOf(model, path, materials);
+  nameItem(content, path.stem().string());
+  layout_.append(content, {Affine()}, layout_.body(0));
+  layout_.moveTo(context_.scene);
+  model.addView(context_.scene);
+}
+
+std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& name) {
+  using State = NamedObject::State;
+  if (object.state == State::reading) {
+    throwBadScene(object.definition.where(), "this object contains itself");
+  }
+  if (object.state == State::unread) {
+    object.state = State::reading;
+    object.body = layout_.add(name);
+    readItems(object.definition, layout_.body(object.body));
+    object.state = State::read;
+  }
+  return object.body;
+}
+
+std::uint32_t ItemReader::object(const JsonValue& name) {
+  const auto found = objects_.find(findNamed(objects_, name, "an object")->first);
+  return readObject(found->second, found->first);
+}
+
+void ItemReader::readItems(const JsonValue& list, Body& to) {
+  for (const JsonValue& item : list.elements()) readItem(item, to);
+}
+
+void ItemReader::readItem(const JsonValue& value, Body& to) {
+  if (++depth_ > kNestingLimit) {
+    throwBadScene(value.where(), "nested deeper than " + std::to_string(kNestingLimit) + " items");
+  }
+  JsonObject item(value);
+  Body content;
+  if (const auto shape = item.find("shape")) {
+    content = readShape(item, *shape);
+  } else if (const auto model = item.find("model")) {
+    content = readModel(item, *model);
+  } else if (const auto mesh = context_.parts ? item.find("mesh") : std::nullopt) {
+    content = readMesh(item, *mesh);
+  } else if (const auto use = item.find("use")) {
+    content.children.push_back({object(*use), Affine(), 0});
+  } else if (const auto group = item.find("group")) {
+    readItems(*group, content);
+  } else {
+    item.finish();
+    value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
+  }
+  nameItem(content, value.pointer());
+  std::vector<Affine> placements = readPlacements(item);
+  const std::shared_ptr<const Motion> motion = readMotion(item, context_.instant, context_.scene);
+  item.finish();
+  if (motion && context_.instant.moves()) {
+    const std::uint32_t carried = layout_.add("");
+    layout_.append(content, placements, layout_.body(carried));
+    to.children.push_back(
+        {carried, Affine(), to.parts.size(), motion, movableName(item, context_.instant)});
+  } else {
+    if (motion) {
+      for (Affine& placement : placements) placement = motion->at(0) * placement;
+    }
+    layout_.append(content, placements, to);
+  }
+  --depth_;
+}
+
+Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
+  JsonShapeParameters parameters(item);
+  const GenerationLimit limit(context_.budget.left());
+  Shape shape = findGenerator(name, shapeGenerators())(parameters);
+  const auto everywhere = item.find("material");
+  const auto bySlot = item.find("materials");
+  std::map<std::string, std::uint32_t> slots;
+  if (bySlot) {
+    std::vector<std::string> names;
+    for (const ShapePart& part : shape.parts) names.push_back(part.slot);
+    for (const auto& [slot, material] : bySlot->members()) {
+      if (std::find(names.begin(), names.end(), slot) == names.end()) {
+        failSlot(material, slot, names, "slot of this shape");
+      }
+      slots[slot] = materials_.find(material);
+    }
+  }
+  Body content;
+  for (ShapePart& part : shape.parts) {
+    const auto slot = slots.find(part.slot);
+    const std::uint32_t material = slot != slots.end() ? slot->second
+                                   : everywhere        ? materials_.find(*everywhere)
+                                                       : materials_.defaultMaterial();
+    context_.budget.charge(1, bytesOf(part.mesh), name.where());
+    part.mesh.materials = {material};
+    if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
+    content.parts.push_back({std::make_shared<Mesh>(std::move(part.mesh)), Affine()});
+  }
+  if (shape.placements.empty()) return content;
+  const std::uint32_t body = layout_.add(name.text());
+  layout_.body(body) = std::move(content);
+  Body placed;
+  for (const Affine& placement : shape.placements) placed.children.push_back({body, placement, 0});
+  return placed;
+}
+
+Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
+  const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
+  Model& model = context_.model(file);
+  return contentOf(model, file, modelMaterials(model, item));
+}
+
+// A body of its own, so that one that is placed several times is kept once.
+Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
+  const auto found = findNamed(context_.parts->meshes, name, "a mesh");
+  const auto named = item.find("material");
+  const std::uint32_t material = named ? materials_.find(*named) : materials_.defaultMaterial();
+  const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
+  if (isNew) {
+    context_.budget.charge(1, bytesOf(found->second), name.where());
+    Mesh mesh = meshOf(found->second, name.where());
+    mesh.name = found->first;
+    mesh.materials = {material};
+    entry->second = layout_.add(found->first);
+    layout_.body(entry->second)
+        .parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine()});
+  }
+  Body content;
+  content.children.push_back({entry->second, Affine(), 0});
+  return content;
+}
+
+// Overrides first, then images are asked for: they are decoded while the geometry is read.
+std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
+  std::vector<Material> materials = model.materials();
+  std::vector<GivenMembers> given(materials.size());
+  const std::vector<std::string> names = namesOf(materials);
+  const std::string section = item.value().pointer() + "/materials/";
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    materials[i].pointer = section + escapePointer(names[i]);
+  }
+  if (const auto overrides = item.find("materials")) {
+    const auto apply = [&](const JsonValue& value, std::size_t i) {
+      JsonObject object(value);
+      materials_.override(object, materials[i], given[i]);
+      object.finish();
+    };
+    for (const auto& [name, value] : overrides->members()) {
+      if (name != "*") continue;
+      for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
+    }
+    for (const auto& [name, value] : overrides->members()) {
+      if (name == "*") continue;
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) failSlot(value, name, names, "material of this model");
+      apply(value, static_cast<std::size_t>(found - names.begin()));
+    }
+  }
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    indices.push_back(addMaterial(model, i, std::move(materials[i]), given[i]));
+  }
+  return indices;
+}
+
+std::uint32_t ItemReader::addMaterial(Model& model, std::size_t i, Material material,
+                                      const GivenMembers& given) {
+  TexturedMaterial textured = model.withMaps(i, std::move(material), given, context_.textures);
+  const std::uint32_t index = materials_.add(std::move(textured.material));
+  if (textured.whenDecoded) {
+    context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
+                                   SceneDescription& scene) { change(scene.materials[index]); });
+  }
+  return index;
+}
+
+Body ItemReader::contentOf(Model& model, const std::filesystem::path& path,
+                           const std::vector<std::uint32_t>& materials) {
+  reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+  return model.content(layout_, materials);
+}
+
+}  // namespace whit

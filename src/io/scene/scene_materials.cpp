@@ -1,0 +1,233 @@
+#include "io/scene/scene_materials.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/error.h"
+#include "io/scene/find_named.h"
+#include "io/scene/shape_parameters.h"
+#include "scene/generation_limit.h"
+
+namespace whit {
+namespace {
+
+constexpr double kLeastIor = 0.1;
+constexpr int kLargestPriority = 1000;
+
+std::vector<std::string> useNames() { return {"color", "data"}; }
+
+const char* formatName(TexelFormat format) {
+  return format == TexelFormat::data ? "data" : "color";
+}
+
+TexelFormat formatOf(TextureUse use) {
+  const bool isColor = use == TextureUse::color || use == TextureUse::emission;
+  return isColor ? TexelFormat::color : TexelFormat::data;
+}
+
+Wrap readWrapWord(const JsonValue& value) {
+  const std::string word = value.word({"repeat", "mirror", "clamp"});
+  return word == "repeat" ? Wrap::repeat : word == "mirror" ? Wrap::mirror : Wrap::clamp;
+}
+
+void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
+  const auto value = object.find("wrap");
+  if (!value) return;
+  if (value->isArray()) {
+    const auto both = value->elements(2, "one way to wrap, or two [u, v]");
+    u = readWrapWord(both[0]);
+    v = readWrapWord(both[1]);
+  } else {
+    u = v = readWrapWord(*value);
+  }
+}
+
+Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
+  const GenerationLimit limit(mostBytes);
+  JsonObject object(definition);
+  const JsonValue pattern = object.need("pattern");
+  JsonShapeParameters parameters(object);
+  Texture made = findGenerator(pattern, patternGenerators())(parameters);
+  readWrap(object, made.wrapU, made.wrapV);
+  object.finish();
+  return made;
+}
+
+[[noreturn]] void failFormat(const JsonValue& name, TexelFormat is, TexelFormat needed) {
+  name.fail("a texture that is read as " + std::string(formatName(needed)) + " (this one is " +
+            formatName(is) + ")");
+}
+
+// What the texture says that it is read as, where it does.
+TextureUse readUse(JsonObject& object, const JsonValue& name, TextureUse use) {
+  const auto as = object.find("as");
+  if (!as) return use;
+  const bool data = as->word(useNames()) == "data";
+  const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
+  if (is != formatOf(use)) failFormat(name, is, formatOf(use));
+  return data ? TextureUse::data : use;
+}
+
+}  // namespace
+
+MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {
+  if (const auto textures = file.find("textures")) {
+    for (const auto& [name, value] : textures->members()) {
+      if (!value.isObject()) value.fail("an object");
+      textures_.emplace(name, NamedTexture{value, {}});
+    }
+  }
+  const auto materials = file.find("materials");
+  if (!materials) return;
+  for (const auto& [name, value] : materials->members()) {
+    JsonObject object(value);
+    Material material;
+    material.name = name;
+    material.pointer = value.pointer();
+    read(object, material);
+    object.finish();
+    materials_.emplace(name, add(material));
+  }
+}
+
+std::uint32_t MaterialReader::find(const JsonValue& name) const {
+  return findNamed(materials_, name, "a material")->second;
+}
+
+std::uint32_t MaterialReader::add(Material material) {
+  context_.scene.materials.push_back(std::move(material));
+  return static_cast<std::uint32_t>(context_.scene.materials.size() - 1);
+}
+
+std::uint32_t MaterialReader::defaultMaterial() {
+  const auto named = materials_.find("default");
+  if (named != materials_.end()) return named->second;
+  if (!default_) {
+    Material material;
+    material.name = "default";
+    material.pointer = "/materials/default";
+    default_ = add(material);
+  }
+  return *default_;
+}
+
+std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& name,
+                                  TextureUse use) {
+  JsonObject object(definition);
+  if (object.has("pattern")) {
+    return context_.textures.add([definition, name, use, &budget = context_.budget] {
+      Texture made = makePattern(definition, budget.left());
+      if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
+      made.name = name.text();
+      return made;
+    });
+  }
+  if (context_.parts && object.has("array")) return loadArray(object, name, use);
+  const JsonValue image = object.need("image");
+  TextureSource source;
+  source.where = image.where();
+  source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
+  readWrap(object, source.wrapU, source.wrapV);
+  use = readUse(object, name, use);
+  object.finish();
+  return context_.textures.add(source, {use})[0];
+}
+
+std::int32_t MaterialReader::loadArray(JsonObject& object, const JsonValue& name, TextureUse use) {
+  const JsonValue array = object.need("array");
+  TextureSource source;
+  source.where = array.where();
+  readWrap(object, source.wrapU, source.wrapV);
+  use = readUse(object, name, use);
+  object.finish();
+  const GivenImage& given = findNamed(context_.parts->images, array, "an array")->second;
+  return context_.textures.add(given, source, use);
+}
+
+std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
+  findNamed(textures_, name, "a texture");
+  NamedTexture& named = textures_.at(name.text());
+  // Patterns do not go beyond 1.
+  const bool isPattern = JsonObject(named.definition).has("pattern");
+  if (use == TextureUse::emission && isPattern) use = TextureUse::color;
+  const auto known = named.slots.find(use);
+  if (known != named.slots.end()) return known->second;
+  return named.slots[use] = load(named.definition, name, use);
+}
+
+void MaterialReader::checkUnused() {
+  for (const auto& [name, texture] : textures_) {
+    if (!texture.slots.empty()) continue;
+    JsonObject object(texture.definition);
+    const auto as = object.find("as");
+    if (object.has("pattern")) {
+      context_.textures.add([definition = texture.definition, &budget = context_.budget] {
+        return makePattern(definition, budget.left());
+      });
+    } else {
+      const bool data = as && as->word(useNames()) == "data";
+      load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::color);
+    }
+  }
+}
+
+void MaterialReader::readMap(JsonObject& object, const std::string& key, TextureUse use,
+                             std::int32_t& map) {
+  const auto name = object.find(key);
+  if (name) map = name->isNull() ? kNoTexture : texture(*name, use);
+}
+
+void MaterialReader::read(JsonObject& object, Material& m) {
+  m.diffuse = object.color("diffuse", m.diffuse, 1);
+  readMap(object, "diffuseMap", TextureUse::color, m.diffuseMap);
+  m.specular = object.color("specular", m.specular, 1);
+  readMap(object, "specularMap", TextureUse::color, m.specularMap);
+  m.roughness = object.number("roughness", m.roughness, 0, 1);
+  readMap(object, "roughnessMap", TextureUse::data, m.roughnessMap);
+  m.emission = object.color("emission", m.emission);
+  readMap(object, "emissionMap", TextureUse::emission, m.emissionMap);
+  readMap(object, "normalMap", TextureUse::data, m.normalMap);
+  readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
+  m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);
+  m.coverage = object.number("coverage", m.coverage, 0, 1);
+  readMap(object, "coverageMap", TextureUse::mask, m.coverageMap);
+  if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
+  const bool mirrorGiven = object.has("mirror");
+  m.mirror = object.color("mirror", m.mirror, 1);
+  m.mirrorGrazing = object.color("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
+  const bool transmissionGiven = object.has("transmission");
+  m.transmission = object.color("transmission", m.transmission, 1);
+  if (const auto thin = object.find("thin")) m.thin = thin->flag();
+  m.ior = object.number("ior", m.ior, kLeastIor, kLargestIor);
+  m.absorption = object.color("absorption", m.absorption);
+  if (const auto priority = object.find("priority")) {
+    m.priority = priority->integer(-kLargestPriority, kLargestPriority);
+  }
+  if (const auto reflects = object.find("diffuseReflection"))
+    m.diffuseReflection = reflects->flag();
+  if (const auto reflects = object.find("glossyReflection")) {
+    m.glossyReflection = reflects->flag();
+  } else if (mirrorGiven || object.has("mirrorGrazing") || transmissionGiven) {
+    m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
+  }
+  if (const auto castsShadow = object.find("castsShadow")) {
+    m.castsShadow = castsShadow->flag();
+  } else if (transmissionGiven || object.has("coverage")) {
+    m.castsShadow = m.blocksLight();
+  }
+}
+
+void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
+  read(object, material);
+  for (const auto& [name, value] : object.value().members()) given.insert(name);
+  if (object.has("mirror")) given.insert("mirrorGrazing");
+  if (object.has("coverageMap")) given.insert({"alphaMap", "alphaCutoff"});
+  for (const char* passing : {"transmission", "coverage"}) {
+    if (object.has(passing)) given.insert("castsShadow");
+  }
+  for (const char* impulse : {"mirror", "mirrorGrazing", "transmission"}) {
+    if (object.has(impulse)) given.insert("glossyReflection");
+  }
+}
+
+}  // namespace whit

@@ -1,0 +1,48 @@
+// What a program hands over in place of files: the meshes and images that a scene's text names.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/image/image_file.h"
+#include "scene/mesh.h"
+
+namespace whit {
+
+// Arrays that are read when the scene is, and live for as long as `keep`.
+struct GivenMesh {
+  std::span<const float> positions;  // x, y, z of each vertex
+  std::span<const float> normals;    // empty (flat shading), or x, y, z of each vertex
+  std::span<const float> uvs;        // empty (0, 0), or u, v of each vertex; v points up
+  std::span<const float> colors;     // empty (white), or r, g, b of each vertex, linear, 0 to 1
+  // Three vertices a triangle, counter-clockwise seen from outside; empty: the vertices in threes.
+  std::span<const std::uint32_t> triangles;
+  std::shared_ptr<const void> keep;
+};
+
+// Interleaved channels, 1 to 4, in rows from the top: codes of 8 bits, or linear values.
+struct GivenImage {
+  int width = 0, height = 0, channels = 0;
+  std::span<const std::uint8_t> codes;
+  std::span<const float> values;
+  std::shared_ptr<const void> keep;
+};
+
+// By the names that the text calls them: {"mesh": "bunny"} in place of {"model": "bunny.ply"},
+// {"array": "wood"} in place of {"image": "wood.png"}.
+struct SceneParts {
+  std::map<std::string, GivenMesh> meshes;
+  std::map<std::string, GivenImage> images;
+};
+
+std::uint64_t bytesOf(const GivenMesh& given);  // that meshOf() takes
+
+// Each throws Error(badScene) at `where` for arrays whose lengths do not go together, for numbers
+// that are not finite or out of their range, and for triangles of vertices that there are not.
+Mesh meshOf(const GivenMesh& given, const std::string& where);
+RawImage imageOf(const GivenImage& given, const std::string& where);
+
+}  // namespace whit

@@ -1,0 +1,32 @@
+// The sections of a scene file about cameras and light, as they are read and written.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/json_reader.h"
+#include "io/scene/scene_context.h"
+
+namespace whit {
+
+// "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
+// degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
+void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
+// "lights": of each, "type" is "point" (default), "spot" or "directional", "name" is free. Point
+// and spot lights have "position", "intensity" (W/sr) and "radius"; spot lights also "direction"
+// and, half angles in degrees, "innerConeAngle" (0) and "outerConeAngle" (45), between which they
+// fall off. Directional lights have "direction" and "irradiance" (W/m^2 on a surface that faces
+// them).
+void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
+// "sky"; its image is there after context.textures.finish().
+void readSky(JsonObject& file, SceneContext& context);
+// "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
+// is there.
+std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
+
+// What is read of these is the same bit for bit: one of "cameras", "lights", "ambient".
+Json describe(const Camera& camera);
+Json describe(const std::vector<Light>& lights);
+Json describe(const Ambient& ambient);
+
+}  // namespace whit

@@ -1,0 +1,218 @@
+#include "make/model_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "bake/placed_triangles.h"
+
+namespace whit {
+
+namespace {
+
+// More than these are looked at in part only; and what is not taken for a room, to be spared that.
+constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
+
+// Towards the eye, the most usual first: the front is +z. None from below, where no light is.
+constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
+                                       {-0.5, 0.4, 1.0},
+                                       {0.4, 0.9, 0.9},
+                                       {1.0, 0.4, 0.5},
+                                       {-1.0, 0.4, 0.5},
+                                       {-0.5, 0.4, -1.0},
+                                       {0.3, 1.5, 0.5}}};
+// Of what the best side shows, what is enough to prefer a more usual one.
+constexpr double kEnough = 0.6;
+
+struct Bounds {
+  Vec3d lower{std::numeric_limits<double>::max()}, upper{std::numeric_limits<double>::lowest()};
+  void add(const Vec3d& p) {
+    lower = min(lower, p);
+    upper = max(upper, p);
+  }
+  bool empty() const { return !(lower.x <= upper.x); }
+  Vec3d center() const { return (lower + upper) * 0.5; }
+  Vec3d half() const { return (upper - lower) * 0.5; }
+};
+
+Bounds boundsOf(const SceneDescription& scene) {
+  Bounds bounds;
+  forEachPlacedTriangle(scene, std::numeric_limits<std::uint64_t>::max(), [&](const Corners& t) {
+    for (const Vec3d& corner : t) bounds.add(corner);
+  });
+  return bounds;
+}
+
+// The area that fronts turn to each side, whether or not something is before them.
+Vec3d bestSide(const SceneDescription& scene, double radius) {
+  std::array<Vec3d, kSides.size()> sides;
+  std::transform(kSides.begin(), kSides.end(), sides.begin(),
+                 [](const Vec3d& side) { return normalized(side); });
+  std::array<double, kSides.size()> shown{};
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
+    const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      shown[i] += std::max(0.0, dot(area, sides[i]));
+    }
+  });
+  const double enough = kEnough * *std::max_element(shown.begin(), shown.end());
+  const auto found =
+      std::find_if(shown.begin(), shown.end(), [&](double area) { return area >= enough; });
+  return sides[static_cast<std::size_t>(found - shown.begin())];
+}
+
+// How often the surfaces wind around the point: 1 in a body, -1 in a room whose walls' fronts look
+// inwards, 0 outside of all (after van Oosterom and Strackee 1983, of the solid angle).
+double windingNumber(const SceneDescription& scene, const Vec3d& point) {
+  constexpr double kFlat = 1.0e-12;
+  double angle = 0;
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
+    const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
+    const double la = length(a), lb = length(b), lc = length(c);
+    const double volume = dot(a, cross(b, c)), space = la * lb * lc;
+    if (!(std::abs(volume) > kFlat * space)) return;  // it lies in the plane: on neither side
+    angle += 2 * std::atan2(volume, space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  });
+  return angle / (4 * std::numbers::pi);
+}
+
+// All but a few small openings.
+bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
+  constexpr double kClosed = -0.9;
+  return windingNumber(scene, point) <= kClosed;
+}
+
+// How far it is to the triangle along the unit direction, negative where its back is met; infinite
+// where it is missed (after Moeller and Trumbore 1997).
+double distanceTo(const Corners& t, const Vec3d& point, const Vec3d& direction) {
+  constexpr double kMissed = std::numeric_limits<double>::infinity();
+  const Vec3d a = t[1] - t[0], b = t[2] - t[0], p = cross(direction, b);
+  const double determinant = dot(a, p);
+  if (determinant == 0) return kMissed;
+  const Vec3d from = point - t[0], q = cross(from, a);
+  const double u = dot(from, p) / determinant, v = dot(direction, q) / determinant;
+  const double distance = dot(b, q) / determinant;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0)) return kMissed;
+  return determinant > 0 ? distance : -distance;
+}
+
+// Whether fronts are what is met in three quarters of all directions, for a room may have a
+// skylight. The winding number alone also has two floors, one on the other, for a room.
+bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
+  constexpr std::size_t kDirections = 32, kWalls = 24;
+  std::array<Vec3d, kDirections> directions;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    constexpr double kGoldenAngle = 2.39996322972865332;
+    const double y = 1 - (2 * static_cast<double>(i) + 1) / kDirections;
+    const double r = std::sqrt(1 - y * y), turn = kGoldenAngle * static_cast<double>(i);
+    directions[i] = {r * std::cos(turn), y, r * std::sin(turn)};
+  }
+  std::array<double, kDirections> met;
+  met.fill(-std::numeric_limits<double>::infinity());
+  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
+    for (std::size_t i = 0; i < kDirections; ++i) {
+      const double distance = distanceTo(t, point, directions[i]);
+      if (std::abs(distance) < std::abs(met[i])) met[i] = distance;
+    }
+  });
+  const auto walls = std::count_if(met.begin(), met.end(), [](double d) { return d > 0; });
+  return static_cast<std::size_t>(walls) >= kWalls;
+}
+
+// Whether most of the places in the middle are: some may be in what stands there.
+bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
+  constexpr double kAside = 0.3, kFlattest = 0.05;
+  constexpr std::size_t kPlaces = 7, kMostOutside = 2;
+  const Vec3d center = bounds.center(), half = bounds.half() * kAside;
+  if (std::min({half.x, half.y, half.z}) < kFlattest * maxComponent(half)) return false;
+  const std::array<Vec3d, kPlaces> ways{{{},
+                                         {half.x, 0, 0},
+                                         {-half.x, 0, 0},
+                                         {0, half.y, 0},
+                                         {0, -half.y, 0},
+                                         {0, 0, half.z},
+                                         {0, 0, -half.z}}};
+  std::size_t outside = 0;
+  std::optional<Vec3d> inside;
+  for (const Vec3d& way : ways) {
+    if (!isInRoom(scene, center + way)) {
+      if (++outside > kMostOutside) return false;
+    } else if (!inside) {
+      inside = center + way;
+    }
+  }
+  return inside && seesWalls(scene, *inside);
+}
+
+// The first of the places on the way from `from` to `to` that is in the room and not in what stands
+// there.
+Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d& to) {
+  constexpr int kPlaces = 4;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Vec3d place = from + (to - from) * (static_cast<double>(i) / kPlaces);
+    if (isInRoom(scene, place)) return place;
+  }
+  return to;
+}
+
+// From near a corner across the room.
+void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& view) {
+  constexpr float kWide = 65;
+  constexpr double kNearWall = 0.85, kBelowCeiling = 0.6;
+  const Vec3d center = bounds.center(), half = bounds.half();
+  view.camera.eye =
+      Vec3f(placeInRoom(scene, center + half * Vec3d{kNearWall, 0.1, kNearWall}, center));
+  view.camera.at = Vec3f(center - half * Vec3d{0.4, 0.2, 0.4});
+  view.camera.fov = kWide;
+  view.ceiling = placeInRoom(scene, center + half * Vec3d{0, kBelowCeiling, 0}, center);
+}
+
+// Fits the model into the picture, looking at it from `side`.
+void lookFrom(const Vec3d& side, const SceneDescription& scene, ModelView& view) {
+  constexpr double kMargin = 1.06;
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
+  const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side)), up = cross(side, right);
+  const auto everyCorner = [&](const auto& use) {
+    forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
+      for (const Vec3d& corner : t) {
+        const Vec3d p = corner - view.center;
+        use(Vec3d{dot(p, right), dot(p, up), dot(p, side)});
+      }
+    });
+  };
+  Bounds seen;
+  everyCorner([&](const Vec3d& p) { seen.add(p); });
+  const Vec3d middle = seen.center();
+  double distance = 0;
+  everyCorner([&](const Vec3d& p) {
+    const double away = std::max(std::abs(p.x - middle.x) / aspect, std::abs(p.y - middle.y));
+    distance = std::max(distance, p.z - middle.z + away / half);
+  });
+  const Vec3d at = view.center + right * middle.x + up * middle.y + side * middle.z;
+  view.camera.at = Vec3f(at);
+  view.camera.eye = Vec3f(at + side * distance);
+}
+
+}  // namespace
+
+ModelView viewOf(const SceneDescription& scene) {
+  ModelView view;
+  const Bounds bounds = boundsOf(scene);
+  if (bounds.empty()) return view;
+  view.center = bounds.center();
+  view.radius = length(bounds.half());
+  if (!(view.radius > 0)) return view;
+  view.inside = placedTriangleCount(scene) <= kMostOfRoom && isRoom(scene, bounds);
+  if (view.inside) {
+    lookAround(scene, bounds, view);
+  } else {
+    lookFrom(bestSide(scene, view.radius), scene, view);
+  }
+  return view;
+}
+
+}  // namespace whit

@@ -1,0 +1,21 @@
+// How a model is looked at that comes without a camera.
+#pragma once
+
+#include "scene/description.h"
+
+namespace whit {
+
+struct ModelView {
+  Vec3d center;
+  double radius = 0;  // of the sphere around its bounds; 0: there is nothing to see
+  // Whether the model is a closed room: from its middle nearly everything that is seen is a front.
+  bool inside = false;
+  Camera camera;
+  Vec3d ceiling;  // in a room, where a lamp would hang
+};
+
+// From the front, a little to the right and above, near enough to fill the picture; from another
+// side where the model turns its back or its edge there; and from inside a closed room.
+ModelView viewOf(const SceneDescription& scene);
+
+}  // namespace whit

@@ -1,0 +1,121 @@
+#include "make/patterns/noise.h"
+
+#include <cmath>
+
+namespace whit::procedural {
+namespace {
+
+std::uint32_t mix(std::uint32_t h) {
+  h ^= h >> 16;
+  h *= 0x85ebca6bu;
+  h ^= h >> 13;
+  h *= 0xc2b2ae35u;
+  return h ^ (h >> 16);
+}
+
+// One round instead of four: patterns take millions of these.
+std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
+  return mix(static_cast<std::uint32_t>(x) * 0x8da6b343u ^
+             static_cast<std::uint32_t>(y) * 0xd8163841u ^ seed * 0xcb1ab31fu);
+}
+
+double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+std::int32_t wrapped(std::int32_t i, int period) {
+  if (period <= 0) return i;
+  const std::int32_t r = i % period;
+  return r < 0 ? r + period : r;
+}
+
+// Eight directions in the plane: enough variety, and no trigonometry. A table, because a switch on
+// random bits is mispredicted most of the time; not one of each call, which sanitizers would fill
+// and watch millions of times.
+constexpr double kDiagonal = 0.70710678118654752440;
+constexpr double kSlopeX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
+constexpr double kSlopeY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
+
+double slope2(std::uint32_t h, double x, double y) {
+  const std::uint32_t k = h & 7u;
+  return kSlopeX[k] * x + kSlopeY[k] * y;
+}
+
+// The twelve edges of a cube (Perlin 2002).
+double slope3(std::uint32_t h, double x, double y, double z) {
+  const std::uint32_t k = h % 12u;
+  const double a = k < 8 ? x : y, b = k < 4 ? y : z;
+  return ((h & 16u) ? -a : a) + ((h & 32u) ? -b : b);
+}
+
+}  // namespace
+
+std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
+  std::uint32_t h = mix(seed + 0x9e3779b9u);
+  h = mix(h ^ (static_cast<std::uint32_t>(x) + 0x7f4a7c15u));
+  h = mix(h ^ (static_cast<std::uint32_t>(y) + 0x94d049bbu));
+  return mix(h ^ (static_cast<std::uint32_t>(z) + 0x2545f491u));
+}
+
+double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
+  return hash(seed, x, y, z) * (1.0 / 4294967296.0);
+}
+
+double lerp(double a, double b, double t) { return a + (b - a) * t; }
+
+double smoothStep(double low, double high, double x) {
+  const double t = x <= low ? 0 : x >= high ? 1 : (x - low) / (high - low);
+  return t * t * (3 - 2 * t);
+}
+
+double gradientNoise(std::uint32_t seed, double x, double y, int period) {
+  const double fx = std::floor(x), fy = std::floor(y);
+  const auto ix = static_cast<std::int32_t>(fx), iy = static_cast<std::int32_t>(fy);
+  const std::int32_t x0 = wrapped(ix, period), x1 = wrapped(ix + 1, period);
+  const std::int32_t y0 = wrapped(iy, period), y1 = wrapped(iy + 1, period);
+  const double tx = x - fx, ty = y - fy, u = fade(tx), v = fade(ty);
+  const double low = lerp(slope2(latticeHash(seed, x0, y0), tx, ty),
+                          slope2(latticeHash(seed, x1, y0), tx - 1, ty), u);
+  const double high = lerp(slope2(latticeHash(seed, x0, y1), tx, ty - 1),
+                           slope2(latticeHash(seed, x1, y1), tx - 1, ty - 1), u);
+  return lerp(low, high, v) * 1.5;  // brings the usual extremes of about 0.66 to 1
+}
+
+double gradientNoise3(std::uint32_t seed, double x, double y, double z) {
+  const double fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
+  const auto ix = static_cast<std::int32_t>(fx), iy = static_cast<std::int32_t>(fy),
+             iz = static_cast<std::int32_t>(fz);
+  const double tx = x - fx, ty = y - fy, tz = z - fz, u = fade(tx), v = fade(ty);
+  const auto plane = [&](int k) {
+    const auto corner = [&](int i, int j) {
+      return slope3(hash(seed, ix + i, iy + j, iz + k), tx - i, ty - j, tz - k);
+    };
+    return lerp(lerp(corner(0, 0), corner(1, 0), u), lerp(corner(0, 1), corner(1, 1), u), v);
+  };
+  return lerp(plane(0), plane(1), fade(tz));
+}
+
+double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int period) {
+  double sum = 0, amplitude = 1, total = 0;
+  for (int i = 0; i < octaves; ++i) {
+    sum += amplitude * gradientNoise(seed + static_cast<std::uint32_t>(i), x, y, period);
+    total += amplitude;
+    amplitude *= 0.5;
+    x *= 2, y *= 2, period *= 2;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+double ridgedNoise(std::uint32_t seed, double x, double y, int octaves) {
+  double sum = 0, amplitude = 0.5, weight = 1, total = 0;
+  for (int i = 0; i < octaves; ++i) {
+    double crest = 1 - std::fabs(gradientNoise(seed + static_cast<std::uint32_t>(i), x, y));
+    crest = crest < 0 ? 0 : crest * crest;
+    sum += amplitude * weight * crest;
+    total += amplitude;
+    weight = crest;  // valleys stay smooth, crests gather detail
+    amplitude *= 0.5;
+    x *= 2, y *= 2;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+}  // namespace whit::procedural

@@ -1,0 +1,91 @@
+#include "make/patterns/paint.h"
+
+#include "scene/generation_limit.h"
+
+namespace whit::procedural {
+namespace {
+
+std::size_t texelsOf(int side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+}
+
+Texture blank(const std::string& name, int side, TexelFormat format) {
+  GenerationLimit::charge(texelsOf(side), sizeof(std::uint32_t));
+  Texture texture;
+  texture.name = name;
+  texture.format = format;
+  texture.width = texture.height = side;
+  texture.texels.reserve(texelsOf(side));
+  return texture;
+}
+
+// Calls visit(u, v) at the texel centers, row by row from the top.
+template <typename Visitor>
+void forEachTexel(int side, Visitor&& visit) {
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      visit((column + 0.5) / side, 1 - (row + 0.5) / side);
+    }
+  }
+}
+
+}  // namespace
+
+Texture paintColor(const std::string& name, int side, const ColorFormula& color) {
+  Texture texture = blank(name, side, TexelFormat::color);
+  forEachTexel(
+      side, [&](double u, double v) { texture.texels.push_back(encodeColorTexel(color(u, v))); });
+  return texture;
+}
+
+Texture paintNormals(const std::string& name, int side, const ScalarFormula& height) {
+  Texture texture = blank(name, side, TexelFormat::data);
+  std::vector<double> heights;
+  GenerationLimit::charge(texelsOf(side), sizeof(double));
+  heights.reserve(texelsOf(side));
+  forEachTexel(side, [&](double u, double v) { heights.push_back(height(u, v)); });
+  const auto at = [&](int row, int column) {
+    const int r = (row + side) % side, c = (column + side) % side;
+    return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
+                   static_cast<std::size_t>(c)];
+  };
+  const double reach = 2.0 / side;  // between the neighbors on both sides
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const double du = at(row, column + 1) - at(row, column - 1);
+      const double dv = at(row - 1, column) - at(row + 1, column);
+      const Vec3d n = normalized(Vec3d{-du, -dv, reach});
+      const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
+      texture.texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
+    }
+  }
+  return texture;
+}
+
+Texture paintScalar(const std::string& name, int side, const ScalarFormula& value) {
+  Texture texture = blank(name, side, TexelFormat::data);
+  forEachTexel(side, [&](double u, double v) {
+    const auto x = static_cast<float>(value(u, v));
+    texture.texels.push_back(encodeDataTexel(x, x, x, 1));
+  });
+  return texture;
+}
+
+int sideOf(ShapeParameters& parameters, int fallback) {
+  return parameters.integer("size", fallback, 1, 8192);
+}
+
+std::uint32_t seedOf(ShapeParameters& parameters) {
+  return static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
+}
+
+Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
+  return Rgb(parameters.vector(key, fallback));
+}
+
+Rgb mix(const Rgb& a, const Rgb& b, double t) {
+  const auto s = static_cast<float>(t);
+  return a * (1 - s) + b * s;
+}
+
+}  // namespace whit::procedural

@@ -1,0 +1,196 @@
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "make/shapes/generators.h"
+#include "make/shapes/mesh_builder.h"
+#include "scene/generation_limit.h"
+
+namespace whit::procedural {
+namespace {
+
+int segmentsOf(ShapeParameters& parameters, int fallback) {
+  return parameters.integer("segments", fallback, 3, 4096);
+}
+
+double radiusOf(ShapeParameters& parameters, double fallback = 1) {
+  return parameters.number("radius", fallback, 1e-6, 1e9);
+}
+
+// Without normals the faces are flat; `smooth` is every round shape's parameter.
+Shape finished(Mesh mesh, ShapeParameters& parameters) {
+  if (!parameters.flag("smooth", true)) mesh.normals.clear();
+  return singlePart(std::move(mesh));
+}
+
+Mesh sphereMesh(double radius, int segments, int rings) {
+  std::vector<ProfilePoint> profile;
+  for (int j = 0; j <= rings; ++j) {
+    // Half turns from the lower pole to the upper one, so that both poles lie on the axis exactly.
+    const TurnPoint t = turn(j, 2 * rings);
+    profile.push_back(
+        {radius * t.sine, -radius * t.cosine, t.sine, -t.cosine, static_cast<double>(j) / rings});
+  }
+  MeshBuilder builder;
+  builder.revolve(profile, segments);
+  return builder.take("sphere");
+}
+
+Shape exactSphere(double radius) {
+  Mesh mesh;
+  mesh.name = "sphere";
+  mesh.spheres = {Affine::scaling(Vec3d(radius))};
+  return singlePart(std::move(mesh));
+}
+
+// 0 where they are not given: then the sphere is exact.
+int facetsOf(ShapeParameters& parameters, const std::string& key, int least) {
+  constexpr int kMost = 4096;
+  const int given = parameters.integer(key, 0, 0, kMost);
+  return given == 0 ? 0 : parameters.integer(key, given, least, kMost);
+}
+
+}  // namespace
+
+Shape makeSphere(ShapeParameters& parameters) {
+  const double radius = radiusOf(parameters);
+  const int segments = facetsOf(parameters, "segments", 3),
+            rings = facetsOf(parameters, "rings", 2);
+  const bool smooth = parameters.flag("smooth", true);
+  if (segments == 0 && rings == 0 && smooth) return exactSphere(radius);
+  const int around = segments == 0 ? 64 : segments;
+  Mesh mesh = sphereMesh(radius, around, rings == 0 ? std::max(2, around / 2) : rings);
+  if (!smooth) mesh.normals.clear();
+  return singlePart(std::move(mesh));
+}
+
+void tessellateSpheres(Mesh& mesh, int segments) {
+  if (mesh.spheres.empty()) return;
+  const Mesh unit = sphereMesh(1, segments, segments / 2);
+  GenerationLimit::charge(mesh.spheres.size(),
+                          unit.positions.size() * (2 * sizeof(Vec3f) + sizeof(Vec2f)) +
+                              unit.triangles.size() * sizeof(unit.triangles[0]));
+  for (const Affine& map : std::exchange(mesh.spheres, {})) {
+    Mesh sphere = unit;
+    transform(sphere, map);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(mesh.positions, sphere.positions);
+    append(mesh.normals, sphere.normals);
+    append(mesh.uvs, sphere.uvs);
+    for (const auto& [i, j, k] : sphere.triangles) {
+      mesh.triangles.push_back({first + i, first + j, first + k});
+    }
+  }
+}
+
+std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level) {
+  // A triangle has half a vertex.
+  GenerationLimit::charge(20ull << (2 * level), 3 * sizeof(std::uint32_t) + sizeof(Vec3d) / 2);
+  const double g = 1.6180339887498948482;
+  std::vector<Vec3d> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                            {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                            {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  for (Vec3d& p : points) p = normalized(p);
+  std::vector<std::array<std::uint32_t, 3>> triangles{
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  for (int k = 0; k < level; ++k) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [entry, fresh] =
+          middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+      if (fresh) points.push_back(normalized(points[a] + points[b]));
+      return entry->second;
+    };
+    std::vector<std::array<std::uint32_t, 3>> finer;
+    finer.reserve(triangles.size() * 4);
+    for (const auto& [a, b, c] : triangles) {
+      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    triangles = std::move(finer);
+  }
+  return {std::move(points), std::move(triangles)};
+}
+
+Shape makeIcosphere(ShapeParameters& parameters) {
+  const double radius = radiusOf(parameters);
+  const auto [points, triangles] = icosphereMesh(parameters.integer("level", 4, 0, 9));
+  MeshBuilder builder;
+  for (const Vec3d& p : points) {
+    // One vertex a point keeps the mesh seamless; u jumps once around the back.
+    builder.vertex({p * radius,
+                    p,
+                    {0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi),
+                     0.5 + std::asin(std::clamp(p.y, -1.0, 1.0)) / std::numbers::pi}});
+  }
+  for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
+  return finished(builder.take("icosphere"), parameters);
+}
+
+Shape makeCylinder(ShapeParameters& parameters) {
+  const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
+  MeshBuilder builder;
+  builder.revolve(sharpProfile({{0, -h}, {r, -h}, {r, h}, {0, h}}, 2 * std::numbers::pi * r),
+                  segmentsOf(parameters, 64));
+  return finished(builder.take("cylinder"), parameters);
+}
+
+Shape makeCone(ShapeParameters& parameters) {
+  const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
+  const double top = parameters.number("topRadius", 0, 0, 1e9);
+  std::vector<std::array<double, 2>> outline{{0, -h}, {r, -h}, {top, h}};
+  if (top > 0) outline.push_back({0, h});
+  MeshBuilder builder;
+  builder.revolve(sharpProfile(outline, 2 * std::numbers::pi * r), segmentsOf(parameters, 64));
+  return finished(builder.take("cone"), parameters);
+}
+
+Shape makeTorus(ShapeParameters& parameters) {
+  const double radius = radiusOf(parameters);
+  const double tube = parameters.number("tubeRadius", 0.25 * radius, 1e-9, radius);
+  const int rings = parameters.integer("rings", 32, 3, 4096);
+  std::vector<ProfilePoint> profile;
+  for (int j = 0; j <= rings; ++j) {
+    const TurnPoint t = turn(j, rings);
+    profile.push_back({radius + tube * t.cosine, tube * t.sine, t.cosine, t.sine,
+                       static_cast<double>(j) / rings});
+  }
+  MeshBuilder builder;
+  builder.revolve(profile, segmentsOf(parameters, 96));
+  return finished(builder.take("torus"), parameters);
+}
+
+// A pipe with a wall: outer radius, inner radius.
+Shape makeTube(ShapeParameters& parameters) {
+  const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
+  const double inner = parameters.number("innerRadius", 0.8 * r, 1e-9, r * (1 - 1e-6));
+  MeshBuilder builder;
+  builder.revolve(sharpProfile({{inner, -h}, {r, -h}, {r, h}, {inner, h}, {inner, -h}},
+                               2 * std::numbers::pi * r),
+                  segmentsOf(parameters, 64));
+  return finished(builder.take("tube"), parameters);
+}
+
+// Faces up.
+Shape makeDisc(ShapeParameters& parameters) {
+  const double radius = radiusOf(parameters);
+  const int segments = segmentsOf(parameters, 64);
+  MeshBuilder builder(MeshBuilder::Shading::flat);
+  const std::uint32_t center = builder.vertex({{0, 0, 0}, {0, 1, 0}, {0.5, 0.5}});
+  for (int i = 0; i < segments; ++i) {
+    const TurnPoint t = turn(i, segments);
+    builder.vertex({{radius * t.cosine, 0, -radius * t.sine},
+                    {0, 1, 0},
+                    {0.5 + 0.5 * t.cosine, 0.5 + 0.5 * t.sine}});
+  }
+  const auto n = static_cast<std::uint32_t>(segments);
+  for (std::uint32_t i = 0; i < n; ++i) builder.triangle(center, 1 + i, 1 + (i + 1) % n);
+  return singlePart(builder.take("disc"));
+}
+
+}  // namespace whit::procedural

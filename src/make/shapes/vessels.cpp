@@ -1,0 +1,104 @@
+#include "make/shapes/generators.h"
+
+#include <numbers>
+
+#include "make/shapes/mesh_builder.h"
+
+namespace whit::procedural {
+namespace {
+
+using Outline = std::vector<std::array<double, 2>>;
+
+// Outer contours from the foot to the rim, radius and height in parts of the vessel's own.
+Outline contour(const std::string& profile) {
+  if (profile == "urn") {
+    return {{0.50, 0.00}, {0.50, 0.06}, {0.30, 0.10}, {0.22, 0.18}, {0.30, 0.24}, {0.62, 0.34},
+            {0.88, 0.50}, {0.96, 0.64}, {0.86, 0.76}, {0.70, 0.84}, {0.74, 0.90}, {1.00, 1.00}};
+  }
+  if (profile == "pot") {
+    return {{0.62, 0.00}, {0.68, 0.10}, {0.76, 0.35}, {0.84, 0.62},
+            {0.90, 0.82}, {0.90, 0.83}, {1.00, 0.84}, {1.00, 1.00}};
+  }
+  return {{0.45, 0.00}, {0.60, 0.08}, {0.85, 0.25}, {0.98, 0.42}, {0.92, 0.58},
+          {0.68, 0.72}, {0.46, 0.82}, {0.42, 0.90}, {0.52, 1.00}};
+}
+
+// Catmull-Rom through the contour, `pieces` points a span; straight corners of pots stay as they
+// are because their spans are short.
+Outline smoothed(const Outline& points, int pieces) {
+  Outline fine;
+  const int last = static_cast<int>(points.size()) - 1;
+  const auto at = [&](int k) { return points[static_cast<std::size_t>(std::clamp(k, 0, last))]; };
+  for (int k = 0; k < last; ++k) {
+    for (int s = 0; s < pieces; ++s) {
+      const double t = static_cast<double>(s) / pieces;
+      std::array<double, 2> q{};
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double a = at(k - 1)[c], b = at(k)[c], d = at(k + 1)[c], e = at(k + 2)[c];
+        q[c] = b + 0.5 * t * (d - a + t * (2 * a - 5 * b + 4 * d - e + t * (3 * (b - d) + e - a)));
+      }
+      fine.push_back(q);
+    }
+  }
+  fine.push_back(points.back());
+  return fine;
+}
+
+}  // namespace
+
+// An open vessel with a wall and an inside: profile vase, urn or pot.
+Shape makeVase(ShapeParameters& parameters) {
+  const std::string profile = parameters.word("profile", "vase", {"vase", "urn", "pot"});
+  const double radius = parameters.number("radius", 0.3, 1e-6, 1e9);
+  const double height = parameters.number("height", 0.8, 1e-6, 1e9);
+  const double wall = parameters.number("wall", 0.06, 0.005, 0.15);  // in parts of the radius
+  const int segments = parameters.integer("segments", 48, 3, 4096);
+  const int pieces = parameters.integer("pieces", 4, 1, 256);
+  const Outline contourPoints = contour(profile);
+  const Outline outer = profile == "pot" ? contourPoints : smoothed(contourPoints, pieces);
+  Outline outline{{0, 0}};
+  for (const auto& p : outer) outline.push_back({p[0] * radius, p[1] * height});
+  // The inside follows the outside down to the floor of the vessel.
+  constexpr double kFloor = 0.12;
+  for (auto p = outer.rbegin(); p != outer.rend() && (*p)[1] > kFloor; ++p) {
+    outline.push_back({std::max((*p)[0] - wall, 0.05) * radius, (*p)[1] * height});
+  }
+  outline.push_back({0, kFloor * height});
+  MeshBuilder builder;
+  builder.revolve(creasedProfile(outline, 40, height), segments);
+  return singlePart(builder.take("vase"));
+}
+
+// A straight drinking glass: a closed solid of glass with a thick base. What fills it is a cylinder
+// of its own that overlaps the inner wall (nested dielectrics: the higher priority wins).
+Shape makeTumbler(ShapeParameters& parameters) {
+  const double radius = parameters.number("radius", 0.4, 1e-6, 1e9);
+  const double height = parameters.number("height", 1.2, 1e-6, 1e9);
+  const double wall = parameters.number("wall", 0.05 * radius, 1e-9, 0.5 * radius);
+  const double base = parameters.number("base", 2 * wall, 1e-9, 0.9 * height);
+  const double taper = parameters.number("taper", 0.9, 0.5, 1);  // bottom radius over top radius
+  const int segments = parameters.integer("segments", 96, 3, 4096);
+  const double bottom = radius * taper;
+  const double inside = bottom + (radius - bottom) * base / height - wall;
+  const double round = 0.45 * wall;
+  Outline outline{{0, 0}, {bottom - round, 0}};
+  constexpr int kCorner = 6;
+  for (int k = 1; k < kCorner; ++k) {
+    const double a = std::numbers::pi / 2 * k / kCorner;
+    outline.push_back({bottom - round + round * std::sin(a), round - round * std::cos(a)});
+  }
+  outline.push_back({bottom, round});
+  // The rim is a half circle across the wall.
+  const double middle = radius - wall / 2, y = height - wall / 2;
+  for (int k = 0; k <= 2 * kCorner; ++k) {
+    const double a = std::numbers::pi * k / (2 * kCorner);
+    outline.push_back({middle + wall / 2 * std::cos(a), y + wall / 2 * std::sin(a)});
+  }
+  outline.push_back({inside, base});
+  outline.push_back({0, base});
+  MeshBuilder builder;
+  builder.revolve(creasedProfile(outline, 40, height), segments);
+  return singlePart(builder.take("tumbler"));
+}
+
+}  // namespace whit::procedural

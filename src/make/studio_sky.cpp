@@ -1,0 +1,64 @@
+#include "make/studio_sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace whit {
+
+namespace {
+
+constexpr int kWidth = 256, kHeight = 128;
+constexpr double kZenith = 0.15, kHorizon = 0.20, kGround = 0.10;
+
+// Degrees: where its middle is, from -z towards +x and from the horizon up; half its sides.
+struct SoftBox {
+  double azimuth, elevation, halfWidth, halfHeight, radiance;
+};
+// Where the supplied light is; beside it; and behind the model, for its outline.
+constexpr SoftBox kBoxes[] = {
+    {143, 48, 26, 17, 4.0}, {250, 40, 14, 20, 1.6}, {320, 44, 9, 20, 3.0}};
+constexpr double kSoftEdge = 7;  // degrees over which a box fades
+
+double smooth(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// 1 within `half` of the middle, 0 beyond the edge.
+double fade(double distance, double half) { return smooth((half - distance) / kSoftEdge + 1); }
+
+double radianceAt(double azimuth, double elevation) {
+  const double sine = std::sin(elevation * std::numbers::pi / 180);
+  double radiance = kHorizon + ((sine < 0 ? kGround : kZenith) - kHorizon) * std::abs(sine);
+  for (const SoftBox& box : kBoxes) {
+    const double across = std::abs(std::remainder(azimuth - box.azimuth, 360.0));
+    // As wide in the image of the sky as it is to the eye.
+    const double width = across * std::cos(box.elevation * std::numbers::pi / 180);
+    radiance += box.radiance * fade(width, box.halfWidth) *
+                fade(std::abs(elevation - box.elevation), box.halfHeight);
+  }
+  return radiance;
+}
+
+}  // namespace
+
+Sky studioSky() {
+  Sky sky;
+  sky.name = kStudio;
+  sky.kind = Sky::Kind::image;
+  EnvironmentImage& image = sky.image;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.r.reserve(std::size_t{kWidth} * kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double azimuth = 360 * (x + 0.5) / kWidth, elevation = 90 - 180 * (y + 0.5) / kHeight;
+      image.r.push_back(static_cast<float>(radianceAt(azimuth, elevation)));
+    }
+  }
+  image.g = image.b = image.r;
+  return sky;
+}
+
+}  // namespace whit

@@ -1,0 +1,43 @@
+// What readers and generators fill in: the scene as its author describes it, before it is baked.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/animation.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/mesh.h"
+#include "scene/scene_motion.h"
+#include "scene/texture.h"
+
+namespace whit {
+
+// Embree ignores triangles with a corner coordinate beyond this (its FLT_LARGE), and takes no rays
+// from there.
+inline constexpr float kLargestCoordinate = 1.844e18f;
+
+struct SceneDescription {
+  std::string name;               // the bare name of the file
+  bool isModel = false;           // without a scene file: light, sky and view are supplied
+  int width = 480, height = 300;  // the scene's own image size
+  std::vector<Camera> cameras;    // the first is the default
+  std::vector<Keyframe> cameraPath;
+  std::vector<Animation> animations;  // of its models, in the order in which they are read
+  std::vector<Light> lights;
+  Sky sky;
+  Ambient ambient;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Object> objects;
+  std::vector<Instance> instances;
+  SceneMotion motion;  // given where the scene is to move
+  // How many items its author has placed, and the names of the first kNamedItems. 0: each instance
+  // is one, with the name of its object.
+  std::uint64_t items = 0;
+  std::vector<std::string> itemNames;
+};
+
+}  // namespace whit
