@@ -92,6 +92,21 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
   }
 }
 
+TEST_F(GltfHostile, ListsMayBeMissing) {
+  loadText(
+      "{\"asset\":{\"version\":\"2.0\"},\"accessors\":[{\"componentType\":5126,\"count\":1,"
+      "\"type\":\"SCALAR\"},{\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\"}]}");
+  EXPECT_EQ(warned("model with nothing to draw: no meshes"), 1u);
+  GltfBuilder b;
+  const std::string text = b.json(
+      "\"textures\":[{\"source\":0}],\"materials\":["
+      "{\"normalTexture\":{\"index\":0}}]");
+  EXPECT_EQ(errorOfText(text),
+            "3 m.gltf#/textures/0/source: expected an index into images, which has no elements");
+  EXPECT_EQ(errorOfText(b.json("\"nodes\":[{\"mesh\":0}]")),
+            "3 m.gltf#/nodes/0/mesh: expected an index into meshes, which has no elements");
+}
+
 TEST_F(GltfHostile, NodesThatAreNoTree) {
   const auto error = [&](const std::string& nodes, const std::string& scene) {
     return errorOfText("{\"asset\":{\"version\":\"2.0\"},\"nodes\":" + nodes +

@@ -1,18 +1,40 @@
 #include "io/gltf/accessor.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.h"
 
 namespace whit {
 namespace {
 
-// Of an accessor without data, whose elements are zero but for the sparse ones.
+// An accessor without a buffer view consists of zeros, so that the size of the file does not limit
+// the number of its elements.
 constexpr std::uint64_t kZeroElementLimit = 1u << 24;
+
+// Values of componentType.
+enum GltfComponent : std::uint64_t {
+  kByte = 5120,
+  kUnsignedByte = 5121,
+  kShort = 5122,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kFloat = 5126
+};
+
+constexpr std::pair<std::string_view, std::size_t> kComponents[] = {
+    {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+
+std::size_t componentsIn(std::string_view type) {
+  return std::find_if(std::begin(kComponents), std::end(kComponents),
+                      [&](const auto& known) { return known.first == type; })
+      ->second;
+}
 
 template <typename T>
 T loadAs(const std::uint8_t* from) {
@@ -34,49 +56,51 @@ float floatAt(const std::uint8_t* from, bool normalized) {
   }
 }
 
-float component(const std::uint8_t* from, int type, bool normalized) {
+float component(const std::uint8_t* from, std::uint64_t type, bool normalized) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case kByte:
       return floatAt<std::int8_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return floatAt<std::uint8_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case kShort:
       return floatAt<std::int16_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return floatAt<std::uint16_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case kUnsignedInt:
       return floatAt<std::uint32_t>(from, normalized);
     default:
       return floatAt<float>(from, normalized);
   }
 }
 
-std::uint32_t indexAt(const std::uint8_t* from, int type) {
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return *from;
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return loadAs<std::uint16_t>(from);
+std::uint32_t indexAt(const std::uint8_t* from, std::uint64_t type) {
+  if (type == kUnsignedByte) return *from;
+  if (type == kUnsignedShort) return loadAs<std::uint16_t>(from);
   return loadAs<std::uint32_t>(from);
 }
 
-bool isIndexType(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
-
-std::uint64_t bytesPerComponent(int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+std::uint64_t bytesPerComponent(const GltfValue& componentType) {
+  switch (componentType.whole(0)) {
+    case kByte:
+    case kUnsignedByte:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kShort:
+    case kUnsignedShort:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case kUnsignedInt:
+    case kFloat:
       return 4;
     default:
-      return 0;
+      componentType.fail("5120 to 5123, 5125 or 5126");
   }
+}
+
+std::uint64_t indexTypeOf(const GltfValue& componentType) {
+  const std::uint64_t type = componentType.whole(0);
+  if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt) {
+    componentType.fail("5121, 5123 or 5125");
+  }
+  return type;
 }
 
 // Equally spaced elements that are known to lie within their buffer view.
@@ -86,176 +110,150 @@ struct Run {
   const std::uint8_t* at(std::uint64_t i) const { return first + i * stride; }
 };
 
-class Reader {
+// Elements of the buffer view that `source`, an accessor or a part of a sparse one, refers to.
+Run elementsWithin(const GltfDocument& document, const GltfValue& source, bool strided,
+                   std::uint64_t elementBytes, std::uint64_t count) {
+  const GltfBufferView view = document.view(source.need("bufferView"));
+  const std::uint64_t stride = strided && view.stride > 0 ? view.stride : elementBytes;
+  const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].whole(0);
+  if (stride < elementBytes) {
+    document.list("bufferViews")[view.index]["byteStride"].fail(
+        "at least the " + std::to_string(elementBytes) + " bytes of an element of " +
+        source.where());
+  }
+  const bool first = offset <= size && elementBytes <= size - offset;
+  const std::uint64_t fit = first ? (size - offset - elementBytes) / stride + 1 : 0;
+  if (count > fit) {
+    source.fail("at most " + std::to_string(fit) + " elements, as many as fit into buffer view " +
+                std::to_string(view.index) + ", found " + std::to_string(count));
+  }
+  return {count > 0 ? view.bytes.data() + offset : nullptr, stride};
+}
+
+class AccessorReader {
  public:
-  Reader(const GltfDocument& document, std::size_t index, int type, const char* typeName)
+  AccessorReader(const GltfDocument& document, const GltfValue& accessor, std::string_view type,
+                 std::string_view expected)
       : document_(document),
-        accessor_(document.model().accessors[index]),
-        where_(document.where("accessors", index)) {
-    components_ = static_cast<std::uint64_t>(
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-    size_ = bytesPerComponent(accessor_.componentType);
-    if (accessor_.type != type)
-      throwBadScene(where_ + "/type", std::string("expected ") + typeName);
-    if (size_ == 0) {
-      throwBadScene(where_ + "/componentType", "expected 5120 to 5123, 5125 or 5126");
-    }
-    if (accessor_.bufferView >= 0) {
-      const auto view = static_cast<std::size_t>(accessor_.bufferView);
-      dense_ = within(view, accessor_.byteOffset, document.model().bufferViews[view].byteStride,
-                      size_ * components_, count(), where_);
-    } else if (count() > kZeroElementLimit) {
-      throwBadScene(where_, "expected a buffer view for " + std::to_string(count()) + " elements");
+        accessor_(accessor),
+        components_(componentsIn(type)),
+        size_(bytesPerComponent(accessor.need("componentType"))),
+        count_(accessor.need("count").whole(0)),
+        componentType_(accessor["componentType"].whole(0)),
+        normalized_(accessor["normalized"].flag()) {
+    if (accessor.need("type").text() != type) accessor["type"].fail(std::string(expected));
+    if (accessor["bufferView"].exists()) {
+      dense_ = elementsWithin(document, accessor, true, size_ * components_, count_);
+    } else if (count_ > kZeroElementLimit) {
+      accessor.fail("a buffer view for " + std::to_string(count_) + " elements");
     }
   }
 
-  const std::string& where() const { return where_; }
-  int componentType() const { return accessor_.componentType; }
-  std::uint64_t count() const { return accessor_.count; }
+  std::uint64_t count() const { return count_; }
+  std::size_t components() const { return components_; }
 
-  // Calls set(element, pointer to its components) for all that are not zero: for those that a
-  // sparse accessor replaces, twice.
-  template <typename Set>
-  void read(Set&& set) const {
-    for (std::uint64_t i = 0; dense_.first && i < count(); ++i) set(i, dense_.at(i));
-    if (accessor_.sparse.isSparse) readSparse(set);
+  // Calls set(i, bytes) for each element that is not zero, and again for each one that a sparse
+  // accessor replaces. Elements that are not set are zero.
+  template <typename Element, typename Set>
+  std::vector<Element> read(std::size_t perElement, const Set& set) const {
+    document_.budget().charge(count_, perElement * sizeof(Element), accessor_.where());
+    std::vector<Element> all(count_ * perElement);
+    for (std::uint64_t i = 0; dense_.first && i < count_; ++i) {
+      set(&all[i * perElement], dense_.at(i));
+    }
+    if (accessor_["sparse"].exists()) {
+      readSparse(
+          [&](std::uint64_t i, const std::uint8_t* from) { set(&all[i * perElement], from); });
+    }
+    return all;
   }
 
-  float componentAt(const std::uint8_t* element, std::uint64_t i) const {
-    return component(element + i * size_, accessor_.componentType, accessor_.normalized);
+  float at(const std::uint8_t* element, std::uint64_t i) const {
+    return component(element + i * size_, componentType_, normalized_);
   }
 
  private:
-  // `stride` 0: tightly packed.
-  Run within(std::size_t view, std::uint64_t offset, std::uint64_t stride,
-             std::uint64_t elementBytes, std::uint64_t count, const std::string& where) const {
-    const Bytes bytes = document_.view(view);
-    if (stride == 0) stride = elementBytes;
-    if (stride < elementBytes) {
-      throwBadScene(document_.where("bufferViews", view, "/byteStride"),
-                    "expected at least the " + std::to_string(elementBytes) +
-                        " bytes of an element of " + where);
-    }
-    const bool first = offset <= bytes.size() && elementBytes <= bytes.size() - offset;
-    const std::uint64_t fit = first ? (bytes.size() - offset - elementBytes) / stride + 1 : 0;
-    if (count > fit) {
-      throwBadScene(where, "expected at most " + std::to_string(fit) +
-                               " elements, as many as fit into buffer view " +
-                               std::to_string(view) + ", found " + std::to_string(count));
-    }
-    return {count > 0 ? bytes.data() + offset : nullptr, stride};
-  }
-
   template <typename Set>
-  void readSparse(Set&& set) const {
-    const auto& sparse = accessor_.sparse;
-    const std::string where = where_ + "/sparse";
-    if (!isIndexType(sparse.indices.componentType)) {
-      throwBadScene(where + "/indices/componentType", "expected 5121, 5123 or 5125");
-    }
-    const auto count = static_cast<std::uint64_t>(sparse.count);
-    const Run indices =
-        within(static_cast<std::size_t>(sparse.indices.bufferView),
-               static_cast<std::uint64_t>(sparse.indices.byteOffset), 0,
-               bytesPerComponent(sparse.indices.componentType), count, where + "/indices");
-    const Run values = within(static_cast<std::size_t>(sparse.values.bufferView),
-                              static_cast<std::uint64_t>(sparse.values.byteOffset), 0,
-                              size_ * components_, count, where + "/values");
+  void readSparse(const Set& set) const {
+    const GltfValue sparse = accessor_["sparse"], indices = sparse.need("indices");
+    const std::uint64_t count =
+        sparse.need("count").whole(0, std::numeric_limits<std::int32_t>::max());
+    const std::uint64_t type = indexTypeOf(indices.need("componentType"));
+    const Run which = elementsWithin(document_, indices, false,
+                                     bytesPerComponent(indices["componentType"]), count);
+    const Run values =
+        elementsWithin(document_, sparse.need("values"), false, size_ * components_, count);
     for (std::uint64_t i = 0; i < count; ++i) {
-      const std::uint32_t index = indexAt(indices.at(i), sparse.indices.componentType);
-      if (index >= accessor_.count) {
-        throwBadScene(where + "/indices", "expected indices below the accessor's count of " +
-                                              std::to_string(accessor_.count) + ", found " +
-                                              std::to_string(index));
+      const std::uint32_t index = indexAt(which.at(i), type);
+      if (index >= count_) {
+        indices.fail("indices below the accessor's count of " + std::to_string(count_) +
+                     ", found " + std::to_string(index));
       }
       set(index, values.at(i));
     }
   }
 
   const GltfDocument& document_;
-  const tinygltf::Accessor& accessor_;
-  std::string where_;
-  std::uint64_t components_ = 0, size_ = 0;
+  GltfValue accessor_;
+  std::size_t components_;
+  std::uint64_t size_, count_, componentType_;
+  bool normalized_;
   Run dense_;
 };
 
-// A vector of `Element`s, zero where the file says nothing.
-template <typename Element>
-std::vector<Element> makeElements(const GltfDocument& document, const Reader& reader) {
-  document.budget().charge(reader.count(), sizeof(Element), reader.where());
-  return std::vector<Element>(reader.count());
+AccessorReader readerOf(const GltfDocument& document, const GltfValue& reference,
+                        std::string_view type) {
+  return {document, accessorOf(document, reference), type, type};
 }
 
 }  // namespace
 
-std::vector<Vec3f> readVectors(const GltfDocument& document, std::size_t accessor) {
-  const Reader reader(document, accessor, TINYGLTF_TYPE_VEC3, "VEC3");
-  std::vector<Vec3f> elements = makeElements<Vec3f>(document, reader);
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    elements[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1),
-                   reader.componentAt(from, 2)};
-  });
-  return elements;
+GltfValue accessorOf(const GltfDocument& document, const GltfValue& reference) {
+  const GltfValue accessors = document.list("accessors");
+  const std::optional<std::size_t> index = reference.index(accessors);
+  if (!index) reference.fail("an accessor");
+  return accessors[*index];
 }
 
-std::vector<std::array<double, 4>> readQuaternions(const GltfDocument& document,
-                                                   std::size_t accessor) {
-  const Reader reader(document, accessor, TINYGLTF_TYPE_VEC4, "VEC4");
-  auto elements = makeElements<std::array<double, 4>>(document, reader);
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    for (std::size_t k = 0; k < 4; ++k) elements[i][k] = reader.componentAt(from, k);
+std::vector<Vec3f> readVectors(const GltfDocument& document, const GltfValue& reference) {
+  const AccessorReader reader = readerOf(document, reference, "VEC3");
+  return reader.read<Vec3f>(1, [&](Vec3f* to, const std::uint8_t* from) {
+    *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};
   });
-  return elements;
 }
 
-std::vector<Vec2f> readUvs(const GltfDocument& document, std::size_t accessor) {
-  const Reader reader(document, accessor, TINYGLTF_TYPE_VEC2, "VEC2");
-  std::vector<Vec2f> elements = makeElements<Vec2f>(document, reader);
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    elements[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1)};
+std::vector<Vec2f> readUvs(const GltfDocument& document, const GltfValue& reference) {
+  const AccessorReader reader = readerOf(document, reference, "VEC2");
+  return reader.read<Vec2f>(1, [&](Vec2f* to, const std::uint8_t* from) {
+    *to = {reader.at(from, 0), reader.at(from, 1)};
   });
-  return elements;
 }
 
-GltfColors readColors(const GltfDocument& document, std::size_t accessor) {
-  const bool alpha = document.model().accessors[accessor].type == TINYGLTF_TYPE_VEC4;
-  const Reader reader(document, accessor, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
-                      "VEC3 or VEC4");
-  GltfColors result{makeElements<Rgb>(document, reader), false};
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    result.colors[i] = {reader.componentAt(from, 0), reader.componentAt(from, 1),
-                        reader.componentAt(from, 2)};
-    if (alpha) result.translucent = result.translucent || reader.componentAt(from, 3) < 1;
+GltfColors readColors(const GltfDocument& document, const GltfValue& reference) {
+  const GltfValue accessor = accessorOf(document, reference);
+  const bool alpha = accessor["type"].text() == "VEC4";
+  const AccessorReader reader(document, accessor, alpha ? "VEC4" : "VEC3", "VEC3 or VEC4");
+  GltfColors result;
+  result.colors = reader.read<Rgb>(1, [&](Rgb* to, const std::uint8_t* from) {
+    *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};
+    if (alpha) result.translucent = result.translucent || reader.at(from, 3) < 1;
   });
   return result;
 }
 
-std::vector<float> readTuples(const GltfDocument& document, std::size_t accessor, int type) {
-  const auto each =
-      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-  const Reader reader(document, accessor, type,
-                      type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
-                      : type == TINYGLTF_TYPE_MAT4 ? "MAT4"
-                      : type == TINYGLTF_TYPE_VEC3 ? "VEC3"
-                                                   : "VEC4");
-  document.budget().charge(reader.count(), each * sizeof(float), reader.where());
-  std::vector<float> components(reader.count() * each);
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    for (std::size_t k = 0; k < each; ++k) components[i * each + k] = reader.componentAt(from, k);
+std::vector<float> readTuples(const GltfDocument& document, const GltfValue& reference,
+                              std::string_view type) {
+  const AccessorReader reader = readerOf(document, reference, type);
+  return reader.read<float>(reader.components(), [&](float* to, const std::uint8_t* from) {
+    for (std::size_t k = 0; k < reader.components(); ++k) to[k] = reader.at(from, k);
   });
-  return components;
 }
 
-std::vector<std::uint32_t> readIndices(const GltfDocument& document, std::size_t accessor) {
-  const Reader reader(document, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
-  if (!isIndexType(reader.componentType())) {
-    throwBadScene(reader.where() + "/componentType", "expected 5121, 5123 or 5125");
-  }
-  std::vector<std::uint32_t> elements = makeElements<std::uint32_t>(document, reader);
-  reader.read([&](std::uint64_t i, const std::uint8_t* from) {
-    elements[i] = indexAt(from, reader.componentType());
-  });
-  return elements;
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, const GltfValue& reference) {
+  const AccessorReader reader = readerOf(document, reference, "SCALAR");
+  const std::uint64_t type = indexTypeOf(accessorOf(document, reference)["componentType"]);
+  return reader.read<std::uint32_t>(
+      1, [&](std::uint32_t* to, const std::uint8_t* from) { *to = indexAt(from, type); });
 }
 
 }  // namespace whit

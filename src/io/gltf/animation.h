@@ -10,7 +10,7 @@
 
 namespace whit {
 
-// What an animation moves of a node; none: it stays as the node itself has it.
+// Animated properties of a node. Properties without a track keep the value of the node itself.
 struct GltfTracks {
   std::optional<Track> translation, rotation, scale;  // 3, 4 (x, y, z, w) and 3 components
   std::optional<Track> weights;                       // of its mesh's morph targets
@@ -18,12 +18,12 @@ struct GltfTracks {
   bool place() const { return translation || rotation || scale; }
 };
 
-// By distinct names.
+// The names are distinct.
 std::vector<Animation> listGltfAnimations(const GltfDocument& document);
 
-// Of each node; none where nothing is to move or the document has no such animation. Throws
-// badScene "file#/animations/i/..." where the animation that is asked for is broken: times that do
-// not increase or are none, another number of values than of times.
+// One element for each node, without tracks unless `instant` plays an animation of the document.
+// Throws badScene "file#/animations/i/..." where the animation that is played is broken: times that
+// are missing or do not increase, or another number of values than the times demand.
 std::vector<GltfTracks> readGltfTracks(const GltfDocument& document, const Instant& instant);
 
 }  // namespace whit

@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string>
 #include <utility>
 
-#include "core/error.h"
 #include "io/gltf/accessor.h"
 
 namespace whit {
 
 namespace {
 
-using Attributes = std::map<std::string, int>;
-
 class DeformationReader {
  public:
-  DeformationReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                    const GltfDeformation& given, const std::string& where, const Mesh& mesh)
-      : document_(document), primitive_(primitive), given_(given), where_(where) {
+  DeformationReader(const GltfDocument& document, const GltfValue& primitive,
+                    const GltfDeformation& given, const Mesh& mesh)
+      : document_(document), primitive_(primitive), given_(given), where_(primitive.where()) {
     document_.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
                               where_);
     result_.positions = mesh.positions;
@@ -36,39 +33,28 @@ class DeformationReader {
  private:
   void warn(const char* what) const { document_.warnings().add(what, where_); }
 
-  static int accessorOf(const Attributes& attributes, const std::string& name) {
-    const auto found = attributes.find(name);
-    return found == attributes.end() ? -1 : found->second;
-  }
-
-  void checkLength(std::size_t found, std::size_t expected, const std::string& name) const {
+  static void checkLength(std::size_t found, std::size_t expected, const GltfValue& attribute) {
     if (found == expected) return;
-    throwBadScene(where_ + name, "expected as many as positions, " + std::to_string(expected) +
-                                     ", found " + std::to_string(found));
+    attribute.fail("as many as positions, " + std::to_string(expected) + ", found " +
+                   std::to_string(found));
   }
 
-  // Those that have a weight at some time.
+  // Reads the targets that have a weight at some time.
   void readTargets() {
-    result_.targets.resize(primitive_.targets.size());
-    for (std::size_t i = 0; i < primitive_.targets.size(); ++i) {
+    const GltfValue targets = primitive_["targets"];
+    result_.targets.resize(targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
       const bool weighs = i < given_.weights.size() && given_.weights[i] != 0;
       if (!weighs && !given_.movingWeights) continue;
-      const Attributes& target = primitive_.targets[i];
-      result_.targets[i] = {vectors(target, "POSITION", result_.positions.size()),
-                            vectors(target, "NORMAL", result_.normals.size())};
+      result_.targets[i] = {vectors(targets[i]["POSITION"], result_.positions.size()),
+                            vectors(targets[i]["NORMAL"], result_.normals.size())};
     }
   }
 
-  std::vector<Vec3f> vectors(const Attributes& target, const std::string& name,
-                             std::size_t expected) const {
-    const int accessor = accessorOf(target, name);
-    if (accessor < 0 || expected == 0) return {};
-    if (static_cast<std::size_t>(accessor) >= document_.model().accessors.size()) {
-      warn("morph target that cannot be read left out");
-      return {};
-    }
-    std::vector<Vec3f> moved = readVectors(document_, static_cast<std::size_t>(accessor));
-    checkLength(moved.size(), expected, "/targets");
+  std::vector<Vec3f> vectors(const GltfValue& attribute, std::size_t expected) const {
+    if (!attribute.exists() || expected == 0) return {};
+    std::vector<Vec3f> moved = readVectors(document_, attribute);
+    checkLength(moved.size(), expected, attribute);
     return moved;
   }
 
@@ -76,13 +62,14 @@ class DeformationReader {
     const std::size_t count = result_.positions.size();
     std::vector<std::vector<float>> joints, weights;
     for (int set = 0;; ++set) {
-      const int j = accessorOf(primitive_.attributes, "JOINTS_" + std::to_string(set));
-      const int w = accessorOf(primitive_.attributes, "WEIGHTS_" + std::to_string(set));
-      if (j < 0 || w < 0) break;
-      joints.push_back(fours(j));
-      weights.push_back(fours(w));
-      checkLength(joints.back().size() / 4, count, "/attributes/JOINTS");
-      checkLength(weights.back().size() / 4, count, "/attributes/WEIGHTS");
+      const GltfValue attributes = primitive_["attributes"];
+      const GltfValue j = attributes["JOINTS_" + std::to_string(set)];
+      const GltfValue w = attributes["WEIGHTS_" + std::to_string(set)];
+      if (!j.exists() || !w.exists()) break;
+      joints.push_back(readTuples(document_, j, "VEC4"));
+      weights.push_back(readTuples(document_, w, "VEC4"));
+      checkLength(joints.back().size() / 4, count, j);
+      checkLength(weights.back().size() / 4, count, w);
     }
     if (joints.empty())
       return warn("skinned mesh without joints and weights shown as it was modelled");
@@ -97,10 +84,6 @@ class DeformationReader {
       }
       closeVertex();
     }
-  }
-
-  std::vector<float> fours(int accessor) const {
-    return readTuples(document_, static_cast<std::size_t>(accessor), TINYGLTF_TYPE_VEC4);
   }
 
   void hold(float joint, double weight) {
@@ -124,9 +107,9 @@ class DeformationReader {
   }
 
   const GltfDocument& document_;
-  const tinygltf::Primitive& primitive_;
+  GltfValue primitive_;
   const GltfDeformation& given_;
-  const std::string& where_;
+  std::string where_;
   Deformation result_;
 };
 
@@ -137,9 +120,9 @@ bool GltfDeformation::none() const {
          std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; });
 }
 
-void deform(const GltfDocument& document, const tinygltf::Primitive& primitive,
-            const GltfDeformation& deformation, const std::string& where, Mesh& mesh) {
-  Deformation own = DeformationReader(document, primitive, deformation, where, mesh).read();
+void deform(const GltfDocument& document, const GltfValue& primitive,
+            const GltfDeformation& deformation, Mesh& mesh) {
+  Deformation own = DeformationReader(document, primitive, deformation, mesh).read();
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "io/gltf/document.h"
@@ -25,12 +24,11 @@ struct GltfDeformation {
   bool none() const;
 };
 
-// Bends the primitive's mesh as it is at the start, and gives it the deformation where that depends
-// on time. Tangents are left out: the directions of normal maps follow from texture coordinates.
-// Counted in the document's warnings: targets that cannot be read, which are left out; vertices
-// that no joint holds, which stay where they were modelled. Throws as the accessors do, and
-// badScene where attributes differ in length.
-void deform(const GltfDocument& document, const tinygltf::Primitive& primitive,
-            const GltfDeformation& deformation, const std::string& where, Mesh& mesh);
+// Deforms the primitive's mesh as it is at the start, and gives it the deformation where that
+// depends on time. Tangents are left out: the directions of normal maps follow from texture
+// coordinates. Vertices that no joint holds stay where they were modelled and are counted in the
+// document's warnings. Throws as the accessors do, and badScene where attributes differ in length.
+void deform(const GltfDocument& document, const GltfValue& primitive,
+            const GltfDeformation& deformation, Mesh& mesh);
 
 }  // namespace whit

@@ -83,7 +83,8 @@ std::string keyOf(const GltfMaterial& m) {
   for (const GltfTexture* map :
        {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.specularMap,
         &m.specularColorMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap}) {
-    key << map->image << ' ' << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
+    key << (map->image ? static_cast<std::int64_t>(*map->image) : -1) << ' '
+        << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
       << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' ' << m.metallic
@@ -106,7 +107,7 @@ GltfMapMaker::GltfMapMaker(const GltfDocument& document) : warnings_(document.wa
 GltfMapMaker::~GltfMapMaker() = default;
 
 std::shared_ptr<GltfImage> GltfMapMaker::image(const GltfTexture& map) const {
-  return map.exists() ? images_[static_cast<std::size_t>(map.image)] : nullptr;
+  return map.image ? images_[*map.image] : nullptr;
 }
 
 GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {

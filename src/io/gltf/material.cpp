@@ -10,26 +10,22 @@
 namespace whit {
 namespace {
 
-using Value = tinygltf::Value;
-
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
 constexpr float kLeastAttenuation = 1e-6f;  // of a color; the logarithm is taken
 
-Rgb colorOf(const Value& object, const char* key, const Rgb& fallback) {
-  if (!object.Has(key)) return fallback;
-  const Value& list = object.Get(key);
-  const auto at = [&](int i) { return static_cast<float>(list.Get(i).GetNumberAsDouble()); };
-  return {at(0), at(1), at(2)};
+Rgb colorOf(const GltfValue& color, const Rgb& fallback) {
+  const std::vector<double> c = color.numbers(3);
+  if (c.empty()) return fallback;
+  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
 }
 
 class GltfMaterialReader {
  public:
-  GltfMaterialReader(const GltfDocument& document, const tinygltf::Material& source,
-                     std::string where)
+  GltfMaterialReader(const GltfDocument& document, const GltfValue& source)
       : document_(document), source_(source) {
-    m_.name = source.name;
-    m_.doubleSided = source.doubleSided;
-    m_.where = std::move(where);
+    m_.name = source["name"].text();
+    m_.doubleSided = source["doubleSided"].flag();
+    m_.where = source.where();
   }
 
   GltfMaterial convert() {
@@ -37,16 +33,13 @@ class GltfMaterialReader {
     maps();
     extensions();
     countCoordinatesLeftOut();
-    countMapsLeftOut();
     return std::move(m_);
   }
 
  private:
   void warn(const char* what) { document_.warnings().add(what, m_.where); }
 
-  const Value* named(const char* extension) const {
-    return findExtension(source_.extensions, extension);
-  }
+  GltfValue extension(const char* name) const { return source_["extensions"][name]; }
 
   float unit(double x) {
     if (x >= 0 && x <= 1) return static_cast<float>(x);
@@ -60,48 +53,45 @@ class GltfMaterialReader {
   Rgb unit(const Rgb& c) { return {unit(c.x), unit(c.y), unit(c.z)}; }
 
   void factors() {
-    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
-    const std::vector<double>& base = pbr.baseColorFactor;
+    const GltfValue pbr = source_["pbrMetallicRoughness"];
+    std::vector<double> base = pbr["baseColorFactor"].numbers(4);
+    if (base.empty()) base = {1, 1, 1, 1};
     m_.base = {unit(base[0]), unit(base[1]), unit(base[2])};
     m_.alpha = unit(base[3]);
-    m_.metallic = unit(pbr.metallicFactor);
-    m_.roughness = unit(pbr.roughnessFactor);
-    const std::vector<double>& e = source_.emissiveFactor;
-    // Above 1 is a strength that some writers leave in.
-    for (std::size_t i = 0; i < 3; ++i) {
-      m_.emission[static_cast<int>(i)] = emission(e[i]);
-    }
-    if (source_.alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
-    if (source_.alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
-    if (source_.alphaMode != "OPAQUE" && m_.alphaMode == GltfMaterial::Alpha::opaque) {
+    m_.metallic = unit(pbr["metallicFactor"].number(1));
+    m_.roughness = unit(pbr["roughnessFactor"].number(1));
+    const std::vector<double> e = source_["emissiveFactor"].numbers(3);
+    // Some writers store a strength above 1 here.
+    for (std::size_t i = 0; i < e.size(); ++i) m_.emission[static_cast<int>(i)] = emission(e[i]);
+    const std::string alphaMode = source_["alphaMode"].text("OPAQUE");
+    if (alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
+    if (alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
+    if (alphaMode != "OPAQUE" && m_.alphaMode == GltfMaterial::Alpha::opaque) {
       warn("unknown alpha mode taken as OPAQUE");
     }
-    m_.alphaCutoff = static_cast<float>(std::clamp(source_.alphaCutoff, 0.0, 2.0));
+    m_.alphaCutoff = static_cast<float>(std::clamp(source_["alphaCutoff"].number(0.5), 0.0, 2.0));
   }
 
   void maps() {
-    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
-    m_.baseMap = texture(pbr.baseColorTexture);
-    m_.unlit = named("KHR_materials_unlit") != nullptr;
+    const GltfValue pbr = source_["pbrMetallicRoughness"], normal = source_["normalTexture"];
+    m_.baseMap = texture(pbr["baseColorTexture"]);
+    m_.unlit = extension("KHR_materials_unlit").exists();
     if (m_.unlit) {
       m_.metallic = 0;
       m_.emission = Rgb();
       return;
     }
-    m_.metallicRoughnessMap = texture(pbr.metallicRoughnessTexture);
-    m_.normalMap = texture(source_.normalTexture);
-    m_.normalScale = static_cast<float>(std::clamp(source_.normalTexture.scale, -1e3, 1e3));
-    m_.emissiveMap = texture(source_.emissiveTexture);
+    m_.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
+    m_.normalMap = texture(normal);
+    m_.normalScale = static_cast<float>(std::clamp(normal["scale"].number(1), -1e3, 1e3));
+    m_.emissiveMap = texture(source_["emissiveTexture"]);
   }
 
-  template <typename Info>
-  GltfTexture texture(const Info& info) const {
-    return readGltfTexture(document_, m_.where, info.index, info.texCoord, info.extensions);
+  GltfTexture texture(const GltfValue& info) const {
+    return readGltfTexture(document_, m_.where, info);
   }
-  // Of an extension.
-  GltfTexture texture(const Value& extension, const char* slot) const {
-    if (m_.unlit || !extension.Has(slot)) return {};
-    return readGltfTexture(document_, m_.where, extension.Get(slot));
+  GltfTexture extensionTexture(const GltfValue& info) const {
+    return m_.unlit ? GltfTexture() : texture(info);
   }
 
   void countCoordinatesLeftOut() {
@@ -125,35 +115,22 @@ class GltfMaterialReader {
   }
 
   void extensions() {
-    if (const Value* e = named("KHR_materials_ior")) ior(numberOf(*e, "ior", 1.5));
+    ior(extension("KHR_materials_ior")["ior"].number(1.5));
     const float step = (m_.ior - 1) / (m_.ior + 1);
     m_.specularColor = Rgb(step * step);
-    if (const Value* e = named("KHR_materials_specular")) specular(*e);
-    if (const Value* e = named("KHR_materials_emissive_strength")) {
-      m_.emission *= emission(numberOf(*e, "emissiveStrength", 1));
-    }
-    if (const Value* e = named("KHR_materials_transmission")) transmission(*e);
-    if (const Value* e = named("KHR_materials_volume")) volume(*e);
-    if (const Value* e = named("KHR_materials_clearcoat")) {
-      m_.clearcoat = unit(numberOf(*e, "clearcoatFactor", 0));
-      m_.clearcoatRoughness = unit(numberOf(*e, "clearcoatRoughnessFactor", 0));
-      m_.clearcoatMap = texture(*e, "clearcoatTexture");
-      m_.clearcoatRoughnessMap = texture(*e, "clearcoatRoughnessTexture");
-    }
-  }
-
-  void countMapsLeftOut() {
-    constexpr struct {
-      const char *extension, *map, *warning;
-    } kMaps[] = {
-        {"KHR_materials_clearcoat", "clearcoatNormalTexture", "normal map of a clearcoat left out"},
-        {"KHR_materials_volume", "thicknessTexture",
-         "thickness of a volume by a texture left out: what the mesh encloses counts"},
-    };
-    for (const auto& [extension, map, warning] : kMaps) {
-      const Value* e = named(extension);
-      if (e && e->Has(map)) warn(warning);
-    }
+    specular(extension("KHR_materials_specular"));
+    m_.emission *=
+        emission(extension("KHR_materials_emissive_strength")["emissiveStrength"].number(1));
+    const GltfValue transmission = extension("KHR_materials_transmission");
+    m_.transmission = unit(transmission["transmissionFactor"].number(0));
+    m_.transmissionMap = extensionTexture(transmission["transmissionTexture"]);
+    volume(extension("KHR_materials_volume"));
+    const GltfValue coat = extension("KHR_materials_clearcoat");
+    m_.clearcoat = unit(coat["clearcoatFactor"].number(0));
+    m_.clearcoatRoughness = unit(coat["clearcoatRoughnessFactor"].number(0));
+    m_.clearcoatMap = extensionTexture(coat["clearcoatTexture"]);
+    m_.clearcoatRoughnessMap = extensionTexture(coat["clearcoatRoughnessTexture"]);
+    if (coat["clearcoatNormalTexture"].exists()) warn("normal map of a clearcoat left out");
   }
 
   void ior(double x) {
@@ -161,24 +138,22 @@ class GltfMaterialReader {
     m_.ior = static_cast<float>(std::clamp(x, 1.0, static_cast<double>(kLargestIor)));
   }
 
-  void specular(const Value& e) {
-    m_.f90 = unit(numberOf(e, "specularFactor", 1));
-    m_.specularColor = m_.specularColor * colorOf(e, "specularColorFactor", Rgb(1.0f));
-    m_.specularMap = texture(e, "specularTexture");
-    m_.specularColorMap = texture(e, "specularColorTexture");
+  void specular(const GltfValue& e) {
+    m_.f90 = unit(e["specularFactor"].number(1));
+    m_.specularColor = m_.specularColor * colorOf(e["specularColorFactor"], Rgb(1.0f));
+    m_.specularMap = extensionTexture(e["specularTexture"]);
+    m_.specularColorMap = extensionTexture(e["specularColorTexture"]);
   }
 
-  void transmission(const Value& e) {
-    m_.transmission = unit(numberOf(e, "transmissionFactor", 0));
-    m_.transmissionMap = texture(e, "transmissionTexture");
-  }
-
-  void volume(const Value& e) {
-    if (numberOf(e, "thicknessFactor", 0) < 0) warn("negative thickness of a volume left out");
-    if (!e.Has("attenuationDistance")) return;  // infinite
-    const double distance = numberOf(e, "attenuationDistance", 0);
+  void volume(const GltfValue& e) {
+    if (e["thicknessTexture"].exists()) {
+      warn("thickness of a volume by a texture left out: what the mesh encloses counts");
+    }
+    if (e["thicknessFactor"].number(0) < 0) warn("negative thickness of a volume left out");
+    if (!e["attenuationDistance"].exists()) return;  // infinite
+    const double distance = e["attenuationDistance"].number(0);
     if (!(distance > 0)) return warn("attenuation distance that is not above 0 left out");
-    const Rgb color = unit(colorOf(e, "attenuationColor", Rgb(1.0f)));
+    const Rgb color = unit(colorOf(e["attenuationColor"], Rgb(1.0f)));
     for (int i = 0; i < 3; ++i) {
       const double kept = std::max(color[i], kLeastAttenuation);
       m_.absorption[i] = static_cast<float>(std::min(-std::log(kept) / distance, 1e18));
@@ -186,7 +161,7 @@ class GltfMaterialReader {
   }
 
   const GltfDocument& document_;
-  const tinygltf::Material& source_;
+  GltfValue source_;
   GltfMaterial m_;
 };
 
@@ -216,10 +191,9 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
-  const std::vector<tinygltf::Material>& sources = document.model().materials;
+  const GltfValue sources = document.list("materials");
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    materials.push_back(
-        GltfMaterialReader(document, sources[i], document.where("materials", i)).convert());
+    materials.push_back(GltfMaterialReader(document, sources[i]).convert());
   }
   GltfMaterial fallback;
   fallback.name = "default";

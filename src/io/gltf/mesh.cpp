@@ -11,93 +11,83 @@
 namespace whit {
 namespace {
 
+// Values of a primitive's mode; smaller ones are points and lines.
+constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                  const std::vector<GltfMaterial>& materials, const GltfDeformation& deformation,
-                  std::string where)
+  PrimitiveReader(const GltfDocument& document, const GltfValue& primitive,
+                  const std::vector<GltfMaterial>& materials, const GltfDeformation& deformation)
       : document_(document),
         primitive_(primitive),
+        attributes_(primitive.need("attributes")),
         deformation_(deformation),
-        where_(std::move(where)) {
-    const bool named = primitive.material >= 0;
-    material_ = named ? static_cast<std::size_t>(primitive.material) : materials.size() - 1;
-    coordinates_ = materials[material_].coordinates();
-    opaque_ = materials[material_].alphaMode == GltfMaterial::Alpha::opaque;
-  }
+        mode_(primitive["mode"].whole(kTriangles, kTriangleFan)),
+        material_(
+            primitive["material"].index(document.list("materials")).value_or(materials.size() - 1)),
+        coordinates_(materials[material_].coordinates()),
+        opaque_(materials[material_].alphaMode == GltfMaterial::Alpha::opaque) {}
 
-  // False: nothing to be seen.
+  // Returns false where nothing is to be seen.
   bool read(Mesh& mesh) {
-    const bool triangles = primitive_.mode == TINYGLTF_MODE_TRIANGLES ||
-                           primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-                           primitive_.mode == TINYGLTF_MODE_TRIANGLE_FAN;
-    const int position = attribute("POSITION");
-    if (!triangles || position < 0) {
-      warn(triangles ? "primitive without positions left out" : "points or lines left out");
+    const GltfValue position = attributes_["POSITION"];
+    if (mode_ < kTriangles || !position.exists()) {
+      warn(mode_ < kTriangles ? "points or lines left out"
+                              : "primitive without positions left out");
       return false;
     }
     refuseDraco(position);
-    mesh.positions = readVectors(document_, static_cast<std::size_t>(position));
+    mesh.positions = readVectors(document_, position);
     readNormals(mesh);
     mesh.uvs = textureCoordinates(mesh, coordinates_.first);
     if (coordinates_.areTwo()) mesh.secondUvs = secondTextureCoordinates(mesh);
     readVertexColors(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (!deformation_.none()) deform(document_, primitive_, deformation_, where_, mesh);
+    if (!deformation_.none()) deform(document_, primitive_, deformation_, mesh);
     return !mesh.triangles.empty();
   }
 
  private:
-  void warn(const char* what) { document_.warnings().add(what, where_); }
+  void warn(const char* what) { document_.warnings().add(what, primitive_.where()); }
 
-  int attribute(const std::string& name) const {
-    const auto found = primitive_.attributes.find(name);
-    return found == primitive_.attributes.end() ? -1 : found->second;
+  // A fallback that is not compressed is read as if there were no extension.
+  void refuseDraco(const GltfValue& position) const {
+    const bool stored = accessorOf(document_, position)["bufferView"].exists();
+    if (stored || !primitive_["extensions"][kDraco].exists()) return;
+    throwBadScene(primitive_.where(),
+                  std::string("compressed by ") + kDraco + ", which is not supported");
   }
 
-  // A fallback that is not compressed will do.
-  void refuseDraco(int position) const {
-    const tinygltf::Accessor& accessor =
-        document_.model().accessors[static_cast<std::size_t>(position)];
-    if (accessor.bufferView < 0 && primitive_.extensions.count(kDraco) > 0) {
-      throwBadScene(where_, std::string("compressed by ") + kDraco + ", which is not supported");
-    }
-  }
-
-  template <typename Values>
-  void checkLength(const Values& values, const Mesh& mesh, const std::string& name) const {
-    if (values.size() == mesh.positions.size()) return;
-    throwBadScene(where_ + "/attributes/" + name, "expected as many as positions, " +
-                                                      std::to_string(mesh.positions.size()) +
-                                                      ", found " + std::to_string(values.size()));
+  static void checkLength(std::size_t found, const Mesh& mesh, const GltfValue& attribute) {
+    if (found == mesh.positions.size()) return;
+    attribute.fail("as many as positions, " + std::to_string(mesh.positions.size()) + ", found " +
+                   std::to_string(found));
   }
 
   void readNormals(Mesh& mesh) const {
-    const int normal = attribute("NORMAL");
-    if (normal < 0) return;
-    mesh.normals = readVectors(document_, static_cast<std::size_t>(normal));
-    checkLength(mesh.normals, mesh, "NORMAL");
+    const GltfValue normal = attributes_["NORMAL"];
+    if (!normal.exists()) return;
+    mesh.normals = readVectors(document_, normal);
+    checkLength(mesh.normals.size(), mesh, normal);
   }
 
   void readVertexColors(Mesh& mesh) {
-    const int color = attribute("COLOR_0");
-    if (color < 0) return;
-    GltfColors read = readColors(document_, static_cast<std::size_t>(color));
+    const GltfValue color = attributes_["COLOR_0"];
+    if (!color.exists()) return;
+    GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
-    checkLength(mesh.colors, mesh, "COLOR_0");
+    checkLength(mesh.colors.size(), mesh, color);
     if (read.translucent && !opaque_) warn("alpha of vertex colors left out");
   }
 
-  // None where the primitive has none of that set.
+  // Empty where the primitive does not have this set.
   std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
-    const std::string name = "TEXCOORD_" + std::to_string(uv.set);
-    const int coordinates = attribute(name);
-    if (coordinates < 0) return {};
-    std::vector<Vec2f> uvs = readUvs(document_, static_cast<std::size_t>(coordinates));
-    checkLength(uvs, mesh, name);
+    const GltfValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
+    if (!coordinates.exists()) return {};
+    std::vector<Vec2f> uvs = readUvs(document_, coordinates);
+    checkLength(uvs.size(), mesh, coordinates);
     for (Vec2f& at : uvs) {
       const double u = at.x, v = at.y;
       at.x = static_cast<float>(uv.uu * u + uv.uv * v + uv.u0);
@@ -106,23 +96,22 @@ class PrimitiveReader {
     return uvs;
   }
 
-  // Never none: a scene without any looks all maps up with the first.
+  // Never empty: a scene without second coordinates looks all maps up with the first.
   std::vector<Vec2f> secondTextureCoordinates(const Mesh& mesh) const {
     std::vector<Vec2f> uvs = textureCoordinates(mesh, coordinates_.second);
     if (!uvs.empty()) return uvs;
-    document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), where_);
+    document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
     uvs.resize(mesh.positions.size());
     return uvs;
   }
 
   std::vector<std::uint32_t> corners(std::size_t vertices) {
-    if (primitive_.indices >= 0) {
-      return readIndices(document_, static_cast<std::size_t>(primitive_.indices));
-    }
+    const GltfValue indices = primitive_["indices"];
+    if (indices.exists()) return readIndices(document_, indices);
     if (vertices > std::numeric_limits<std::uint32_t>::max()) {
-      throwLimit(where_ + ": more than 2^32 - 1 vertices");
+      throwLimit(primitive_.where() + ": more than 2^32 - 1 vertices");
     }
-    document_.budget().charge(vertices, sizeof(std::uint32_t), where_);
+    document_.budget().charge(vertices, sizeof(std::uint32_t), primitive_.where());
     std::vector<std::uint32_t> all(vertices);
     for (std::size_t i = 0; i < vertices; ++i) all[i] = static_cast<std::uint32_t>(i);
     return all;
@@ -130,13 +119,13 @@ class PrimitiveReader {
 
   // The winding of the specification; indices that are out of range are dropped later.
   void connect(Mesh& mesh, const std::vector<std::uint32_t>& c) {
-    const bool separate = primitive_.mode == TINYGLTF_MODE_TRIANGLES;
+    const bool separate = mode_ == kTriangles;
     const std::size_t count =
         separate ? c.size() / 3 : c.size() - std::min<std::size_t>(c.size(), 2);
     if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
-    document_.budget().charge(count, sizeof(mesh.triangles[0]), where_);
+    document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
     mesh.triangles.reserve(count);
-    if (primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP) return addStrip(c, mesh.triangles);
+    if (mode_ == kTriangleStrip) return addStrip(c, mesh.triangles);
     for (std::size_t i = 0; i < count; ++i) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
@@ -147,12 +136,12 @@ class PrimitiveReader {
   }
 
   const GltfDocument& document_;
-  const tinygltf::Primitive& primitive_;
+  GltfValue primitive_, attributes_;
   const GltfDeformation& deformation_;
-  std::string where_;
-  std::size_t material_ = 0;
+  std::uint64_t mode_;
+  std::size_t material_;
   GltfMaterial::Coordinates coordinates_;
-  bool opaque_ = true;
+  bool opaque_;
 };
 
 }  // namespace
@@ -160,13 +149,12 @@ class PrimitiveReader {
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t index,
                                const std::vector<GltfMaterial>& materials,
                                const GltfDeformation& deformation) {
-  const tinygltf::Mesh& source = document.model().meshes[index];
+  const GltfValue source = document.list("meshes")[index], primitives = source.need("primitives");
   std::vector<Mesh> meshes;
-  for (std::size_t i = 0; i < source.primitives.size(); ++i) {
-    const std::string where = document.where("meshes", index, "/primitives/" + std::to_string(i));
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
     Mesh mesh;
-    mesh.name = source.name;
-    PrimitiveReader reader(document, source.primitives[i], materials, deformation, where);
+    mesh.name = source["name"].text();
+    PrimitiveReader reader(document, primitives[i], materials, deformation);
     if (reader.read(mesh)) {
       meshes.push_back(std::move(mesh));
     }

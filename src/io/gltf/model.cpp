@@ -123,7 +123,7 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
 
 std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                                  const std::vector<std::uint32_t>& materials) const {
-  const std::uint32_t body = layout.add(document_.model().meshes[placed.mesh].name);
+  const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].text());
   addParts(readGltfMesh(document_, placed.mesh, sources_, placed.deformation), materials,
            document_.name(), document_.budget(), layout.body(body));
   return body;
@@ -131,8 +131,8 @@ std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layo
 
 // The node's, or its mesh's.
 std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
-  const std::string& node = document_.model().nodes[placed.node].name;
-  const std::string& mesh = document_.model().meshes[placed.mesh].name;
+  const std::string node = document_.list("nodes")[placed.node]["name"].text();
+  const std::string mesh = document_.list("meshes")[placed.mesh]["name"].text();
   if (!node.empty()) return node;
   return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
 }
@@ -157,9 +157,9 @@ Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& m
                              std::make_shared<const std::string>(nameOf(placed))});
   }
   if (empty) {
-    warnNothingToDraw(document_.model().meshes.empty() ? "no meshes"
-                      : stage_.meshes.empty()          ? "no node shows a mesh"
-                                                       : "its meshes have no triangles",
+    warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
+                      : stage_.meshes.empty()              ? "no node shows a mesh"
+                                                           : "its meshes have no triangles",
                       document_.name(), document_.warnings());
   }
   return all;

@@ -19,11 +19,9 @@
 namespace whit {
 namespace {
 
-constexpr double kLargestHeight = 1e9;  // of what an orthographic camera shows
-constexpr char kLightsExtension[] = "KHR_lights_punctual";
-constexpr char kInstancesExtension[] = "EXT_mesh_gpu_instancing";
-constexpr std::size_t kTopmost = ~std::size_t{0};
-constexpr char kInstancesPath[] = "/extensions/EXT_mesh_gpu_instancing/attributes";
+constexpr double kLargestHeight = 1e9;  // of an orthographic camera's view
+constexpr char kLights[] = "KHR_lights_punctual";
+constexpr std::size_t kTopmost = ~std::size_t{0};  // parent of a node without one
 
 Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
   return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
@@ -103,47 +101,45 @@ class NodeMotion : public Motion {
   GltfTracks tracks_;
 };
 
-// A document's skins, whose joints may come later in the tree than the meshes they hold.
+[[noreturn]] void failTooDeep(const GltfDocument& document, std::size_t node) {
+  throwBadScene(document.list("nodes")[node].where(),
+                "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+}
+
+// Reads the skins of a document. Joints may come later in the tree than the meshes they hold.
 class SkinReader {
  public:
   // `nodeAt(index)` is a node of the document within its parent.
   using NodeAt = std::function<RigNode(std::size_t index)>;
   SkinReader(const GltfDocument& document, const std::vector<std::size_t>& parents, NodeAt nodeAt)
-      : document_(document),
-        model_(document.model()),
-        parents_(parents),
-        nodeAt_(std::move(nodeAt)) {}
+      : document_(document), parents_(parents), nodeAt_(std::move(nodeAt)) {}
 
-  // Of the skin with that number; no skeleton where it cannot be read.
   const GltfDeformation& read(std::size_t skin) {
     const auto [known, isNew] = skins_.try_emplace(skin);
     if (isNew) {
       places_.clear();
       rig_.clear();
-      std::vector<Deformation::Joint> joints = jointsOf(skin);
-      if (!joints.empty()) {
-        known->second.joints = std::move(joints);
-        known->second.skeleton = std::make_shared<const Rig>(std::move(rig_));
-      }
+      known->second.joints = jointsOf(document_.list("skins")[skin]);
+      known->second.skeleton = std::make_shared<const Rig>(std::move(rig_));
     }
     return known->second;
   }
 
  private:
-  // None where they cannot be read.
-  std::vector<Deformation::Joint> jointsOf(std::size_t skin) {
-    const LooseJson source = document_.skins().at(skin), joints = source["joints"];
+  std::vector<Deformation::Joint> jointsOf(const GltfValue& skin) {
+    const GltfValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
+    const GltfValue nodes = document_.list("nodes");
     std::vector<Deformation::Joint> all;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const auto node = joints.at(i).index(model_.nodes.size());
-      if (!node) return {};
-      all.push_back({place(*node), Affine()});
+      all.push_back({place(joints[i].index(nodes).value_or(0)), Affine()});
     }
-    if (!source["inverseBindMatrices"].exists()) return all;
-    const auto inverse = source["inverseBindMatrices"].index(model_.accessors.size());
-    if (!inverse || model_.accessors[*inverse].type != TINYGLTF_TYPE_MAT4) return {};
-    const std::vector<float> numbers = readTuples(document_, *inverse, TINYGLTF_TYPE_MAT4);
-    if (numbers.size() < 16 * all.size()) return {};
+    if (all.empty()) joints.fail("at least one joint");
+    if (!inverse.exists()) return all;
+    const std::vector<float> numbers = readTuples(document_, inverse, "MAT4");
+    if (numbers.size() < 16 * all.size()) {
+      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints, found " +
+                   std::to_string(numbers.size() / 16));
+    }
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
                                numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
@@ -151,18 +147,15 @@ class SkinReader {
     return all;
   }
 
-  // The node in the skeleton, to which it is added with what is above it.
+  // Returns the node's index in the skeleton, after adding the node and its ancestors to it.
   std::uint32_t place(std::size_t index) {
     std::vector<std::size_t> chain;
     for (std::size_t at = index; at != kTopmost && !places_.contains(at); at = parents_[at]) {
-      if (chain.size() > kGltfDepthLimit) {
-        throwBadScene(document_.where("nodes", index),
-                      "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
-      }
+      if (chain.size() > kGltfDepthLimit) failTooDeep(document_, index);
       chain.push_back(at);
     }
     for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
-      document_.budget().charge(1, 2 * sizeof(RigNode), document_.where("nodes", *at));
+      document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
       RigNode node = nodeAt_(*at);
       if (parents_[*at] != kTopmost) node.parent = places_.at(parents_[*at]);
       places_[*at] = static_cast<std::uint32_t>(rig_.size());
@@ -172,8 +165,7 @@ class SkinReader {
   }
 
   const GltfDocument& document_;
-  const tinygltf::Model& model_;
-  const std::vector<std::size_t>& parents_;  // or kTopmost
+  const std::vector<std::size_t>& parents_;
   NodeAt nodeAt_;
   std::map<std::size_t, std::uint32_t> places_;  // of nodes in rig_
   Rig rig_;
@@ -185,11 +177,11 @@ class TreeReader {
   TreeReader(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
              const std::set<std::string>& movable)
       : document_(document),
-        model_(document.model()),
+        nodes_(document.list("nodes")),
         tracks_(tracks),
         movable_(movable),
         skins_(document, parents_, [this](std::size_t index) { return nodeOf(index); }),
-        seen_(model_.nodes.size()) {}
+        seen_(nodes_.size()) {}
 
   GltfStage read() {
     checkTree();
@@ -200,68 +192,67 @@ class TreeReader {
 
  private:
   void warn(const char* what, std::size_t node) {
-    document_.warnings().add(what, document_.where("nodes", node));
+    document_.warnings().add(what, nodes_[node].where());
   }
 
-  // No node has two parents or is its own ancestor, which then is a root that is never reached.
+  // No node may have two parents. A node that is its own ancestor is found by visit().
   void checkTree() {
-    std::vector<bool> hasParent(model_.nodes.size());
-    parents_.assign(model_.nodes.size(), kTopmost);
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      for (const int child : model_.nodes[i].children) {
-        const auto c = static_cast<std::size_t>(child);
-        if (hasParent[c]) {
-          throwBadScene(document_.where("nodes", i, "/children"),
-                        "expected a tree: node " + std::to_string(child) + " has two parents");
+    parents_.assign(nodes_.size(), kTopmost);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const GltfValue children = nodes_[i]["children"];
+      for (std::size_t k = 0; k < children.size(); ++k) {
+        std::size_t& parent = parents_[children[k].index(nodes_).value_or(0)];
+        if (parent != kTopmost) {
+          children.fail("a tree: node " + std::to_string(*children[k].index(nodes_)) +
+                        " has two parents");
         }
-        hasParent[c] = true;
-        parents_[c] = i;
+        parent = i;
       }
     }
-    for (std::size_t i = 0; i < hasParent.size(); ++i) {
-      if (!hasParent[i]) topmost_.push_back(i);
+    for (std::size_t i = 0; i < parents_.size(); ++i) {
+      if (parents_[i] == kTopmost) topmost_.push_back(i);
     }
-    if (topmost_.empty() && !model_.nodes.empty()) {
-      throwBadScene(document_.where("nodes", 0), "expected a tree: every node has a parent");
+    if (topmost_.empty() && !parents_.empty()) {
+      nodes_[std::size_t{0}].fail("a tree: every node has a parent");
     }
   }
 
   std::vector<std::size_t> roots() const {
-    if (model_.scenes.empty()) return topmost_;
-    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
-    const std::vector<int>& nodes = model_.scenes[scene].nodes;
-    return {nodes.begin(), nodes.end()};
+    const GltfValue scenes = document_.list("scenes");
+    if (scenes.size() == 0) {
+      document_.root()["scene"].index(scenes);
+      return topmost_;
+    }
+    const std::size_t scene = document_.root()["scene"].index(scenes).value_or(0);
+    const GltfValue nodes = scenes[scene]["nodes"];
+    std::vector<std::size_t> all(nodes.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = nodes[i].index(nodes_).value_or(0);
+    return all;
   }
 
   void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, int depth) {
-    if (depth > kGltfDepthLimit) {
-      throwBadScene(document_.where("nodes", index),
-                    "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
-    }
-    if (seen_[index]) {
-      throwBadScene(document_.where("nodes", index), "expected a tree: this node is reached twice");
-    }
+    const GltfValue node = nodes_[index];
+    if (depth > kGltfDepthLimit) failTooDeep(document_, index);
+    if (seen_[index]) node.fail("a tree: this node is reached twice");
     seen_[index] = true;
-    const tinygltf::Node& node = model_.nodes[index];
     RigNode own = nodeOf(index);
     const Affine map = own.motion ? Affine() : toMover * own.toParent;
     if (own.motion) {
-      document_.budget().charge(1, 2 * sizeof(RigNode), document_.where("nodes", index));
+      document_.budget().charge(1, 2 * sizeof(RigNode), node.where());
       stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
       mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
     }
     if (!isUsable(map)) return warn("node that flattens space left out", index);
-    if (node.mesh >= 0) placeMesh(index, map, mover);
-    if (node.camera >= 0) addCamera(index, map, mover);
-    if (const tinygltf::Value* light = findExtension(node.extensions, kLightsExtension)) {
-      addLight(index, light->Get("light").GetNumberAsInt(), map, mover);
-    }
-    for (const int child : node.children) {
-      visit(static_cast<std::size_t>(child), map, mover, depth + 1);
+    if (node["mesh"].exists()) placeMesh(index, map, mover);
+    if (node["camera"].exists()) addCamera(node, map, mover);
+    if (node["extensions"][kLights].exists()) addLight(node, map, mover);
+    const GltfValue children = node["children"];
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      visit(*children[k].index(nodes_), map, mover, depth + 1);
     }
   }
 
-  // Within its parent: either where it stands or how it moves.
+  // The node within its parent: it has a place or a motion.
   RigNode nodeOf(std::size_t index) {
     RigNode node = asInFile(index);
     const std::string name = "/nodes/" + std::to_string(index);
@@ -272,7 +263,7 @@ class TreeReader {
 
   RigNode asInFile(std::size_t index) {
     const GltfTracks& tracks = tracks_[index];
-    const std::vector<double>& m = model_.nodes[index].matrix;
+    const std::vector<double> m = nodes_[index]["matrix"].numbers(16);
     if (tracks.place()) {
       return {kNoNode, Affine(), std::make_shared<const NodeMotion>(placeOf(index), tracks)};
     }
@@ -284,10 +275,12 @@ class TreeReader {
   }
 
   NodePlace placeOf(std::size_t index) {
-    const tinygltf::Node& node = model_.nodes[index];
+    const GltfValue node = nodes_[index];
     Quaternion rotation{0, 0, 0, 1};
-    std::copy(node.rotation.begin(), node.rotation.end(), rotation.begin());
-    return checked({tripleOr(node.translation, {}), rotation, tripleOr(node.scale, {1, 1, 1})},
+    const std::vector<double> turn = node["rotation"].numbers(4);
+    std::copy(turn.begin(), turn.end(), rotation.begin());
+    return checked({tripleOr(node["translation"].numbers(3), {}), rotation,
+                    tripleOr(node["scale"].numbers(3), {1, 1, 1})},
                    index);
   }
 
@@ -299,15 +292,16 @@ class TreeReader {
   }
 
   void placeMesh(std::size_t index, const Affine& map, std::uint32_t mover) {
-    const tinygltf::Node& node = model_.nodes[index];
-    const auto mesh = static_cast<std::size_t>(node.mesh);
-    const GltfDeformation deformation = deformationOf(index);
+    const GltfValue copies = nodes_[index]["extensions"]["EXT_mesh_gpu_instancing"];
+    const std::size_t mesh = *nodes_[index]["mesh"].index(document_.list("meshes"));
+    const GltfDeformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
       return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
     }
-    const tinygltf::Value* copies = findExtension(node.extensions, kInstancesExtension);
-    if (!copies) return stage_.meshes.push_back({mesh, map, mover, deformation, index});
-    for (const Affine& copy : readCopies(copies->Get("attributes"), index)) {
+    if (!copies.exists()) {
+      return stage_.meshes.push_back({mesh, map, mover, deformation, index});
+    }
+    for (const Affine& copy : readCopies(copies.need("attributes"), index)) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
         stage_.meshes.push_back({mesh, toMover, mover, deformation, index});
@@ -317,100 +311,111 @@ class TreeReader {
     }
   }
 
-  GltfDeformation deformationOf(std::size_t index) {
-    const tinygltf::Node& node = model_.nodes[index];
+  GltfDeformation deformationOf(std::size_t index, std::size_t mesh) {
+    const GltfValue node = nodes_[index];
     GltfDeformation deformation;
-    if (node.skin >= 0) {
-      const auto skin = static_cast<std::size_t>(node.skin);
-      deformation = skins_.read(skin);
+    if (const auto skin = node["skin"].index(document_.list("skins"))) {
+      deformation = skins_.read(*skin);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
-                                document_.where("skins", skin));
-      if (!deformation.skeleton) {
-        warn("skin that cannot be read: its mesh is shown as it was modelled", index);
-      }
+                                node.where());
     }
-    deformation.weights = !node.weights.empty()
-                              ? node.weights
-                              : model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
+    deformation.weights = node["weights"].numbers();
+    if (deformation.weights.empty()) {
+      deformation.weights = document_.list("meshes")[mesh]["weights"].numbers();
+    }
     deformation.movingWeights = tracks_[index].weights;
     return deformation;
   }
 
-  // EXT_mesh_gpu_instancing: where they stand within the node.
-  std::vector<Affine> readCopies(const tinygltf::Value& attributes, std::size_t index) {
-    const auto accessor = [&](const char* name) {
-      return static_cast<std::size_t>(attributes.Get(name).GetNumberAsInt());
-    };
+  // EXT_mesh_gpu_instancing: the places of the copies within the node.
+  std::vector<Affine> readCopies(const GltfValue& attributes, std::size_t index) {
+    const GltfValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
+    const GltfValue scale = attributes["SCALE"];
     std::vector<Vec3f> translations, scales;
-    std::vector<Quaternion> rotations;
-    if (attributes.Has("TRANSLATION"))
-      translations = readVectors(document_, accessor("TRANSLATION"));
-    if (attributes.Has("ROTATION")) rotations = readQuaternions(document_, accessor("ROTATION"));
-    if (attributes.Has("SCALE")) scales = readVectors(document_, accessor("SCALE"));
-    const std::size_t count = std::max({translations.size(), rotations.size(), scales.size()});
-    const std::string where = document_.where("nodes", index, kInstancesPath);
-    for (const std::size_t size : {translations.size(), rotations.size(), scales.size()}) {
-      if (size != 0 && size != count) throwBadScene(where, "expected attributes of equal lengths");
+    std::vector<float> rotations;
+    if (translation.exists()) translations = readVectors(document_, translation);
+    if (rotation.exists()) rotations = readTuples(document_, rotation, "VEC4");
+    if (scale.exists()) scales = readVectors(document_, scale);
+    const std::size_t turns = rotations.size() / 4;
+    const std::size_t count = std::max({translations.size(), turns, scales.size()});
+    for (const std::size_t size : {translations.size(), turns, scales.size()}) {
+      if (size != 0 && size != count) attributes.fail("attributes of equal lengths");
     }
-    document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance), where);
+    document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance),
+                              attributes.where());
     std::vector<Affine> copies;
     for (std::size_t i = 0; i < count; ++i) {
-      const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]),
-                            rotations.empty() ? Quaternion{0, 0, 0, 1} : rotations[i],
+      Quaternion turn{0, 0, 0, 1};
+      if (turns > 0) std::copy_n(&rotations[4 * i], 4, turn.begin());
+      const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]), turn,
                             scales.empty() ? Vec3d(1.0) : Vec3d(scales[i])};
       copies.push_back(checked(place, index).map());
     }
     return copies;
   }
 
-  void addCamera(std::size_t index, const Affine& map, std::uint32_t mover) {
-    const tinygltf::Node& node = model_.nodes[index];
-    const tinygltf::Camera& source = model_.cameras[static_cast<std::size_t>(node.camera)];
-    const double fov = source.perspective.yfov * 180 / std::numbers::pi;
-    const double xmag = std::abs(source.orthographic.xmag);
-    const double ymag = std::abs(source.orthographic.ymag);
-    const bool orthographic = source.type == "orthographic" && ymag > 0 && ymag < kLargestHeight;
-    if (!orthographic && (source.type != "perspective" || !(fov > 0 && fov < 180))) {
-      return warn("camera of an unknown type or without an extent left out", index);
-    }
+  void addCamera(const GltfValue& node, const Affine& map, std::uint32_t mover) {
+    const GltfValue cameras = document_.list("cameras");
+    const GltfValue source = cameras[*node["camera"].index(cameras)];
+    const std::string type = source.need("type").text();
     Camera camera;
-    camera.name = !node.name.empty() ? node.name : source.name.empty() ? "camera" : source.name;
+    double aspect = 0;
+    bool shows = false;
+    if (type == "perspective") {
+      const GltfValue perspective = source.need(type);
+      const double fov = perspective.need("yfov").number(0) * 180 / std::numbers::pi;
+      shows = fov > 0 && fov < 180;
+      camera.fov = static_cast<float>(fov);
+      aspect = perspective["aspectRatio"].number(0);
+    } else if (type == "orthographic") {
+      const GltfValue orthographic = source.need(type);
+      const double xmag = std::abs(orthographic.need("xmag").number(0));
+      const double ymag = std::abs(orthographic.need("ymag").number(0));
+      shows = ymag > 0 && ymag < kLargestHeight;
+      camera.orthographicHeight = static_cast<float>(2 * ymag);
+      aspect = xmag / ymag;
+    }
+    if (!shows) {
+      document_.warnings().add("camera of an unknown type or without an extent left out",
+                               node.where());
+      return;
+    }
+    camera.name = node["name"].text();
+    if (camera.name.empty()) camera.name = source["name"].text();
+    if (camera.name.empty()) camera.name = "camera";
     camera.eye = Vec3f(map.p);
     // Far enough for the direction to survive the rounding of eye and at.
     camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
     camera.up = Vec3f(normalized(map.y));
-    if (orthographic) {
-      camera.orthographicHeight = static_cast<float>(2 * ymag);
-    } else {
-      camera.fov = static_cast<float>(fov);
-    }
-    if (stage_.cameras.empty()) {
-      stage_.aspect = orthographic ? xmag / ymag : source.perspective.aspectRatio;
-    }
+    if (stage_.cameras.empty()) stage_.aspect = aspect;
     stage_.cameras.push_back(camera);
     stage_.cameraMovers.push_back(mover);
   }
 
-  void addLight(std::size_t index, int number, const Affine& map, std::uint32_t mover) {
-    const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(number)];
+  void addLight(const GltfValue& node, const Affine& map, std::uint32_t mover) {
+    const GltfValue lights = document_.root()["extensions"][kLights]["lights"];
+    const GltfValue number = node["extensions"][kLights].need("light");
+    const GltfValue source = lights[number.index(lights).value_or(0)];
+    const auto repaired = [&](const char* what) { document_.warnings().add(what, node.where()); };
     Light light;
-    light.name = source.name.empty() ? model_.nodes[index].name : source.name;
-    if (source.type == "spot") {
+    light.name = source["name"].text();
+    if (light.name.empty()) light.name = node["name"].text();
+    const std::string type = source.need("type").text();
+    if (type == "spot") {
       light.kind = Light::Kind::spot;
-      if (!setCone(source.spot, light)) warn("spot light's cone repaired", index);
-    } else if (source.type == "directional") {
+      if (!setCone(source.need("spot"), light)) repaired("spot light's cone repaired");
+    } else if (type == "directional") {
       light.kind = Light::Kind::directional;
-    } else if (source.type != "point") {
-      return warn("light of an unknown type left out", index);
+    } else if (type != "point") {
+      return repaired("light of an unknown type left out");
     }
-    if (source.range > 0 && light.kind != Light::Kind::directional) {
-      warn("light's range left out, it shines on", index);
+    if (source["range"].number(0) > 0 && light.kind != Light::Kind::directional) {
+      repaired("light's range left out, it shines on");
     }
-    const std::vector<double>& c = source.color;
-    const Vec3d color = c.empty() ? Vec3d(1.0) : Vec3d{c[0], c[1], c[2]};
+    const Vec3d color = tripleOr(source["color"].numbers(3), Vec3d(1.0));
     light.position = Vec3f(map.p);
     light.direction = Vec3f(-normalized(map.z));
-    light.intensity = Rgb(color * (source.intensity / kLumensPerWatt));
+    light.intensity = Rgb(color * (source["intensity"].number(1) / kLumensPerWatt));
     stage_.lights.push_back(light);
     stage_.lightMovers.push_back(mover);
   }
@@ -423,25 +428,26 @@ class TreeReader {
     for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].name = names[i];
   }
 
-  // False: they were not 0 <= inner <= outer, half a degree <= outer <= a right angle. Equal ones,
-  // a sharp edge, are not what the extension allows but what writers write.
-  static bool setCone(const tinygltf::SpotLight& spot, Light& light) {
+  // Returns whether 0 <= inner <= outer and half a degree <= outer <= a right angle. Equal angles,
+  // a sharp edge, are accepted: the extension forbids them, but writers produce them.
+  static bool setCone(const GltfValue& spot, Light& light) {
     constexpr double kRightAngle = std::numbers::pi / 2, kLeastOuter = std::numbers::pi / 360;
-    const double outer = std::clamp(spot.outerConeAngle, kLeastOuter, kRightAngle);
-    const double inner = std::clamp(spot.innerConeAngle, 0.0, outer);
+    const double outerAngle = spot["outerConeAngle"].number(std::numbers::pi / 4);
+    const double innerAngle = spot["innerConeAngle"].number(0);
+    const double outer = std::clamp(outerAngle, kLeastOuter, kRightAngle);
+    const double inner = std::clamp(innerAngle, 0.0, outer);
     light.outerConeAngle = static_cast<float>(outer * 180 / std::numbers::pi);
     light.innerConeAngle = std::min(static_cast<float>(inner * 180 / std::numbers::pi),
                                     std::nextafter(light.outerConeAngle, 0.0f));
     constexpr double kRounding = 1e-5;
-    return std::abs(outer - spot.outerConeAngle) < kRounding &&
-           std::abs(inner - spot.innerConeAngle) < kRounding;
+    return std::abs(outer - outerAngle) < kRounding && std::abs(inner - innerAngle) < kRounding;
   }
 
   const GltfDocument& document_;
-  const tinygltf::Model& model_;
+  GltfValue nodes_;
   const std::vector<GltfTracks>& tracks_;
   const std::set<std::string>& movable_;
-  std::vector<std::size_t> parents_;  // or kTopmost
+  std::vector<std::size_t> parents_;
   SkinReader skins_;
   std::vector<bool> seen_;
   std::vector<std::size_t> topmost_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "io/gltf/document.h"
@@ -20,18 +21,15 @@ struct GltfUvMap {
 };
 
 struct GltfTexture {
-  int image = -1;  // none
+  std::optional<std::size_t> image;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   GltfUvMap uv;
-  bool exists() const { return image >= 0; }
+  bool exists() const { return image.has_value(); }
 };
 
-// As it is named in a material, or none where `index` is negative. What cannot be represented is
-// counted in the document's warnings, as being at `where`.
-GltfTexture readGltfTexture(const GltfDocument& document, const std::string& where, int index,
-                            int texCoord, const tinygltf::ExtensionMap& extensions);
-// The same where an extension names it, of which tinygltf makes nothing.
+// `info` is what a material names a texture by; none where it does not exist. What cannot be
+// represented is counted in the document's warnings, as being at `where`.
 GltfTexture readGltfTexture(const GltfDocument& document, const std::string& where,
-                            const tinygltf::Value& info);
+                            const GltfValue& info);
 
 }  // namespace whit
