@@ -98,12 +98,8 @@ inline constexpr Kernel kUnpackHits{
 // Surfels from hits, and the kMaterial flags of them all. Absorption in the medium that a ray came
 // through is multiplied into its weight and throughput.
 inline constexpr Kernel kInterpolateSurfels{
-    "interpolateSurfels",
-    Stage::findIntersections,
-    findInterpolateSurfels,
-    {Part::rays, Part::hits},
-    {Part::surfels, Part::rays},
-    EffectSet().with(Effect::smoothNormals).with(Effect::textures).with(Effect::normalMaps)};
+    "interpolateSurfels",     Stage::findIntersections,    findInterpolateSurfels,
+    {Part::rays, Part::hits}, {Part::surfels, Part::rays}, EffectSet().with(Effect::smoothNormals)};
 
 // The width of lobes whose roughness is in a map.
 inline constexpr Kernel kLookUpRoughness{

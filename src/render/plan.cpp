@@ -60,6 +60,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
+      .with(Feature::textures, e.has(Effect::textures))
+      .with(Feature::normalMaps, e.has(Effect::normalMaps))
       .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
 }
 

@@ -29,6 +29,8 @@ namespace whit {
   X(shadows, "shadow rays")                                               \
   X(lift, "shadow rays that start above their facets (--terminator)")     \
   X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
+  X(textures, "maps of colors")                                           \
+  X(normalMaps, "maps of normals")                                        \
   X(secondUvs, "maps looked up with second texture coordinates")
 
 enum class Feature : std::uint8_t {
