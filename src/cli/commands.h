@@ -16,7 +16,6 @@ int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
 int explainCommand(const Words& words);
 int accuracyCommand(const Words& words);
-int stressCommand(const Words& words);
 int scenesCommand(const Words& words);
 int turntableCommand(const Words& words);
 
@@ -35,7 +34,6 @@ inline constexpr Command kCommands[] = {
     {"explain", "the tree of rays of one pixel", explainCommand},
     {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
     {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
-    {"stress", "the catalogue of hard cases on this machine", stressCommand},
     {"merge", "crops of one image, put together", mergeCommand},
 };
 

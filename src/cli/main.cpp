@@ -89,6 +89,7 @@ int run(const Words& words) {
     if (words[0] == command.name) return command.run(Words(words.begin() + 1, words.end()));
     names.emplace_back(command.name);
   }
+  if (words[0] == "stress") throwUsage("whit stress is the program whit-verify now");
   if (words[0][0] == '-') names = {"--help", "--version", "--man", "--completion"};
   throwUsage("there is no command '" + words[0] + "'; nearest: '" + nearestName(words[0], names) +
              "' (whit --help lists them)");

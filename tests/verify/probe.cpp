@@ -1,11 +1,11 @@
-#include "stress/probe.h"
+#include "verify/probe.h"
 
 #include <cstring>
 
 #include "render/settle_flush.h"
 #include "simd/kernels.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 RenderOptions optionsOf(const Setup& setup) {
   RenderOptions options;
@@ -216,4 +216,4 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   return film.image;
 }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

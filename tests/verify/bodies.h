@@ -2,10 +2,10 @@
 #pragma once
 
 #include "make/shapes/mesh_builder.h"
-#include "stress/probe.h"
-#include "stress/scene_builder.h"
+#include "verify/probe.h"
+#include "verify/scene_builder.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 // Subdivided icosahedron, corners rounded to float; with the sphere's normals if smooth.
 inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
@@ -85,4 +85,4 @@ inline auto described(const ProbeRay& ray) {
 // From 3 above the origin.
 inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -241,4 +241,4 @@ constexpr Case kRandomSceneCases[] = {
 
 std::span<const Case> randomSceneCases() { return kRandomSceneCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -1,8 +1,8 @@
 // H32 to H36 and H79: normals that disagree, and views along the surface.
 
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -238,4 +238,4 @@ constexpr Case kShadingNormalCases[] = {
 
 std::span<const Case> shadingNormalCases() { return kShadingNormalCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -9,7 +9,7 @@
 #include "bake/scene.h"
 #include "core/box.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 // Materials that start from black, so that a test adds up only what it names.
 inline Material blackMaterial() {
@@ -157,4 +157,4 @@ class Numbers {
   std::mt19937_64 engine_;
 };
 
-}  // namespace whit::stress
+}  // namespace whit::verify

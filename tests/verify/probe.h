@@ -6,9 +6,9 @@
 
 #include "core/worker_pool.h"
 #include "render/renderer.h"
-#include "stress/case.h"
+#include "verify/case.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 struct ProbeRay {
   Vec3f origin, direction;
@@ -96,4 +96,4 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);
 
-}  // namespace whit::stress
+}  // namespace whit::verify

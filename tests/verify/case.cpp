@@ -1,11 +1,11 @@
-#include "stress/case.h"
+#include "verify/case.h"
 
 #include <algorithm>
 
 #include "core/formatted.h"
 #include "simd/kernels.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 void Finding::merge(const Finding& other) {
   seen_ += other.seen_;
@@ -70,4 +70,4 @@ std::string hexText(const Vec3f& origin, const Vec3f& direction) {
   return "from " + hexText(origin) + " along " + hexText(direction);
 }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

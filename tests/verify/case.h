@@ -1,7 +1,7 @@
-// The catalogue of hard cases: situations in which ray tracers go wrong, each with its
-// construction, a measure of how wrong, and the bound that it must keep. `whit stress` runs them on
-// the user's machine, tests/hard as tests. The numbers H1 to H83 are those of the table in
-// tests/README.md.
+// The catalogue of hard cases: situations in which ray tracers go wrong. Each case has a
+// construction, a measure of the error and a bound that the error must keep. whit-verify runs the
+// cases on a user's machine, tests/hard runs them as tests. tests/README.md lists their numbers, H1
+// to H83.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include "core/vec3.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 // What one run of a case is made with; names as in --simd and --packet.
 struct Setup {
@@ -114,4 +114,4 @@ std::string hexText(double value);
 std::string hexText(const Vec3f& v);
 std::string hexText(const Vec3f& origin, const Vec3f& direction);
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "stress/bodies.h"
-#include "stress/probe.h"
-#include "stress/scene_builder.h"
+#include "verify/bodies.h"
+#include "verify/probe.h"
+#include "verify/scene_builder.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -312,4 +312,4 @@ constexpr Case kRefractionCases[] = {
 
 std::span<const Case> refractionCases() { return kRefractionCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

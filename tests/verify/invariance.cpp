@@ -3,9 +3,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -273,4 +273,4 @@ constexpr Case kInvarianceCases[] = {
 
 std::span<const Case> invarianceCases() { return kInvarianceCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

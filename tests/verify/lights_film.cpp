@@ -3,9 +3,9 @@
 #include "core/pixel.h"
 #include "reference/generate_rays.h"
 #include "simd/kernels.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -195,4 +195,4 @@ constexpr Case kLightAndFilmCases[] = {
 
 std::span<const Case> lightAndFilmCases() { return kLightAndFilmCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -2,9 +2,9 @@
 #include <array>
 
 #include "scene/camera.h"
-#include "stress/balls.h"
+#include "verify/balls.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -389,4 +389,4 @@ constexpr Case kSphereCases[] = {
 
 std::span<const Case> sphereCases() { return kSphereCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

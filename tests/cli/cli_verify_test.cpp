@@ -1,4 +1,4 @@
-// whit stress: the table, its JSON and page, and the sheet of scenes.
+// whit-verify: the table, its JSON and page, and the sheet of scenes.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,11 +10,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(Stress, TellsWorstAndBoundOfEveryRun) {
+Outcome runVerify(const std::vector<std::string>& words) {
+  const TemporaryFolder folder;
+  const int status = waitFor(startWhit(
+      words, folder, [] {}, WHIT_VERIFY_PROGRAM));
+  return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
+}
+
+TEST(Verify, TellsWorstAndBoundOfEveryRun) {
   const TemporaryFolder folder;
   const std::string page = (folder.path() / "hard.html").string();
   const Outcome outcome =
-      runWhit({"stress", "--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
+      runVerify({"--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_TRUE(json["machine"].contains("simd"));
@@ -40,19 +47,34 @@ TEST(Stress, TellsWorstAndBoundOfEveryRun) {
   EXPECT_EQ(html.find("http"), std::string::npos) << "needs nothing from elsewhere";
 }
 
-TEST(Stress, UnknownCasesNameTheNearest) {
-  const Outcome outcome = runWhit({"stress", "--only", "H51x"});
+TEST(Verify, UnknownCasesNameTheNearest) {
+  const Outcome outcome = runVerify({"--only", "H51x"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("'H51'"), std::string::npos) << outcome.err;
 }
 
-TEST(Stress, ASheetOfAllScenes) {
+TEST(Verify, ASheetOfAllScenes) {
   const TemporaryFolder folder;
   const std::string sheet = (folder.path() / "hard.png").string();
-  const Outcome outcome = runWhit({"stress", "--sheet", sheet});
+  const Outcome outcome = runVerify({"--sheet", sheet});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("closed-room\n"), std::string::npos) << outcome.out;
   EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
+}
+
+TEST(Verify, WhitStressNamesTheProgram) {
+  const Outcome outcome = runWhit({"stress"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("whit stress is the program whit-verify now"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(Verify, HelpListsTheOptions) {
+  const Outcome outcome = runVerify({"--help"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* option : {"--only", "--json", "--html", "--sheet"}) {
+    EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
+  }
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // H45 to H50: dielectrics in dielectrics, around the eye, without a far side, and absorbing.
 #include <array>
 
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -419,4 +419,4 @@ constexpr Case kNestedDielectricCases[] = {
 
 std::span<const Case> nestedDielectricCases() { return kNestedDielectricCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -2,9 +2,9 @@
 #include <array>
 
 #include "simd/kernels.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -169,4 +169,4 @@ constexpr Case kRangeCases[] = {
 
 std::span<const Case> rangeCases() { return kRangeCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -1,7 +1,7 @@
 // H62 to H64: deep recursion and what it is cut short by.
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -119,4 +119,4 @@ constexpr Case kRecursionCases[] = {
 
 std::span<const Case> recursionCases() { return kRecursionCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -1,9 +1,9 @@
 // H12 to H18: rays through edges and corners.
 #include "core/pixel.h"
 #include "simd/kernels.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -295,4 +295,4 @@ constexpr Case kWatertightnessCases[] = {
 
 std::span<const Case> watertightnessCases() { return kWatertightnessCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -3,9 +3,9 @@
 #include <array>
 #include <bit>
 
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -276,4 +276,4 @@ constexpr Case kFlushFaceCases[] = {
 
 std::span<const Case> flushFaceCases() { return kFlushFaceCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

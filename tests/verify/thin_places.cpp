@@ -1,7 +1,7 @@
 // H5 to H8: gaps, contacts and corners, where an offset that is too large goes through.
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -133,4 +133,4 @@ constexpr Case kThinPlaceCases[] = {
 
 std::span<const Case> thinPlaceCases() { return kThinPlaceCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

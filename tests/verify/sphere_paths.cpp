@@ -1,7 +1,7 @@
 // H71, continued: paths that leave exact spheres and go through them, and spheres in one place.
-#include "stress/balls.h"
+#include "verify/balls.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -429,4 +429,4 @@ constexpr Case kSpherePathCases[] = {
 
 std::span<const Case> spherePathCases() { return kSpherePathCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "bake/sphere.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 using Vec3l = Vec3<long double>;
 
@@ -98,4 +98,4 @@ inline std::vector<Ball> ballsOfAllSizes(std::initializer_list<double> distances
   return balls;
 }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -2,9 +2,9 @@
 #include <array>
 #include <bit>
 #include "reference/triangle.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -243,4 +243,4 @@ constexpr Case kDegenerateGeometryCases[] = {
 
 std::span<const Case> degenerateGeometryCases() { return kDegenerateGeometryCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "reference/triangle.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -358,4 +358,4 @@ constexpr Case kLeavingSurfaceCases[] = {
 
 std::span<const Case> leavingSurfaceCases() { return kLeavingSurfaceCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify

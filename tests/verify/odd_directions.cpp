@@ -1,8 +1,8 @@
 // H19 to H22 and H30: rays along axes and planes, and surfaces in one place.
 #include "reference/triangle.h"
-#include "stress/bodies.h"
+#include "verify/bodies.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 namespace {
 
@@ -138,4 +138,4 @@ constexpr Case kOddDirectionCases[] = {
 
 std::span<const Case> oddDirectionCases() { return kOddDirectionCases; }
 
-}  // namespace whit::stress
+}  // namespace whit::verify
