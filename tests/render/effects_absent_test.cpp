@@ -1,7 +1,7 @@
 // A scene without an effect, and the same scene with it: what the effect costs when it is absent.
 #include <gtest/gtest.h>
 
-#include "bake/leave_out.h"
+#include "make/leave_out.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {

@@ -1,4 +1,4 @@
-#include "bake/leave_out.h"
+#include "make/leave_out.h"
 
 #include "make/shapes/generators.h"
 
