@@ -27,7 +27,7 @@ Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& 
   return finding;
 }
 
-// Of the position that is used, which comes from the weights and not from t.
+// Tests the position that shading uses, which comes from the weights and not from t.
 Finding positionsOfNeedles(const Setup& setup) {
   Finding finding(0x1p-18);
   Numbers numbers(25);
@@ -49,8 +49,7 @@ Finding positionsOfNeedles(const Setup& setup) {
     const Vec3f target(Vec3d{r * std::cos(turn), 0, r * std::sin(turn)});
     rays.push_back(rayThrough(target + Vec3f{0.1f, 1, 0.2f}, target));
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) continue;
     const float u = probe.hits().u[i], v = probe.hits().v[i];
@@ -97,9 +96,7 @@ Finding tinyAndHugeTriangles(const Setup& setup) {
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(count, {{0, 0, 0}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < count; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
@@ -161,8 +158,7 @@ Finding badRays(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(sphereMesh(3, {}, 1, 0), diffuseMaterial(1));
   const std::vector<ProbeRay> good = raysOnto({}, 1, 64, 28);
-  Probe expected(scene, setup);
-  expected.cast(good);
+  Probe expected(scene, setup, good);
   const std::array<ProbeRay, 5> bad{ProbeRay{{kNan, 0, 0}, {0, 0, 1}},
                                     {{0, kInf, 0}, {0, 0, 1}},
                                     {{0, 0, 3}, {kNan, 0, -1}},
@@ -172,13 +168,9 @@ Finding badRays(const Setup& setup) {
     for (const ProbeRay& ray : bad) {
       std::vector<ProbeRay> rays = good;
       for (std::size_t i = lane; i < rays.size(); i += 16) rays[i] = ray;
-      Probe probe(scene, setup);
-      probe.cast(rays);
+      Probe probe(scene, setup, rays);
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        const HitColumns &a = probe.hits(), &b = expected.hits();
-        const bool changed = a.triangle[i] != b.triangle[i] || a.t[i] != b.t[i] ||
-                             a.u[i] != b.u[i] || a.v[i] != b.v[i];
-        const bool wrong = i % 16 == lane ? probe.isHit(i) : changed;
+        const bool wrong = i % 16 == lane ? probe.isHit(i) : !probe.sameHit(expected, i);
         finding.count(wrong, [&] {
           return "lane " + std::to_string(i % 16) + " beside " + describeRay(ray);
         });

@@ -1,7 +1,6 @@
-// H80 to H83: faces that share a plane, as models are made everywhere: boxes side by side, decals,
-// glass that stands on a table, objects placed twice.
+// H80 to H83: coplanar faces as models often have them: boxes side by side, decals, glass that
+// stands on a table, objects placed twice.
 #include <array>
-#include <bit>
 
 #include "verify/bodies.h"
 
@@ -61,19 +60,23 @@ Scene blocksOnGrid(std::uint64_t seed) {
 }
 
 RenderOptions fewPixels(const Setup& setup) {
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{64, 48};
+  RenderOptions options = optionsOf(setup, {64, 48});
   options.depth = 6;
   return options;
 }
 
-void countOtherBits(const Image& a, const Image& b, const std::string& what, Finding& finding) {
-  using Bits = std::array<std::uint32_t, 3>;
-  for (int y = a.window.y0; y < a.window.y1; ++y) {
-    for (int x = a.window.x0; x < a.window.x1; ++x) {
-      finding.count(std::bit_cast<Bits>(a.at(x, y)) != std::bit_cast<Bits>(b.at(x, y)), [&] {
-        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y);
-      });
+// Calls visit(color, x, z) for every pixel of a picture that looks straight down from a parallel
+// camera of this height, with the position that its center shows.
+template <typename Visit>
+void lookStraightDown(const Scene& scene, float height, const Setup& setup, const Visit& visit) {
+  Camera camera = lookingDown();
+  camera.orthographicHeight = height;
+  const Image image = pictureOf(scene, camera, fewPixels(setup));
+  const double pixel = static_cast<double>(height) / image.height;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      visit(image.at(x, y).x, (x + 0.5 - image.width / 2.0) * pixel,
+            (y + 0.5 - image.height / 2.0) * pixel);
     }
   }
 }
@@ -87,7 +90,8 @@ Finding sameBits(const Setup& setup) {
       return pictureOf(scene, scene.cameras[0], options);
     };
     const auto differs = [&](const RenderOptions& options, const Image& from, const char* how) {
-      countOtherBits(picture(options), from, "seed " + std::to_string(seed) + ", " + how, finding);
+      countOtherPixels(finding, picture(options), from,
+                       "seed " + std::to_string(seed) + ", " + how);
     };
     RenderOptions options = fewPixels(setup);
     const Image own = picture(options);
@@ -128,8 +132,8 @@ Finding glassOnTheFloor(const Setup& setup) {
   return finding;
 }
 
-// What lies under two slabs, one on the other, seen straight through: all that is not reflected at
-// the three interfaces, first order only.
+// A glowing floor under two slabs, one on the other: the picture shows the light that none of the
+// three interfaces reflects, first order only.
 Finding slabOnSlab(const Setup& setup) {
   // Two dozen roundings.
   Finding finding(24 * 0x1p-24);
@@ -157,8 +161,8 @@ Finding slabOnSlab(const Setup& setup) {
   return finding;
 }
 
-// Which of several squares in one place is seen: the opaque one rather than glass, and of two the
-// one that comes later in the scene.
+// Among coincident squares an opaque one is seen rather than glass, and the later one of two in the
+// scene.
 Finding whichIsSeen(const Setup& setup) {
   Finding finding(0);
   for (const bool glassFirst : {false, true}) {
@@ -180,8 +184,8 @@ Finding whichIsSeen(const Setup& setup) {
   return finding;
 }
 
-// Ways in which a square may be stored apart from others: in the world, carried by an instance,
-// with what casts no shadow, with what has holes.
+// Ways in which a square may be stored apart from others: in the world, in an instance, with the
+// meshes that cast no shadow, with the meshes that have holes.
 constexpr int kWaysOfStoring = 4;
 
 void addStored(int way, float half, float radiance, SceneBuilder& builder) {
@@ -195,8 +199,8 @@ void addStored(int way, float half, float radiance, SceneBuilder& builder) {
   builder.place({"square", {floorAt(0, half, builder.add(material))}}, places);
 }
 
-// Whatever the order in which they are stored, of two squares in one place the later is seen, to
-// its edges.
+// The later one of two coincident squares is seen up to its edges, in whatever order they are
+// stored.
 Finding laterHoweverStored(const Setup& setup) {
   Finding finding(0);
   for (int early = 0; early < kWaysOfStoring; ++early) {
@@ -204,20 +208,13 @@ Finding laterHoweverStored(const Setup& setup) {
       SceneBuilder builder;
       addStored(early, 1.7f, 0.25f, builder);
       addStored(late, 1.3f, 0.75f, builder);
-      Camera camera = lookingDown();
-      camera.orthographicHeight = 3;
-      const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const double pixel = 3.0 / image.height, wx = (x + 0.5 - image.width / 2.0) * pixel,
-                       wz = (y + 0.5 - image.height / 2.0) * pixel;
-          if (std::fabs(wx) > 1.3 || std::fabs(wz) > 1.3) continue;
-          finding.count(image.at(x, y).x != 0.75f, [&] {
-            return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", pixel " +
-                   std::to_string(x) + "," + std::to_string(y);
-          });
-        }
-      }
+      lookStraightDown(builder.build(), 3, setup, [&](float color, double x, double z) {
+        if (std::fabs(x) > 1.3 || std::fabs(z) > 1.3) return;
+        finding.count(color != 0.75f, [&] {
+          return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", at " +
+                 hexText(x) + " " + hexText(z);
+        });
+      });
     }
   }
   return finding;
@@ -232,22 +229,13 @@ Finding decalInACorner(const Setup& setup) {
                decal = builder.add(emittingMaterial(0.75f));
     builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
     builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
-    Camera camera = lookingDown();
-    camera.orthographicHeight = 3.9f;
-    const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
-    const double pixel = 3.9 / image.height;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        const double wx = (x + 0.5 - image.width / 2.0) * pixel,
-                     wz = (y + 0.5 - image.height / 2.0) * pixel;
-        if (std::fabs(wx) > 2) continue;
-        const bool covered = wx < static_cast<double>(side) - 2 && wz > 1;
-        finding.count(image.at(x, y).x != (covered ? 0.75f : 0.25f), [&] {
-          return "side " + hexText(double{side}) + ", pixel " + std::to_string(x) + "," +
-                 std::to_string(y);
-        });
-      }
-    }
+    lookStraightDown(builder.build(), 3.9f, setup, [&](float color, double x, double z) {
+      if (std::fabs(x) > 2) return;
+      const bool covered = x < static_cast<double>(side) - 2 && z > 1;
+      finding.count(color != (covered ? 0.75f : 0.25f), [&] {
+        return "side " + hexText(double{side}) + ", at " + hexText(x) + " " + hexText(z);
+      });
+    });
   }
   return finding;
 }

@@ -17,8 +17,7 @@ constexpr double kLeast = 1e-3;
 Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const Setup& setup,
                  std::uint64_t seed) {
   Finding finding(0);
-  Probe probe(scene, setup);
-  probe.cast(raysOnto(center, radius, kLeavingRays, seed));
+  Probe probe(scene, setup, raysOnto(center, radius, kLeavingRays, seed));
   std::vector<ProbeRay> spawned;
   for (const ProbeChild& child : probe.reflections()) {
     if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
@@ -33,22 +32,15 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
     if (dot(l, Vec3d(probe.ng(i))) <= kLeast) continue;
     finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
   }
-  Probe next(scene, setup);
-  next.cast(spawned);
+  Probe next(scene, setup, spawned);
   for (std::size_t i = 0; i < next.size(); ++i) {
     finding.count(next.isHit(i), described(spawned[i]));
   }
   return finding;
 }
 
-Material shiny() {
-  Material m = mirrorMaterial(1);
-  m.diffuse = Rgb(1.0f);
-  return m;
-}
-
 Finding sphereSelfHits(const Vec3d& center, double radius, const Setup& setup) {
-  const Scene scene = sceneOf(sphereMesh(3, center, radius, 0), shiny());
+  const Scene scene = sceneOf(sphereMesh(3, center, radius, 0), shinyMaterial());
   return selfHits(scene, center, radius, setup, 1);
 }
 
@@ -84,8 +76,7 @@ Finding pointsFromFarAway(const Setup& setup) {
     const Vec3d towards = normalized(Vec3d{1, numbers.in(0.02, 1.5), numbers.in(-0.5, 0.5)});
     rays.push_back(rayThrough(Vec3f(target + towards * 1e5), Vec3f(target)));
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (!probe.isHit(i)) continue;
     const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
@@ -134,7 +125,8 @@ Finding offsetBoundsTheError(const Setup& setup) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     const double u = static_cast<double>(probe.hits().u[i]),
                  v = static_cast<double>(probe.hits().v[i]);
-    // What counts is the distance to the plane: along it 1 - u - v, rounded, moves the point more.
+    // Only the distance to the plane counts: the rounding of 1 - u - v moves the point further
+    // within the plane.
     const double error = distanceToPlane(c, Vec3d(probe.position(i)));
     finding.note(error / static_cast<double>(probe.surfels().offset[i]), [&] {
       return hexText(Vec3f(c[0])) + ", " + hexText(Vec3f(c[1])) + ", " + hexText(Vec3f(c[2])) +
@@ -147,7 +139,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
 // Views from straight above to 0.06 degrees over the plane, onto corners, edges and anywhere.
 Finding startOnAPlane(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = sceneOf(floorAt(0, 1, 0), shiny());
+  const Scene scene = sceneOf(floorAt(0, 1, 0), shinyMaterial());
   Numbers numbers(9);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
@@ -191,8 +183,7 @@ Finding eyeInAPlane(const Setup& setup) {
         camera.up = {0, 0.3f, 1};
         camera.fov = 100;
         camera.orthographicHeight = parallel;
-        RenderOptions options = optionsOf(setup);
-        options.size = ImageSize{32, 24};
+        RenderOptions options = optionsOf(setup, {32, 24});
         for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
           finding.count(pixel.x != kSky, [&] {
             return "height " + hexText(double{height}) + " towards " + hexText(along) +
@@ -205,7 +196,8 @@ Finding eyeInAPlane(const Setup& setup) {
   return finding;
 }
 
-// Whether the way from `p` to `q` meets the unit box on the floor, made larger all around.
+// Returns true if the line from `p` to `q` hits the unit box on the floor, enlarged by `larger` on
+// all sides.
 bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   const Vec3d low = Vec3d{-0.5, 0, -0.5} - Vec3d(larger), high = Vec3d{0.5, 1, 0.5} + Vec3d(larger);
   double enters = 0, leaves = 1;
@@ -230,14 +222,12 @@ Finding shadowOnLargeFloors(const Setup& setup) {
     builder.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white));
     builder.description.lights = {lightAt({2, 3, 1}, 30)};
     Camera camera{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{64, 48};
+    RenderOptions options = optionsOf(setup, {64, 48});
     const Image image = pictureOf(builder.build(), camera, options);
     const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        const Vec3d way = frame.forward + frame.right * (x + 0.5 - image.width / 2.0) -
-                          frame.up * (y + 0.5 - image.height / 2.0);
+        const Vec3d way = frame.forward + asideOf(frame, x, y);
         const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
         if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
         const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
@@ -265,8 +255,7 @@ Finding shadeNextToItsLamp(const Setup& setup) {
     builder.description.lights = {lightAt({far, 4, 0}, 30)};
     Camera camera = lookingDown();
     camera.eye.x = camera.at.x = far;
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{32, 24};
+    RenderOptions options = optionsOf(setup, {32, 24});
     for (const Rgb& pixel : pictureOf(builder.build(), camera, options).pixels) {
       finding.count(pixel.x != 0, [&] { return "lamp at " + hexText(double{far}); });
     }
@@ -317,7 +306,7 @@ Finding instanced(const Setup& setup) {
        {Affine::translation({30, -20, 10}) * turn * Affine::scaling({-2, 1, 1}), 1}}};
   for (const auto& [map, size] : maps) {
     SceneBuilder builder;
-    const auto material = builder.add(shiny());
+    const auto material = builder.add(shinyMaterial());
     // The second one, far away, makes instances of both.
     const Affine elsewhere = Affine::translation(map.p + Vec3d{1e5, 1e5, 1e5} * size) * map;
     builder.place({"ball", {sphereMesh(3, {}, 1, material)}}, {map, elsewhere});

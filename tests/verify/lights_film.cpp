@@ -78,9 +78,7 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   builder.add(mesh);
   const Scene scene = repaired(builder.describe());
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(uvs.size(), {{0, 0, 1}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < uvs.size(); ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(static_cast<std::uint32_t>(uvs.size()));
   for (std::size_t i = 0; i < uvs.size(); ++i) {
     const float got = probe.surfels().diffuseR[i];
     const std::size_t half = uvs.size() / 2;

@@ -7,12 +7,6 @@ namespace whit::verify {
 
 namespace {
 
-std::uint32_t depthOf(std::uint32_t media) {
-  std::uint32_t depth = 0;
-  for (; media != 0; media >>= 8) depth += (media & 0xFFu) != 0;
-  return depth;
-}
-
 // Follows refracted rays through the scene until all have left it; `visit` sees each that has.
 template <typename Visit>
 void follow(const Scene& scene, const Setup& setup, std::vector<ProbeRay> rays,
@@ -120,7 +114,7 @@ Finding stackCountsSpheres(const Setup& setup) {
         continue;
       }
       const Vec3d middle = (Vec3d(rays[i].origin) + Vec3d(probe.position(i))) * 0.5;
-      std::uint32_t inside = 0;
+      int inside = 0;
       double clear = 1;
       for (std::size_t k = 0; k < 4; ++k) {
         const double r = 1 - 0.2 * static_cast<double>(k), d = length(middle - center[k]);
@@ -129,7 +123,7 @@ Finding stackCountsSpheres(const Setup& setup) {
       }
       // Facets lie up to 0.003 inside the sphere.
       if (clear < 0.004) continue;
-      finding.count(depthOf(rays[i].media) != inside, described(rays[i]));
+      finding.count(mediaCount(rays[i].media) != inside, described(rays[i]));
     }
     rays = raysOf(probe.refractions());
   }
@@ -172,16 +166,14 @@ Material tintedMaterial() {
 template <typename Way>
 void comparePicture(const Scene& scene, const Camera& camera, const Setup& setup, const Way& way,
                     Finding& finding) {
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{34, 22};
+  RenderOptions options = optionsOf(setup, {34, 22});
   options.cutoff = 0;
   const CameraFrame frame = makeCameraFrame(camera, options.size->width, options.size->height);
   const Image image = pictureOf(scene, camera, options);
   const Rgb absorption = tintedMaterial().absorption;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const Vec3d aside =
-          frame.right * (x + 0.5 - image.width / 2.0) - frame.up * (y + 0.5 - image.height / 2.0);
+      const Vec3d aside = asideOf(frame, x, y);
       const bool parallel = frame.orthographic;
       const double t = way(parallel ? frame.eye + aside : frame.eye,
                            parallel ? frame.forward : normalized(frame.forward + aside));
@@ -319,8 +311,8 @@ Finding openGlass(const Setup& setup) {
   return finding;
 }
 
-// Of sheets that glow and are there by a quarter, from above and from below: what one leaves of the
-// light behind it the next one sees. Between them, and to both sides, no medium begins.
+// Glowing sheets with a coverage of a quarter, from above and from below: each sheet lets three
+// quarters of the light behind it through. No medium begins between them or beside them.
 Finding sheetsInPart(const Setup& setup) {
   // Three roundings a sheet.
   Finding finding(20 * 0x1p-24);

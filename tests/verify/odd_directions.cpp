@@ -19,8 +19,7 @@ Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
         rays.push_back({Vec3f(Vec3d(x * 0.5, 16, y * 0.5)), direction});
       }
     }
-    Probe probe(scene, setup);
-    probe.cast(rays);
+    Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       if (expected.size() < rays.size()) expected.push_back(triangle);
@@ -54,8 +53,7 @@ Finding coplanarRays(const Setup& setup) {
     rays.push_back({Vec3f(Vec3d{numbers.in(-1, 1), numbers.in(-1, 1), 0}),
                     Vec3f(Vec3d{std::cos(turn), std::sin(turn), 0})});
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     finding.count(probe.isHit(i), described(rays[i]));
   }
@@ -85,8 +83,7 @@ Finding nearlyCoplanar(const Setup& setup) {
     }
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) {
       finding.note(0, described(rays[i]));
@@ -110,10 +107,8 @@ Finding coplanarOverlap(const Setup& setup) {
   builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
   const Scene scene = builder.build();
   const std::vector<ProbeRay> rays = raysOnto({}, 0.9, 2000, 30);
-  Probe expected(scene, {setup.simd, 1});
-  expected.cast(rays);
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe expected(scene, {setup.simd, 1}, rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     finding.count(probe.hits().triangle[i] != expected.hits().triangle[i], described(rays[i]));
   }

@@ -41,7 +41,7 @@ class RandomScene {
     near *= numbers_.in(0, 4);
     return one(8) ? near * size() : near;
   }
-  // Of light: none, some, or any.
+  // An amount of light: none, an ordinary one, or any.
   float amount() {
     return one(4) ? 0.0f
                   : static_cast<float>(

@@ -22,9 +22,7 @@ Finding unitNormals(const Setup& setup) {
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < kTriangles; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(kTriangles);
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     finding.note(std::fabs(length(Vec3d(probe.ng(i))) - 1),
                  [&] { return "first corner " + hexText(mesh.positions[3 * i]); });
@@ -120,7 +118,7 @@ Finding badSkyTexels(const Setup& setup) {
   return finding;
 }
 
-// What Min and Max make of a NaN differs from CPU to CPU; codes must not.
+// Min and Max treat a NaN differently on different CPUs; the codes must be the same.
 Finding oddRadiance(const Setup&) {
   Finding finding(0);
   const std::array<std::pair<float, std::uint32_t>, 8> cases{{{kNan, 0},

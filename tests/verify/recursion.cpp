@@ -73,7 +73,7 @@ Finding boundedMemory(const Setup& setup) {
   return finding;
 }
 
-// What is cut at X is worth at most X a ray; a throughput that is no number ends the path.
+// A cutoff of X loses at most X per ray that is cut; a throughput that is no number ends the path.
 Finding cutoffBias(const Setup& setup) {
   Finding finding(1);
   const Scene scene = plates();

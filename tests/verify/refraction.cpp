@@ -12,15 +12,13 @@ namespace whit::verify {
 
 namespace {
 
-// The surface between two dielectrics, as the kernels have it and as the textbook does.
-
-// A surfel with both normals up, met by rays at given cosines.
+// Rays that hit a surfel whose normals both point up, at given cosines.
 struct Incidence {
   std::vector<ProbeRay> rays;
   std::vector<double> cosines;  // as the kernel sees them
 };
 
-// What the kernels make of a dielectric: F from the reflected weight, or 0 where nothing is
+// Results of the kernels for a dielectric: F, which is the reflected weight, or 0 where nothing is
 // reflected; the refracted weight and direction, or 0.
 struct Interfaces {
   std::vector<double> reflected, refracted;

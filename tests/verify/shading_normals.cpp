@@ -143,8 +143,7 @@ Finding terminator(const Setup& setup) {
   const Light light = lightAt({1000, 0, 0}, 1e6f);
   builder.description.lights = {light};
   const Scene scene = builder.build();
-  Probe probe(scene, setup);
-  probe.cast(raysOnto({}, 1, kSurfels, 35));
+  Probe probe(scene, setup, raysOnto({}, 1, kSurfels, 35));
   probe.light(light);
   double sum = 0;
   std::size_t n = 0;

@@ -80,8 +80,7 @@ std::vector<ProbeRay> intoCorners(std::size_t n, std::uint64_t seed) {
 Finding concaveCorners(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(intoCorners(kThinPlaceRays, 7));
+  Probe probe(scene, setup, intoCorners(kThinPlaceRays, 7));
   for (const Vec3f& outside : {Vec3f{2.3f, 1.7f, 0.4f}, {-1.01f, 0.2f, 0.3f}, {0, 1.5f, -1.5f}}) {
     probe.light(lightAt(outside, 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {

@@ -7,8 +7,6 @@ namespace whit::verify {
 
 namespace {
 
-// Rays from inside a closed body exactly or nearly through its edges and corners.
-
 // A point well inside the sphere.
 Vec3f inside(Numbers& numbers, const Vec3d& center, double radius) {
   return Vec3f(center + numbers.direction() * (0.5 * radius));
@@ -51,8 +49,7 @@ Finding misses(const Mesh& mesh, const std::vector<ProbeRay>& rays, double bound
                const Setup& setup) {
   Finding finding(bound);
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     finding.count(!probe.isHit(i), described(rays[i]));
   }
@@ -180,8 +177,7 @@ Finding nestedShells(const Setup& setup) {
     for (const ProbeRay& ray : throughEdges(sixth, {}, 0)) {
       rays.push_back({ray.direction * static_cast<float>(start), ray.direction});
     }
-    Probe probe(scene, setup);
-    probe.cast(rays);
+    Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       finding.count(triangle < before || triangle >= before + count, described(rays[i]));
@@ -190,7 +186,7 @@ Finding nestedShells(const Setup& setup) {
   return finding;
 }
 
-// What a ray exactly on an open border finds is not specified, but it is always the same.
+// The hit of a ray exactly on an open border is not specified, but it is always the same.
 Finding openBorder(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(floorAt(0, 1, 0), diffuseMaterial(1));
