@@ -94,7 +94,7 @@ std::span<const Case> rangeCases();
 std::span<const Case> invarianceCases();
 std::span<const Case> recursionCases();
 std::span<const Case> lightAndFilmCases();
-std::span<const Case> flushFaceCases();
+std::span<const Case> coplanarFaceCases();
 std::span<const Case> sphereCases();
 std::span<const Case> spherePathCases();
 

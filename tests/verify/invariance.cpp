@@ -9,7 +9,7 @@ namespace whit::verify {
 
 namespace {
 
-// A room with something of everything: mirror, glass, smooth normals, texture, two lights.
+// A room with most effects: mirror, glass, smooth normals, texture, two lights.
 SceneDescription room() {
   SceneBuilder builder;
   Material checked = diffuseMaterial(1);
@@ -42,7 +42,7 @@ Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options
   return pictureOf(scene, scene.cameras[0], options);
 }
 
-// Each pixel of odd sizes against the same pixel traced alone.
+// Compares pixels of pictures of odd sizes with the same pixels traced alone.
 Finding partialPackets(const Setup& setup) {
   Finding finding(0);
   const Scene scene = repaired(room());
@@ -61,7 +61,7 @@ Finding partialPackets(const Setup& setup) {
   return finding;
 }
 
-// Queues of 1 to 33 rays; what lies behind the last one is poison.
+// Traces queues of 1 to 33 rays with poison behind the last one.
 Finding poisonedLanes(const Setup& setup) {
   Finding finding(0);
   const Scene scene = repaired(room());
@@ -72,7 +72,7 @@ Finding poisonedLanes(const Setup& setup) {
   constexpr std::uint32_t kPoison = 0x7fc00000u;  // a NaN, and an index far out of range
   for (std::size_t n = 1; n <= rays.size(); ++n) {
     Probe probe(scene, setup);
-    // Fills the block behind the rays that follow with a full set of others.
+    // Fills the block behind the rays that follow with other rays.
     probe.cast(std::vector<ProbeRay>(48, rays[n - 1]));
     probe.poison(kPoison);
     probe.cast(std::vector<ProbeRay>(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)));
@@ -153,7 +153,7 @@ Finding scaling(const Setup& setup) {
   return finding;
 }
 
-// Without glass: whether a surface is entered or left depends on the winding.
+// There is no glass: the winding decides whether a ray enters a surface or leaves it.
 Finding mirroring(const Setup& setup) {
   Finding finding(0);
   const auto opaque = [] {
@@ -174,7 +174,7 @@ Finding mirroring(const Setup& setup) {
   return finding;
 }
 
-// How far pixels move, in ulps of 1, and how many by more (rays on edges).
+// The relative change of each pixel.
 Finding relativeChange(const Image& a, const Image& b, double bound) {
   Finding finding(bound);
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -188,7 +188,7 @@ Finding relativeChange(const Image& a, const Image& b, double bound) {
 Finding lightOrder(const Setup& setup) {
   SceneDescription d = room();
   std::swap(d.lights[0], d.lights[1]);
-  // One sum in another order at each of the surfaces that a path meets.
+  // At each surface of a path one sum is in another order.
   return relativeChange(pictureOfRoom(room(), small(setup)),
                         pictureOfRoom(std::move(d), small(setup)), 16 * 0x1p-24);
 }
@@ -239,7 +239,7 @@ constexpr Case kInvarianceCases[] = {
     {"H61d", "lights in another order", "relative change", Runs::targets, lightOrder},
     {"H61e", "meshes and triangles in another order: the same bits", "both reversed", Runs::packets,
      meshOrder},
-    {"H61f", "an object that nothing reaches: the same bits", "far sphere behind a wall",
+    {"H61f", "an object that no ray reaches: the same bits", "far sphere behind a wall",
      Runs::packets, unreachableObject},
     {"H61g", "effects that the scene has none of: the same bits", "kernels with every effect",
      Runs::packets, superfluousEffects},

@@ -10,10 +10,11 @@ namespace whit::verify {
 namespace {
 
 constexpr std::size_t kLeavingRays = 1500;
-// Rays that leave a facet more flatly than this may meet its neighbor, as far as floats can tell.
+// A ray that leaves a facet at a smaller cosine than this may hit the neighboring facet within the
+// precision of floats.
 constexpr double kLeast = 1e-3;
 
-// Reflected and shadow rays that meet the convex body which they leave.
+// Counts the reflected and shadow rays that hit the convex body which they leave.
 Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const Setup& setup,
                  std::uint64_t seed) {
   Finding finding(0);
@@ -32,10 +33,7 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
     if (dot(l, Vec3d(probe.ng(i))) <= kLeast) continue;
     finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
   }
-  Probe next(scene, setup, spawned);
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    finding.count(next.isHit(i), described(spawned[i]));
-  }
+  countHits(finding, Probe(scene, setup, spawned), false);
   return finding;
 }
 
@@ -88,8 +86,8 @@ Finding pointsFromFarAway(const Setup& setup) {
   return finding;
 }
 
-// In long double and from the corner next to the origin: the sizes of the corners differ by up to
-// 1e16.
+// Computed in long double and from the corner nearest to the origin, because the sizes of the
+// corners differ by up to 1e16.
 double distanceToPlane(const Corners& c, const Vec3d& point) {
   using Vec = Vec3<long double>;
   const Vec n = normalized(cross(Vec(c[1]) - Vec(c[0]), Vec(c[2]) - Vec(c[0])));
@@ -100,8 +98,8 @@ double distanceToPlane(const Corners& c, const Vec3d& point) {
   return static_cast<double>(std::fabs(dot(Vec(point) - Vec(*base), n)));
 }
 
-// Hits are given, so that every triangle has some whatever its shape; at a distance at which
-// weights say more than it does.
+// Hits are given, so that triangles of every shape have some. They are so far away that the weights
+// are more precise than the distance.
 Finding offsetBoundsTheError(const Setup& setup) {
   Finding finding(1);
   Numbers numbers(4);
@@ -136,7 +134,8 @@ Finding offsetBoundsTheError(const Setup& setup) {
   return finding;
 }
 
-// Views from straight above to 0.06 degrees over the plane, onto corners, edges and anywhere.
+// The views are from straight above to 0.06 degrees over the plane, onto corners, edges and any
+// point.
 Finding startOnAPlane(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(floorAt(0, 1, 0), shinyMaterial());
@@ -149,18 +148,12 @@ Finding startOnAPlane(const Setup& setup) {
     const Vec3d back{std::cos(turn), i % 7 == 0 ? 1e6 : elevation, std::sin(turn)};
     rays.push_back(rayThrough(Vec3f(target + normalized(back) * 2.0), Vec3f(target)));
   }
-  Probe probe(scene, setup), again(scene, setup);
-  probe.cast(rays);
-  const std::vector<ProbeRay> spawned = raysOf(probe.reflections());
-  again.cast(spawned);
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    finding.count(again.isHit(i), described(spawned[i]));
-  }
+  Probe probe(scene, setup, rays);
+  countHits(finding, Probe(scene, setup, raysOf(probe.reflections())), false);
   return finding;
 }
 
-// From within the plane of a glowing floor, also by parallel rays that all start in it: all there
-// is to see is the sky.
+// An eye in the plane of a glowing floor, and parallel rays that all start in it, see only the sky.
 Finding eyeInAPlane(const Setup& setup) {
   Finding finding(0);
   constexpr float kSky = 0.25f;
@@ -174,7 +167,7 @@ Finding eyeInAPlane(const Setup& setup) {
     for (const Vec3f& towards : {Vec3f(1, 0, 0.2f), Vec3f(0.1f, 1, 0), Vec3f(0, -1, 0.1f),
                                  Vec3f(0.3f, 0.7f, -1), Vec3f(-1, -0.4f, 0.2f)}) {
       for (const float parallel : {0.0f, 2.0f}) {
-        // Parallel rays all start in the plane if it is the one across them.
+        // Parallel rays all start in the plane only if they are perpendicular to it.
         if (parallel > 0 && std::fabs(towards.y) < 1) continue;
         Camera camera;
         camera.eye = {0.3f, height, 0.2f};
@@ -210,8 +203,8 @@ bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   return enters <= leaves;
 }
 
-// The floor is so large that its corners' ulps are a sixteenth of a unit, but where it is seen its
-// points are of the order of 1.
+// The ulps of the floor's corners are a sixteenth of a unit, but the coordinates of the points that
+// the camera sees are of the order of 1.
 Finding shadowOnLargeFloors(const Setup& setup) {
   constexpr double kUnsure = 0.01;  // next to the box and to the shadow's edge; pixels are larger
   Finding finding(0);
@@ -242,7 +235,7 @@ Finding shadowOnLargeFloors(const Setup& setup) {
   return finding;
 }
 
-// A shade 16 float steps under a lamp far from the origin, and what it hides from the lamp.
+// A shade 16 float steps under a lamp far from the origin keeps the floor dark.
 Finding shadeNextToItsLamp(const Setup& setup) {
   Finding finding(0);
   for (const float far : {0x1p10f, 0x1p14f, 0x1p18f}) {
@@ -263,7 +256,7 @@ Finding shadeNextToItsLamp(const Setup& setup) {
   return finding;
 }
 
-// A refracted ray that starts on the wrong side meets its own face again.
+// A refracted ray that starts on the wrong side hits its own face again.
 Finding sideOfTheOffset(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
@@ -307,7 +300,7 @@ Finding instanced(const Setup& setup) {
   for (const auto& [map, size] : maps) {
     SceneBuilder builder;
     const auto material = builder.add(shinyMaterial());
-    // The second one, far away, makes instances of both.
+    // The second placement, far away, makes instances of both.
     const Affine elsewhere = Affine::translation(map.p + Vec3d{1e5, 1e5, 1e5} * size) * map;
     builder.place({"ball", {sphereMesh(3, {}, 1, material)}}, {map, elsewhere});
     finding.merge(selfHits(builder.build(), map.p, size, setup, 11));
@@ -316,7 +309,7 @@ Finding instanced(const Setup& setup) {
 }
 
 constexpr Case kLeavingSurfaceCases[] = {
-    {"H1", "no ray meets the convex body that it leaves, at any size",
+    {"H1", "no ray hits the convex body that it leaves, at any size",
      "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
     {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
      Runs::packets, farFromOrigin},
@@ -337,7 +330,7 @@ constexpr Case kLeavingSurfaceCases[] = {
     {"H9b", "an eye in a surface's plane does not see it",
      "in a glowing floor, looking along it, away and through; pixels that are not the sky",
      Runs::packets, eyeInAPlane},
-    {"H10", "children start on the side that they go to", "slab of glass: two faces, then out",
+    {"H10", "child rays start on the side to which they go", "slab of glass: two faces, then out",
      Runs::packets, sideOfTheOffset},
     {"H11", "no self-hits on instances", "scaled by 1e-3 and 1e3, stretched, mirrored",
      Runs::packets, instanced},

@@ -236,6 +236,15 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   return film.image;
 }
 
+void countHits(Finding& finding, const Probe& probe, bool mustHit) {
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    finding.count(probe.isHit(i) != mustHit, [&] {
+      const ProbeRay ray = probe.ray(i);
+      return hexText(ray.origin, ray.direction);
+    });
+  }
+}
+
 void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,
                       bool mirrored) {
   using Bits = std::array<std::uint32_t, 3>;

@@ -111,6 +111,9 @@ inline int mediaCount(std::uint32_t stack) {
   return count;
 }
 
+// Counts the rays of a probe that hit something although they must not, or the other way round.
+void countHits(Finding& finding, const Probe& probe, bool mustHit);
+
 // Vector from the middle of the image plane to the center of a pixel.
 inline Vec3d asideOf(const CameraFrame& frame, int x, int y) {
   return frame.right * (x + 0.5 - frame.width / 2.0) - frame.up * (y + 0.5 - frame.height / 2.0);

@@ -1,4 +1,4 @@
-// H71, continued: paths that leave exact spheres and go through them, and spheres in one place.
+// H71, continued: paths that leave exact spheres and go through them, and coincident spheres.
 #include "verify/balls.h"
 
 namespace whit::verify {
@@ -352,10 +352,10 @@ Finding ballsInPackets(const Setup& setup) {
 }
 
 constexpr Case kSpherePathCases[] = {
-    {"H71g", "nothing that leaves a sphere meets it again",
+    {"H71g", "no ray that leaves a sphere hits it again",
      "reflected and shadow rays, from radii of 1e-6 to 1e6 and up to the limb", Runs::packets,
      leavingBalls},
-    {"H71h", "what enters a sphere meets its far side, once",
+    {"H71h", "a ray that enters a sphere hits its far side once",
      "rays in balls of glass, refracted and reflected, and rays that leave; against the chord",
      Runs::packets, throughBalls},
     {"H71i", "two spheres with 1e-5 of their radius between them",
@@ -369,10 +369,10 @@ constexpr Case kSpherePathCases[] = {
     {"H71l", "the focus of a ball lens",
      "heights of 0.001 to 0.1 radii; against the closed form, and the paraxial focus",
      Runs::packets, ballLens},
-    {"H71m", "which of two spheres in one place is met",
+    {"H71m", "which of two coincident spheres is hit",
      "opaque before glass, then by priority, then the later; as one object and as instances",
      Runs::packets, ballsInOnePlace},
-    {"H71n", "spheres that overlap, touch, and lie in one place and in one another",
+    {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
      "hits and pictures that differ from those of single rays and of other tiles", Runs::packets,
      ballsInPackets},
 };

@@ -36,7 +36,7 @@ Finding thinGap(const Setup& setup) {
   return finding;
 }
 
-// Pixels that are not black.
+// Counts the pixels that are not black.
 Finding litPixels(const Scene& scene, const Setup& setup) {
   Finding finding(0);
   const Camera above{.eye = {0.5f, 3, 4}, .at = {0, 0.5f, 0}};
@@ -61,7 +61,8 @@ Finding contactLeak(const Setup& setup) {
   return finding;
 }
 
-// Towards edges and corners of the inside of a cube, off by up to four units in the last place.
+// Rays towards edges and corners of the inside of a cube, off by up to four units in the last
+// place.
 std::vector<ProbeRay> intoCorners(std::size_t n, std::uint64_t seed) {
   Numbers numbers(seed);
   std::vector<ProbeRay> rays;

@@ -19,9 +19,9 @@ std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
   return corners;
 }
 
-// Blocks on a grid, so that their faces, edges and corners coincide; decals one on the other in the
-// floor, one with itself in the same place; sheets that cross. Seeds that are odd are turned and
-// moved, so that planes agree to rounding only.
+// Blocks on a grid, whose faces, edges and corners coincide; decals on top of each other in the
+// floor; coincident instances; sheets that cross. Scenes of odd seeds are turned and moved, so that
+// planes agree only up to rounding.
 Scene blocksOnGrid(std::uint64_t seed) {
   Numbers numbers(seed);
   SceneBuilder builder;
@@ -55,7 +55,7 @@ Scene blocksOnGrid(std::uint64_t seed) {
   camera.eye = Vec3f(place.point(numbers.direction() * 9.0));
   camera.at = Vec3f(place.point({0.1, -0.2, 0.05}));
   builder.description.cameras = {camera};
-  Warnings warnings;  // boxes of one material in one place
+  Warnings warnings;  // coincident boxes of one material
   return Scene::finalize(builder.describe(), warnings);
 }
 
@@ -81,7 +81,7 @@ void lookStraightDown(const Scene& scene, float height, const Setup& setup, cons
   }
 }
 
-// Against packets of one ray, and again with other tiles, queues, batches, threads and a crop.
+// Compares pictures with packets of one ray, other tiles, queues, batches, threads and a crop.
 Finding sameBits(const Setup& setup) {
   Finding finding(0);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -112,7 +112,7 @@ Finding sameBits(const Setup& setup) {
   return finding;
 }
 
-// A block of glass, face in face with an opaque floor that hides something bright.
+// A block of glass with a face coincident with an opaque floor that hides something bright.
 Finding glassOnTheFloor(const Setup& setup) {
   Finding finding(0);
   for (const float height : {0.0f, 0.1f, 33.3f}) {
@@ -220,7 +220,8 @@ Finding laterHoweverStored(const Setup& setup) {
   return finding;
 }
 
-// A decal in the corner of a floor, with one corner or an edge in common: it covers what it covers.
+// A decal in the corner of a floor, with one corner or an edge in common, covers exactly its own
+// area.
 Finding decalInACorner(const Setup& setup) {
   Finding finding(0);
   for (const float side : {1.0f, 4.0f}) {
@@ -240,17 +241,17 @@ Finding decalInACorner(const Setup& setup) {
   return finding;
 }
 
-constexpr Case kFlushFaceCases[] = {
-    {"H80", "the same bits where faces share a plane",
+constexpr Case kCoplanarFaceCases[] = {
+    {"H80", "the same bits with coplanar faces",
      "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
      "rays, other tiles, queues, batches, threads, a crop",
      Runs::packets, sameBits},
     {"H81", "glass on an opaque floor does not leak",
      "pixels that show what is under the floor, at three heights", Runs::packets, glassOnTheFloor},
-    {"H82", "slab on slab, face in face",
+    {"H82", "slab on slab, with coincident faces",
      "light through three interfaces, against Fresnel; equal and other indices", Runs::packets,
      slabOnSlab},
-    {"H83", "which of several faces in one place is seen",
+    {"H83", "which of several coincident faces is seen",
      "the opaque one, the later one, in any order with glass", Runs::packets, whichIsSeen},
     {"H83a", "a decal in the corner of a floor covers what it covers",
      "two triangles of one plane with one corner or an edge in common", Runs::packets,
@@ -262,6 +263,6 @@ constexpr Case kFlushFaceCases[] = {
 
 }  // namespace
 
-std::span<const Case> flushFaceCases() { return kFlushFaceCases; }
+std::span<const Case> coplanarFaceCases() { return kCoplanarFaceCases; }
 
 }  // namespace whit::verify
