@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The commands of README.md and other pages, as they stand there but for sizes and counts that would
-# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and
+# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]; whit-verify lies beside WHIT. Commands are the lines of code blocks, and
 # code within text that has arguments. Those of the programs and of scenes/farm are run; those that install,
 # build or test the whole are named, and so is whatever this machine lacks something for.
 set -uo pipefail

@@ -7,7 +7,7 @@
 
 namespace whit::verify {
 
-// Subdivided icosahedron, corners rounded to float; with the sphere's normals if smooth.
+// A subdivided icosahedron with corners rounded to float, and the sphere's normals if smooth.
 inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
                        bool smooth = false) {
   const auto [points, triangles] = procedural::icosphereMesh(level);
@@ -21,7 +21,7 @@ inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint3
   return mesh;
 }
 
-// Every triangle with corners of its own.
+// The same mesh without shared corners.
 inline Mesh unshared(const Mesh& mesh) {
   Mesh result;
   result.materials = mesh.materials;
@@ -33,7 +33,7 @@ inline Mesh unshared(const Mesh& mesh) {
   return result;
 }
 
-// 64 x 64 cells of the plane y = 0, between -32 and 32.
+// The plane y = 0 between -32 and 32, in 64 x 64 cells.
 inline Mesh grid() {
   Mesh mesh;
   mesh.materials = {0};
@@ -64,7 +64,7 @@ inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
   return {origin, Vec3f(normalized(Vec3d(target) - Vec3d(origin)))};
 }
 
-// From all around at three radii, through the inside.
+// Rays from all around, at three radii from the center, through the inside of the sphere.
 inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::size_t n,
                                       std::uint64_t seed) {
   Numbers numbers(seed);
@@ -77,12 +77,12 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::s
 }
 
 inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
-// The same as Finding takes it, within a call.
+// The same for a Finding within one expression.
 inline auto described(const ProbeRay& ray) {
   return [&ray] { return describeRay(ray); };
 }
 
-// From 3 above the origin.
+// Camera that looks down from 3 above the origin.
 inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
 
 }  // namespace whit::verify

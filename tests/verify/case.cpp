@@ -35,7 +35,7 @@ std::vector<Family> families() {
           {"exact laws", invarianceCases()},
           {"recursion", recursionCases()},
           {"lights, textures, film, camera", lightAndFilmCases()},
-          {"faces in one plane", flushFaceCases()},
+          {"coplanar faces", coplanarFaceCases()},
           {"exact spheres", sphereCases()},
           {"paths through spheres", spherePathCases()}};
 }

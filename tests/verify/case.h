@@ -16,13 +16,13 @@
 
 namespace whit::verify {
 
-// What one run of a case is made with; names as in --simd and --packet.
+// The kernels of one run, with the names of --simd and --packet; packet 0 is "auto".
 struct Setup {
   std::string simd = "auto";
   int packet = 0;
 };
 
-// Which setups a case is run with: the default one, every SIMD target (each with its Embree ISA),
+// The setups that a case runs with: the default one, every SIMD target (each with its Embree ISA),
 // or every target with packets of 1, 4, 8 and 16.
 enum class Runs : std::uint8_t { once, targets, packets };
 
@@ -30,13 +30,14 @@ inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
 inline constexpr float kInf = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// The worst of what a run has seen, and where.
+// The worst error of a run, and its input.
 class Finding {
  public:
-  // `bound`: the largest worst value that is all right; kNoBound for what is only reported.
+  // `bound` is the largest worst value that holds; kNoBound for a case that is only reported.
   explicit Finding(double bound) : bound_(bound) {}
 
-  // An error; `describe()` gives its input as text, numbers as hex floats. NaN is worse than any.
+  // Adds an error; `describe()` returns its input as text with hex floats. NaN is worse than any
+  // number.
   template <typename Describe>
   void note(double error, const Describe& describe) {
     ++seen_;
@@ -45,7 +46,7 @@ class Finding {
     worst_ = std::max(e, worst_);
     input_ = describe();
   }
-  // Counts failures instead; the input is that of the first.
+  // Counts failures instead of errors; keeps the input of the first failure.
   template <typename Describe>
   void count(bool failed, const Describe& describe) {
     ++seen_;
@@ -53,14 +54,14 @@ class Finding {
     if (worst_ == 0) input_ = describe();
     worst_ += 1;
   }
-  // Takes over another finding that counts.
+  // Adds the failures of another finding.
   void merge(const Finding& other);
 
   double worst() const { return worst_; }
   double bound() const { return bound_; }
-  std::uint64_t seen() const { return seen_; }  // inputs tried
+  std::uint64_t seen() const { return seen_; }  // number of inputs tried
   const std::string& input() const { return input_; }
-  // A case that has tried nothing has shown nothing.
+  // A case that has tried no input does not hold.
   bool holds() const { return seen_ > 0 && worst_ <= bound_; }
 
  private:
@@ -79,7 +80,7 @@ struct Case {
   int number() const;
 };
 
-// A family a file.
+// One family per file.
 std::span<const Case> leavingSurfaceCases();
 std::span<const Case> thinPlaceCases();
 std::span<const Case> watertightnessCases();
@@ -93,7 +94,7 @@ std::span<const Case> rangeCases();
 std::span<const Case> invarianceCases();
 std::span<const Case> recursionCases();
 std::span<const Case> lightAndFilmCases();
-std::span<const Case> flushFaceCases();
+std::span<const Case> coplanarFaceCases();
 std::span<const Case> sphereCases();
 std::span<const Case> spherePathCases();
 
@@ -103,13 +104,13 @@ struct Family {
 };
 std::vector<Family> families();
 
-// Of this machine and build, at least one.
+// The setups of this machine and build; at least one.
 std::vector<Setup> setupsOf(Runs runs);
 
-// One run; leaves the SIMD target as it found it ("auto").
+// Runs a case once, and sets the SIMD target back to "auto".
 Finding runCase(const Case& c, const Setup& setup);
 
-// Inputs as text that can be pasted back into C++.
+// Numbers as text that can be pasted into C++.
 std::string hexText(double value);
 std::string hexText(const Vec3f& v);
 std::string hexText(const Vec3f& origin, const Vec3f& direction);

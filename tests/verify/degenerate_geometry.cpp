@@ -1,4 +1,4 @@
-// H23 to H29: triangles without area, without measure, without numbers.
+// H23 to H29: triangles without area, of extreme sizes, and with coordinates that are not numbers.
 #include <array>
 #include <bit>
 #include "reference/triangle.h"
@@ -27,7 +27,7 @@ Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& 
   return finding;
 }
 
-// Of the position that is used, which comes from the weights and not from t.
+// Tests the position that shading uses, which comes from the weights and not from t.
 Finding positionsOfNeedles(const Setup& setup) {
   Finding finding(0x1p-18);
   Numbers numbers(25);
@@ -35,7 +35,7 @@ Finding positionsOfNeedles(const Setup& setup) {
   constexpr std::uint32_t kNeedles = 4000;
   fan.positions.push_back({0, 0, 0});
   fan.normals.push_back({0, 1, 0});
-  // The first ones as a fan of 0.09 degrees each; width over length of the others is 1e-6.
+  // A fan of needles of 0.09 degrees each.
   for (std::uint32_t i = 0; i <= kNeedles; ++i) {
     const double turn = 2 * 3.14159265358979 * i / kNeedles;
     fan.positions.emplace_back(Vec3d{std::cos(turn), 0, -std::sin(turn)});
@@ -49,8 +49,7 @@ Finding positionsOfNeedles(const Setup& setup) {
     const Vec3f target(Vec3d{r * std::cos(turn), 0, r * std::sin(turn)});
     rays.push_back(rayThrough(target + Vec3f{0.1f, 1, 0.2f}, target));
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) continue;
     const float u = probe.hits().u[i], v = probe.hits().v[i];
@@ -65,7 +64,7 @@ Finding positionsOfNeedles(const Setup& setup) {
   return finding;
 }
 
-// A triangle of each kind that has no area, and slivers, beside a sound floor.
+// Triangles without area of each kind, and slivers, beside a valid floor.
 Finding degenerateTriangles(const Setup& setup) {
   Mesh mesh = floorAt(0, 1, 0);
   const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
@@ -85,7 +84,7 @@ Finding degenerateTriangles(const Setup& setup) {
   return finitePixels(repaired(std::move(d)), setup, "degenerate triangles and slivers");
 }
 
-// Edges from 1e-14 to 1e14: the normal is that of the plane.
+// With edges from 1e-14 to 1e14, the normal is the normal of the plane.
 Finding tinyAndHugeTriangles(const Setup& setup) {
   Finding finding(4 * 0x1p-24);
   Mesh mesh;
@@ -97,9 +96,7 @@ Finding tinyAndHugeTriangles(const Setup& setup) {
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(count, {{0, 0, 0}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < count; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
@@ -136,7 +133,7 @@ Finding hugeNextToTiny(const Setup& setup) {
   return finding;
 }
 
-// One bad corner among a thousand: its triangles go, are counted, and the others stay.
+// The triangles of one bad corner are dropped and counted; the others stay.
 Finding badVertices(const Setup& setup) {
   Finding finding(0);
   for (const float bad : {kNan, kInf, -kInf, 1e19f, 3e38f}) {
@@ -156,13 +153,12 @@ Finding badVertices(const Setup& setup) {
   return finding;
 }
 
-// One lane of a packet with a ray that is no ray: the other lanes keep every bit.
+// An invalid ray in one lane of a packet does not change a bit of the other lanes.
 Finding badRays(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(sphereMesh(3, {}, 1, 0), diffuseMaterial(1));
   const std::vector<ProbeRay> good = raysOnto({}, 1, 64, 28);
-  Probe expected(scene, setup);
-  expected.cast(good);
+  Probe expected(scene, setup, good);
   const std::array<ProbeRay, 5> bad{ProbeRay{{kNan, 0, 0}, {0, 0, 1}},
                                     {{0, kInf, 0}, {0, 0, 1}},
                                     {{0, 0, 3}, {kNan, 0, -1}},
@@ -172,13 +168,9 @@ Finding badRays(const Setup& setup) {
     for (const ProbeRay& ray : bad) {
       std::vector<ProbeRay> rays = good;
       for (std::size_t i = lane; i < rays.size(); i += 16) rays[i] = ray;
-      Probe probe(scene, setup);
-      probe.cast(rays);
+      Probe probe(scene, setup, rays);
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        const HitColumns &a = probe.hits(), &b = expected.hits();
-        const bool changed = a.triangle[i] != b.triangle[i] || a.t[i] != b.t[i] ||
-                             a.u[i] != b.u[i] || a.v[i] != b.v[i];
-        const bool wrong = i % 16 == lane ? probe.isHit(i) : changed;
+        const bool wrong = i % 16 == lane ? probe.isHit(i) : !probe.sameHit(expected, i);
         finding.count(wrong, [&] {
           return "lane " + std::to_string(i % 16) + " beside " + describeRay(ray);
         });
@@ -197,7 +189,7 @@ Finding garbage(const Setup& setup) {
     Mesh mesh;
     mesh.materials = {0};
     for (int i = 0; i < 60; ++i) {
-      // A few sound corners among them, so that something is left to be seen.
+      // Every second corner is valid, so that some triangles remain.
       const bool sound = i % 2 == 0;
       const auto coordinate = [&] {
         return sound ? static_cast<float>(bits() % 200) * 0.01f - 1 : number();
@@ -233,7 +225,7 @@ constexpr Case kDegenerateGeometryCases[] = {
      Runs::packets, hugeNextToTiny},
     {"H27", "corners that are not finite or enormous are dropped and counted",
      "one such corner in a grid of 4225", Runs::packets, badVertices},
-    {"H28", "a ray that is no ray misses, and leaves its neighbors alone",
+    {"H28", "an invalid ray misses, and does not change its neighbors",
      "NaN and infinity in one lane", Runs::packets, badRays},
     {"H29", "random bits as geometry", "12 scenes; pixels that are not finite", Runs::packets,
      garbage},

@@ -10,15 +10,15 @@ namespace whit::verify {
 namespace {
 
 constexpr std::size_t kLeavingRays = 1500;
-// Rays that leave a facet more flatly than this may meet its neighbor, as far as floats can tell.
+// A ray that leaves a facet at a smaller cosine than this may hit the neighboring facet within the
+// precision of floats.
 constexpr double kLeast = 1e-3;
 
-// Reflected and shadow rays that meet the convex body which they leave.
+// Counts the reflected and shadow rays that hit the convex body which they leave.
 Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const Setup& setup,
                  std::uint64_t seed) {
   Finding finding(0);
-  Probe probe(scene, setup);
-  probe.cast(raysOnto(center, radius, kLeavingRays, seed));
+  Probe probe(scene, setup, raysOnto(center, radius, kLeavingRays, seed));
   std::vector<ProbeRay> spawned;
   for (const ProbeChild& child : probe.reflections()) {
     if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
@@ -33,22 +33,12 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
     if (dot(l, Vec3d(probe.ng(i))) <= kLeast) continue;
     finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
   }
-  Probe next(scene, setup);
-  next.cast(spawned);
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    finding.count(next.isHit(i), described(spawned[i]));
-  }
+  countHits(finding, Probe(scene, setup, spawned), false);
   return finding;
 }
 
-Material shiny() {
-  Material m = mirrorMaterial(1);
-  m.diffuse = Rgb(1.0f);
-  return m;
-}
-
 Finding sphereSelfHits(const Vec3d& center, double radius, const Setup& setup) {
-  const Scene scene = sceneOf(sphereMesh(3, center, radius, 0), shiny());
+  const Scene scene = sceneOf(sphereMesh(3, center, radius, 0), shinyMaterial());
   return selfHits(scene, center, radius, setup, 1);
 }
 
@@ -84,8 +74,7 @@ Finding pointsFromFarAway(const Setup& setup) {
     const Vec3d towards = normalized(Vec3d{1, numbers.in(0.02, 1.5), numbers.in(-0.5, 0.5)});
     rays.push_back(rayThrough(Vec3f(target + towards * 1e5), Vec3f(target)));
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (!probe.isHit(i)) continue;
     const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
@@ -97,8 +86,8 @@ Finding pointsFromFarAway(const Setup& setup) {
   return finding;
 }
 
-// In long double and from the corner next to the origin: the sizes of the corners differ by up to
-// 1e16.
+// Computed in long double and from the corner nearest to the origin, because the sizes of the
+// corners differ by up to 1e16.
 double distanceToPlane(const Corners& c, const Vec3d& point) {
   using Vec = Vec3<long double>;
   const Vec n = normalized(cross(Vec(c[1]) - Vec(c[0]), Vec(c[2]) - Vec(c[0])));
@@ -109,8 +98,8 @@ double distanceToPlane(const Corners& c, const Vec3d& point) {
   return static_cast<double>(std::fabs(dot(Vec(point) - Vec(*base), n)));
 }
 
-// Hits are given, so that every triangle has some whatever its shape; at a distance at which
-// weights say more than it does.
+// Hits are given, so that triangles of every shape have some. They are so far away that the weights
+// are more precise than the distance.
 Finding offsetBoundsTheError(const Setup& setup) {
   Finding finding(1);
   Numbers numbers(4);
@@ -134,7 +123,8 @@ Finding offsetBoundsTheError(const Setup& setup) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     const double u = static_cast<double>(probe.hits().u[i]),
                  v = static_cast<double>(probe.hits().v[i]);
-    // What counts is the distance to the plane: along it 1 - u - v, rounded, moves the point more.
+    // Only the distance to the plane counts: the rounding of 1 - u - v moves the point further
+    // within the plane.
     const double error = distanceToPlane(c, Vec3d(probe.position(i)));
     finding.note(error / static_cast<double>(probe.surfels().offset[i]), [&] {
       return hexText(Vec3f(c[0])) + ", " + hexText(Vec3f(c[1])) + ", " + hexText(Vec3f(c[2])) +
@@ -144,10 +134,11 @@ Finding offsetBoundsTheError(const Setup& setup) {
   return finding;
 }
 
-// Views from straight above to 0.06 degrees over the plane, onto corners, edges and anywhere.
+// The views are from straight above to 0.06 degrees over the plane, onto corners, edges and any
+// point.
 Finding startOnAPlane(const Setup& setup) {
   Finding finding(0);
-  const Scene scene = sceneOf(floorAt(0, 1, 0), shiny());
+  const Scene scene = sceneOf(floorAt(0, 1, 0), shinyMaterial());
   Numbers numbers(9);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
@@ -157,18 +148,12 @@ Finding startOnAPlane(const Setup& setup) {
     const Vec3d back{std::cos(turn), i % 7 == 0 ? 1e6 : elevation, std::sin(turn)};
     rays.push_back(rayThrough(Vec3f(target + normalized(back) * 2.0), Vec3f(target)));
   }
-  Probe probe(scene, setup), again(scene, setup);
-  probe.cast(rays);
-  const std::vector<ProbeRay> spawned = raysOf(probe.reflections());
-  again.cast(spawned);
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    finding.count(again.isHit(i), described(spawned[i]));
-  }
+  Probe probe(scene, setup, rays);
+  countHits(finding, Probe(scene, setup, raysOf(probe.reflections())), false);
   return finding;
 }
 
-// From within the plane of a glowing floor, also by parallel rays that all start in it: all there
-// is to see is the sky.
+// An eye in the plane of a glowing floor, and parallel rays that all start in it, see only the sky.
 Finding eyeInAPlane(const Setup& setup) {
   Finding finding(0);
   constexpr float kSky = 0.25f;
@@ -182,7 +167,7 @@ Finding eyeInAPlane(const Setup& setup) {
     for (const Vec3f& towards : {Vec3f(1, 0, 0.2f), Vec3f(0.1f, 1, 0), Vec3f(0, -1, 0.1f),
                                  Vec3f(0.3f, 0.7f, -1), Vec3f(-1, -0.4f, 0.2f)}) {
       for (const float parallel : {0.0f, 2.0f}) {
-        // Parallel rays all start in the plane if it is the one across them.
+        // Parallel rays all start in the plane only if they are perpendicular to it.
         if (parallel > 0 && std::fabs(towards.y) < 1) continue;
         Camera camera;
         camera.eye = {0.3f, height, 0.2f};
@@ -191,8 +176,7 @@ Finding eyeInAPlane(const Setup& setup) {
         camera.up = {0, 0.3f, 1};
         camera.fov = 100;
         camera.orthographicHeight = parallel;
-        RenderOptions options = optionsOf(setup);
-        options.size = ImageSize{32, 24};
+        RenderOptions options = optionsOf(setup, {32, 24});
         for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
           finding.count(pixel.x != kSky, [&] {
             return "height " + hexText(double{height}) + " towards " + hexText(along) +
@@ -205,7 +189,8 @@ Finding eyeInAPlane(const Setup& setup) {
   return finding;
 }
 
-// Whether the way from `p` to `q` meets the unit box on the floor, made larger all around.
+// Returns true if the line from `p` to `q` hits the unit box on the floor, enlarged by `larger` on
+// all sides.
 bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   const Vec3d low = Vec3d{-0.5, 0, -0.5} - Vec3d(larger), high = Vec3d{0.5, 1, 0.5} + Vec3d(larger);
   double enters = 0, leaves = 1;
@@ -218,8 +203,8 @@ bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   return enters <= leaves;
 }
 
-// The floor is so large that its corners' ulps are a sixteenth of a unit, but where it is seen its
-// points are of the order of 1.
+// The ulps of the floor's corners are a sixteenth of a unit, but the coordinates of the points that
+// the camera sees are of the order of 1.
 Finding shadowOnLargeFloors(const Setup& setup) {
   constexpr double kUnsure = 0.01;  // next to the box and to the shadow's edge; pixels are larger
   Finding finding(0);
@@ -230,14 +215,12 @@ Finding shadowOnLargeFloors(const Setup& setup) {
     builder.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white));
     builder.description.lights = {lightAt({2, 3, 1}, 30)};
     Camera camera{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{64, 48};
+    RenderOptions options = optionsOf(setup, {64, 48});
     const Image image = pictureOf(builder.build(), camera, options);
     const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        const Vec3d way = frame.forward + frame.right * (x + 0.5 - image.width / 2.0) -
-                          frame.up * (y + 0.5 - image.height / 2.0);
+        const Vec3d way = frame.forward + asideOf(frame, x, y);
         const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
         if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
         const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
@@ -252,7 +235,7 @@ Finding shadowOnLargeFloors(const Setup& setup) {
   return finding;
 }
 
-// A shade 16 float steps under a lamp far from the origin, and what it hides from the lamp.
+// A shade 16 float steps under a lamp far from the origin keeps the floor dark.
 Finding shadeNextToItsLamp(const Setup& setup) {
   Finding finding(0);
   for (const float far : {0x1p10f, 0x1p14f, 0x1p18f}) {
@@ -265,8 +248,7 @@ Finding shadeNextToItsLamp(const Setup& setup) {
     builder.description.lights = {lightAt({far, 4, 0}, 30)};
     Camera camera = lookingDown();
     camera.eye.x = camera.at.x = far;
-    RenderOptions options = optionsOf(setup);
-    options.size = ImageSize{32, 24};
+    RenderOptions options = optionsOf(setup, {32, 24});
     for (const Rgb& pixel : pictureOf(builder.build(), camera, options).pixels) {
       finding.count(pixel.x != 0, [&] { return "lamp at " + hexText(double{far}); });
     }
@@ -274,7 +256,7 @@ Finding shadeNextToItsLamp(const Setup& setup) {
   return finding;
 }
 
-// A refracted ray that starts on the wrong side meets its own face again.
+// A refracted ray that starts on the wrong side hits its own face again.
 Finding sideOfTheOffset(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
@@ -317,8 +299,8 @@ Finding instanced(const Setup& setup) {
        {Affine::translation({30, -20, 10}) * turn * Affine::scaling({-2, 1, 1}), 1}}};
   for (const auto& [map, size] : maps) {
     SceneBuilder builder;
-    const auto material = builder.add(shiny());
-    // The second one, far away, makes instances of both.
+    const auto material = builder.add(shinyMaterial());
+    // The second placement, far away, makes instances of both.
     const Affine elsewhere = Affine::translation(map.p + Vec3d{1e5, 1e5, 1e5} * size) * map;
     builder.place({"ball", {sphereMesh(3, {}, 1, material)}}, {map, elsewhere});
     finding.merge(selfHits(builder.build(), map.p, size, setup, 11));
@@ -327,7 +309,7 @@ Finding instanced(const Setup& setup) {
 }
 
 constexpr Case kLeavingSurfaceCases[] = {
-    {"H1", "no ray meets the convex body that it leaves, at any size",
+    {"H1", "no ray hits the convex body that it leaves, at any size",
      "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
     {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
      Runs::packets, farFromOrigin},
@@ -348,7 +330,7 @@ constexpr Case kLeavingSurfaceCases[] = {
     {"H9b", "an eye in a surface's plane does not see it",
      "in a glowing floor, looking along it, away and through; pixels that are not the sky",
      Runs::packets, eyeInAPlane},
-    {"H10", "children start on the side that they go to", "slab of glass: two faces, then out",
+    {"H10", "child rays start on the side to which they go", "slab of glass: two faces, then out",
      Runs::packets, sideOfTheOffset},
     {"H11", "no self-hits on instances", "scaled by 1e-3 and 1e3, stretched, mirrored",
      Runs::packets, instanced},

@@ -9,7 +9,7 @@ namespace whit::verify {
 
 namespace {
 
-// On the surface, 1e-30 above it, and where a point is hit exactly.
+// Lights on the surface and up to 1e-5 above it, over a point that a ray hits exactly.
 Finding lightsAtNoDistance(const Setup& setup) {
   Finding finding(0);
   for (const float height : {0.0f, 1e-42f, 1e-30f, 1e-20f, 1e-10f, 1e-5f}) {
@@ -22,10 +22,10 @@ Finding lightsAtNoDistance(const Setup& setup) {
     light.radius = 1e-3f;
     builder.description.lights = {light};
     const Scene scene = builder.build();
-    // The middle of the middle pixel is the point below the light.
+    // The center of the middle pixel shows the point below the light.
     const RenderOptions options = optionsOf(setup, {33, 33});
     // I / radius^2 (kd / pi + the lobe's peak at normal incidence, 0.5 / (4 pi alpha^2) with
-    // roughness 0.5) bounds what can come back.
+    // roughness 0.5) is an upper bound on the reflected light.
     const float most = 1e6f * (0.32f + 0.5f / (12.5f * 0.0625f));
     for (const Rgb& pixel : pictureOf(scene, lookingDown(), options).pixels) {
       finding.count(!isFinite(pixel) || pixel.x < 0 || pixel.x > most,
@@ -52,10 +52,10 @@ Finding lightInABox(const Setup& setup) {
 }
 
 // Texture lookups through the kernel: four texels in a row, black, white, black, white.
-// Coordinates without a fraction of a texel, and those that are no numbers, count as 0.
+// Coordinates that are too large for fractions of a texel, or not numbers, count as 0.
 float tame(float s) { return std::fabs(s) <= 0x1p20f ? s : 0.0f; }
 
-// The colors of the coordinates in the first half of `uvs` are those of the second half.
+// The coordinates in both halves of `uvs` must have the same colors.
 Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
@@ -70,7 +70,7 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   Mesh mesh;
   mesh.materials = {0};
   for (std::uint32_t i = 0; i < uvs.size(); ++i) {
-    const float z = static_cast<float>(i);  // two in one place would be one
+    const float z = static_cast<float>(i);  // coincident triangles would be merged
     mesh.positions.insert(mesh.positions.end(), {{0, 0, z}, {1, 0, z}, {0, 1, z}});
     mesh.uvs.insert(mesh.uvs.end(), 3, uvs[i]);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
@@ -78,9 +78,7 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   builder.add(mesh);
   const Scene scene = repaired(builder.describe());
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(uvs.size(), {{0, 0, 1}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < uvs.size(); ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(static_cast<std::uint32_t>(uvs.size()));
   for (std::size_t i = 0; i < uvs.size(); ++i) {
     const float got = probe.surfels().diffuseR[i];
     const std::size_t half = uvs.size() / 2;
@@ -111,7 +109,7 @@ Finding oddTextureCoordinates(const Setup& setup) {
   return finding;
 }
 
-// Codes against the formula in double: distance from the nearest rounding, in codes.
+// Compares codes with the formula in double; the error is the distance beyond rounding, in codes.
 Finding srgbCodes(const Setup&) {
   Finding finding(0.01);
   Numbers numbers(72);
@@ -132,7 +130,8 @@ Finding srgbCodes(const Setup&) {
   return finding;
 }
 
-// Directions of the kernel against double, from the narrowest to the widest view, far away.
+// Compares directions of the kernel with double, from the narrowest to the widest view, and far
+// away.
 Finding cameraDirections(const Setup&) {
   Finding finding(4 * 0x1p-24);
   std::vector<std::uint32_t> pixels;
@@ -180,7 +179,7 @@ constexpr Case kLightAndFilmCases[] = {
      Runs::packets, lightsAtNoDistance},
     {"H66", "a light in a closed box lights nothing outside", "box above a floor; lit pixels",
      Runs::packets, lightInABox},
-    {"H68", "texture coordinates far away, tiny, and no numbers",
+    {"H68", "texture coordinates that are far away, tiny, or not numbers",
      "19 values, every wrap mode, textures 1 to 64 wide; colors outside [0, 1] or untamed",
      Runs::targets, oddTextureCoordinates},
     {"H72", "sRGB codes", "65536 values; codes beyond half a code from the formula in double",

@@ -30,7 +30,6 @@ namespace whit::verify {
 
 namespace {
 
-using accuracy::escaped;
 using cli::Json;
 
 // One run of a case.
@@ -138,6 +137,14 @@ struct HardScene {
   std::string name;
   Image picture;
 };
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return html;
+}
 
 constexpr const char* kStyle =
     "<style>:root{color-scheme:light dark}"

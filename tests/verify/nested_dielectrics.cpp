@@ -1,4 +1,4 @@
-// H45 to H50: dielectrics in dielectrics, around the eye, without a far side, and absorbing.
+// H45 to H50: nested dielectrics, an eye inside one, sheets without a far side, and absorption.
 #include <array>
 
 #include "verify/bodies.h"
@@ -7,13 +7,7 @@ namespace whit::verify {
 
 namespace {
 
-std::uint32_t depthOf(std::uint32_t media) {
-  std::uint32_t depth = 0;
-  for (; media != 0; media >>= 8) depth += (media & 0xFFu) != 0;
-  return depth;
-}
-
-// Follows refracted rays through the scene until all have left it; `visit` sees each that has.
+// Follows refracted rays through the scene, and calls visit(ray) for each ray that leaves it.
 template <typename Visit>
 void follow(const Scene& scene, const Setup& setup, std::vector<ProbeRay> rays,
             const Visit& visit) {
@@ -27,8 +21,8 @@ void follow(const Scene& scene, const Setup& setup, std::vector<ProbeRay> rays,
   }
 }
 
-// Glass on water: apart and overlapping. Whatever the faces in between do, a ray leaves in
-// the direction in which it came, and in no medium.
+// Glass on water, apart and overlapping: a ray leaves in the direction in which it came, and in no
+// medium.
 Finding glassOnWater(const Setup& setup) {
   Finding finding(1e-5);
   for (const float gap : {1e-2f, 1e-3f, -1e-3f, -1e-2f}) {
@@ -60,7 +54,7 @@ Finding glassOnWater(const Setup& setup) {
   return finding;
 }
 
-// Faces in one place: a ray meets one of them and starts beyond the other.
+// Coincident faces: a ray hits one of them and starts beyond the other.
 Finding coincidentFaces(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
@@ -76,7 +70,7 @@ Finding coincidentFaces(const Setup& setup) {
   return finding;
 }
 
-// The interface of an overlap is the one of water and glass, not of either with the vacuum.
+// The interface of an overlap is between water and glass, not between either and the vacuum.
 Finding overlapIsOneInterface(const Setup& setup) {
   Finding finding(16 * 0x1p-24);
   SceneBuilder builder;
@@ -99,13 +93,13 @@ Finding overlapIsOneInterface(const Setup& setup) {
   return finding;
 }
 
-// Four spheres around different centers: the stack holds as many media as spheres hold the point.
+// Four spheres around different centers: the stack has one medium for each sphere around the point.
 Finding stackCountsSpheres(const Setup& setup) {
   Finding finding(0);
   const std::array<Vec3d, 4> center{Vec3d{}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0.05, 0.1, 0.1}};
   SceneBuilder builder;
   for (int i = 0; i < 4; ++i) {
-    // Straight through: the paths are lines, so that the oracle is a point in spheres.
+    // Index 1 keeps the paths straight, so that the oracle only tests a point against the spheres.
     const auto m = builder.add(glassMaterial(1, i));
     builder.add(sphereMesh(4, center[static_cast<std::size_t>(i)], 1 - 0.2 * i, m));
   }
@@ -120,7 +114,7 @@ Finding stackCountsSpheres(const Setup& setup) {
         continue;
       }
       const Vec3d middle = (Vec3d(rays[i].origin) + Vec3d(probe.position(i))) * 0.5;
-      std::uint32_t inside = 0;
+      int inside = 0;
       double clear = 1;
       for (std::size_t k = 0; k < 4; ++k) {
         const double r = 1 - 0.2 * static_cast<double>(k), d = length(middle - center[k]);
@@ -129,15 +123,15 @@ Finding stackCountsSpheres(const Setup& setup) {
       }
       // Facets lie up to 0.003 inside the sphere.
       if (clear < 0.004) continue;
-      finding.count(depthOf(rays[i].media) != inside, described(rays[i]));
+      finding.count(mediaCount(rays[i].media) != inside, described(rays[i]));
     }
     rays = raysOf(probe.refractions());
   }
   return finding;
 }
 
-// From the middle of a ball of glass in a white room: all rays leave along the normal, and what is
-// still inside at the deepest impulse is missing.
+// From the middle of a ball of glass in a white room all rays leave along the normal. The light of
+// the paths that are still inside at the greatest depth is missing.
 Finding eyeInGlass(const Setup& setup) {
   // Facets are up to 2 degrees off, where F differs from 0.04 by 1e-6.
   Finding finding(1e-5);
@@ -158,30 +152,29 @@ Finding eyeInGlass(const Setup& setup) {
   return finding;
 }
 
-// A dozen roundings of the way and of the exponential, whose argument is below 10.
+// A dozen roundings of the distance and of the exponential, whose argument is below 10.
 constexpr double kBeerBound = 64 * 0x1p-24;
 
-// Absorbs, and does not refract.
+// A material that absorbs and does not refract.
 Material tintedMaterial() {
   Material m = glassMaterial(1);
   m.absorption = {0.5f, 1, 0};
   return m;
 }
 
-// A picture of something that glows with 1, seen through `way(start, direction)` of tinted water.
+// Compares a picture of walls with radiance 1 that are seen through tinted water. way(start,
+// direction) is the distance in the water.
 template <typename Way>
 void comparePicture(const Scene& scene, const Camera& camera, const Setup& setup, const Way& way,
                     Finding& finding) {
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{34, 22};
+  RenderOptions options = optionsOf(setup, {34, 22});
   options.cutoff = 0;
   const CameraFrame frame = makeCameraFrame(camera, options.size->width, options.size->height);
   const Image image = pictureOf(scene, camera, options);
   const Rgb absorption = tintedMaterial().absorption;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const Vec3d aside =
-          frame.right * (x + 0.5 - image.width / 2.0) - frame.up * (y + 0.5 - image.height / 2.0);
+      const Vec3d aside = asideOf(frame, x, y);
       const bool parallel = frame.orthographic;
       const double t = way(parallel ? frame.eye + aside : frame.eye,
                            parallel ? frame.forward : normalized(frame.forward + aside));
@@ -195,7 +188,7 @@ void comparePicture(const Scene& scene, const Camera& camera, const Setup& setup
   }
 }
 
-// In a room whose walls glow; the water reaches beyond them, or ends before.
+// A room with glowing walls; the water reaches beyond the walls or ends before them.
 Finding waterBeforeTheEye(const Setup& setup) {
   Finding finding(kBeerBound);
   constexpr float kWall = 2;
@@ -258,8 +251,7 @@ Finding eyeOnTheWater(const Setup& setup) {
   return finding;
 }
 
-// Between the eye and the surface of the water: more sheets that bound no medium than a byte
-// counts.
+// Between the eye and the surface of the water there are more than 255 sheets that bound no medium.
 Finding sheetsInWater(const Setup& setup) {
   Finding finding(kBeerBound);
   SceneBuilder builder;
@@ -281,7 +273,7 @@ Finding sheetsInWater(const Setup& setup) {
 
 // A ball of glass in a white room, rim and all.
 Finding whiteRim(const Setup& setup) {
-  // Smooth normals: between flat facets rays really stay inside by total reflection.
+  // The normals are smooth; between flat facets total reflection really keeps rays inside.
   Finding finding(1e-4);
   SceneBuilder builder;
   builder.add(sphereMesh(5, {}, 1, builder.add(glassMaterial(1.5f)), true));
@@ -301,7 +293,7 @@ Finding whiteRim(const Setup& setup) {
   return finding;
 }
 
-// A single sheet of glass bounds a medium that nothing ends.
+// A single sheet of glass begins a medium that no surface ends.
 Finding openGlass(const Setup& setup) {
   Finding finding(1e-6);
   SceneBuilder builder;
@@ -319,10 +311,10 @@ Finding openGlass(const Setup& setup) {
   return finding;
 }
 
-// Of sheets that glow and are there by a quarter, from above and from below: what one leaves of the
-// light behind it the next one sees. Between them, and to both sides, no medium begins.
+// Glowing sheets with a coverage of a quarter, from above and from below: each sheet lets three
+// quarters of the light behind it through. No medium begins between them or beside them.
 Finding sheetsInPart(const Setup& setup) {
-  // Three roundings a sheet.
+  // Each sheet takes three roundings.
   Finding finding(20 * 0x1p-24);
   constexpr int kSheets = 6;
   SceneBuilder builder;
@@ -346,7 +338,8 @@ Finding sheetsInPart(const Setup& setup) {
   return finding;
 }
 
-// exp(-sigma t) of the kernel, the product from 0 to beyond underflow, and 0 times infinity.
+// Tests exp(-sigma t) of the kernel for products from 0 to beyond underflow, and for 0 times
+// infinity.
 Finding absorption(const Setup& setup) {
   // Highway's exp is good to 2 ulp; the rounding of the product, amplified by its size, adds 88.
   Finding finding(100 * 0x1p-23);
@@ -359,7 +352,7 @@ Finding absorption(const Setup& setup) {
   const std::uint32_t medium = probe.tables().materials[0].medium;
   probe.load(std::vector<ProbeRay>(distances.size(), {{0, 1, 0}, {0, -1, 0}, medium}));
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    // Infinity is how far a ray goes that leaves the scene.
+    // The distance of a ray that leaves the scene is infinity.
     const bool leaves = std::isinf(distances[i]);
     probe.hit(i, leaves ? kMiss : 0, distances[i], 0.25f, 0.25f);
   }
@@ -370,7 +363,7 @@ Finding absorption(const Setup& setup) {
     const std::array<float, 3> got{probe.rays().weightR[i], probe.rays().weightG[i],
                                    probe.rays().weightB[i]};
     for (std::size_t c = 0; c < 3; ++c) {
-      // Below the least normal float there is nothing.
+      // Values below the least normal float are 0.
       const double exact = sigma[c] == 0 ? 1 : std::exp(-sigma[c] * t);
       const double least = 0x1p-125, g = static_cast<double>(got[c]);
       const double error = exact < least ? (g > least ? 1 : 0) : std::fabs(g / exact - 1);
@@ -385,7 +378,7 @@ constexpr Case kNestedDielectricCases[] = {
      "200 angles; how far the direction has turned", Runs::packets, glassOnWater},
     {"H45a", "an overlap is the interface of the two media", "relative error of F at each face",
      Runs::packets, overlapIsOneInterface},
-    {"H45b", "faces of glass and water in one place", "rays that leave in a medium, of 200",
+    {"H45b", "coincident faces of glass and water", "rays that leave in a medium, of 200",
      Runs::packets, coincidentFaces},
     {"H46", "the stack of media counts the spheres around a point",
      "four spheres that do not share a center; 2000 paths", Runs::packets, stackCountsSpheres},
@@ -408,7 +401,7 @@ constexpr Case kNestedDielectricCases[] = {
      Runs::packets, whiteRim},
     {"H49", "sheets of glass without a far side", "six of them in a white room", Runs::packets,
      openGlass},
-    {"H49a", "sheets that are there in part",
+    {"H49a", "sheets with partial coverage",
      "six of them, from both sides; relative error against the sum over sheets", Runs::packets,
      sheetsInPart},
     {"H50", "absorption from nothing to everything",

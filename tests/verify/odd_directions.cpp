@@ -1,4 +1,4 @@
-// H19 to H22 and H30: rays along axes and planes, and surfaces in one place.
+// H19 to H22 and H30: rays along axes and planes, and coincident surfaces.
 #include "reference/triangle.h"
 #include "verify/bodies.h"
 
@@ -6,21 +6,20 @@ namespace whit::verify {
 
 namespace {
 
-// The same rays along `directions` in turn: all must hit alike.
+// Casts the same rays along each direction; all must hit the same triangles.
 Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(grid(), diffuseMaterial(1));
   std::vector<std::uint32_t> expected;
   for (const Vec3f& direction : directions) {
     std::vector<ProbeRay> rays;
-    // Corners, edges and centers inside the border.
+    // The rays hit corners, edges and centers inside the border.
     for (int y = -62; y <= 62; y += 3) {
       for (int x = -62; x <= 62; ++x) {
         rays.push_back({Vec3f(Vec3d(x * 0.5, 16, y * 0.5)), direction});
       }
     }
-    Probe probe(scene, setup);
-    probe.cast(rays);
+    Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       if (expected.size() < rays.size()) expected.push_back(triangle);
@@ -54,16 +53,12 @@ Finding coplanarRays(const Setup& setup) {
     rays.push_back({Vec3f(Vec3d{numbers.in(-1, 1), numbers.in(-1, 1), 0}),
                     Vec3f(Vec3d{std::cos(turn), std::sin(turn), 0})});
   }
-  Probe probe(scene, setup);
-  probe.cast(rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    finding.count(probe.isHit(i), described(rays[i]));
-  }
+  countHits(finding, Probe(scene, setup, rays), false);
   return finding;
 }
 
-// Needles with edges of 11.2, 9.7 and 1.4 at a distance of 600, seen almost along their plane: how
-// far the hit lies beyond the triangle, over its size.
+// Needles with edges of 11.2, 9.7 and 1.4 at a distance of 600, seen almost along their plane. The
+// error is the distance of the hit beyond the triangle's bounds, relative to its size.
 Finding nearlyCoplanar(const Setup& setup) {
   Finding finding(kNoBound);
   Numbers numbers(22);
@@ -85,8 +80,7 @@ Finding nearlyCoplanar(const Setup& setup) {
     }
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) {
       finding.note(0, described(rays[i]));
@@ -102,7 +96,7 @@ Finding nearlyCoplanar(const Setup& setup) {
   return finding;
 }
 
-// Two squares in one place: whichever wins, it is the same one for every packet width.
+// Every packet width hits the same one of two coincident squares.
 Finding coplanarOverlap(const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
@@ -110,10 +104,8 @@ Finding coplanarOverlap(const Setup& setup) {
   builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
   const Scene scene = builder.build();
   const std::vector<ProbeRay> rays = raysOnto({}, 0.9, 2000, 30);
-  Probe expected(scene, {setup.simd, 1});
-  expected.cast(rays);
-  Probe probe(scene, setup);
-  probe.cast(rays);
+  Probe expected(scene, {setup.simd, 1}, rays);
+  Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     finding.count(probe.hits().triangle[i] != expected.hits().triangle[i], described(rays[i]));
   }
@@ -130,7 +122,7 @@ constexpr Case kOddDirectionCases[] = {
     {"H22", "how far hits lie beside needles seen edge on (reported only)",
      "angles of 1e-2 to 1e-7; distance of the point by t to the triangle's box, over its length",
      Runs::packets, nearlyCoplanar},
-    {"H30", "of two squares in one place the same one wins for every packet width",
+    {"H30", "the same one of two coincident squares wins for every packet width",
      "2000 rays against single rays", Runs::packets, coplanarOverlap},
 };
 

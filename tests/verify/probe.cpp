@@ -1,5 +1,7 @@
 #include "verify/probe.h"
 
+#include <array>
+#include <bit>
 #include <cstring>
 
 #include "render/settle_flush.h"
@@ -46,6 +48,11 @@ Probe::Probe(const Scene& scene, const Setup& setup)
                  0} {
   chunk_.frame = &constants_;
   chunk_.meter = &meter_;
+}
+
+Probe::Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>& rays)
+    : Probe(scene, setup) {
+  cast(rays);
 }
 
 void Probe::reserve(std::size_t count) {
@@ -97,6 +104,19 @@ void Probe::interpolate() {
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);
   run(simd::kInterpolateSurfels);
   if (chunk_.has(Feature::coverage)) run(simd::kLookUpCoverage);
+}
+
+void Probe::hitEach(std::uint32_t count) {
+  load(std::vector<ProbeRay>(count, {{0, 0, 0}, {0, 0, -1}}));
+  for (std::uint32_t i = 0; i < count; ++i) hit(i, i, 1, 0.25f, 0.25f);
+  interpolate();
+}
+
+bool Probe::sameHit(const Probe& other, std::size_t i) const {
+  const HitColumns a = *hits_, b = *other.hits_;
+  return a.triangle[i] == b.triangle[i] &&
+         (!isHit(i) || (a.instance[i] == b.instance[i] && a.t[i] == b.t[i] && a.u[i] == b.u[i] &&
+                        a.v[i] == b.v[i]));
 }
 
 void Probe::cast(const std::vector<ProbeRay>& rays) {
@@ -214,6 +234,29 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   const FrameStats frame = renderer.render(camera, film);
   if (stats) *stats = frame;
   return film.image;
+}
+
+void countHits(Finding& finding, const Probe& probe, bool mustHit) {
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    finding.count(probe.isHit(i) != mustHit, [&] {
+      const ProbeRay ray = probe.ray(i);
+      return hexText(ray.origin, ray.direction);
+    });
+  }
+}
+
+void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,
+                      bool mirrored) {
+  using Bits = std::array<std::uint32_t, 3>;
+  for (int y = a.window.y0; y < a.window.y1; ++y) {
+    for (int x = a.window.x0; x < a.window.x1; ++x) {
+      const Rgb &p = a.at(x, y), &q = b.at(mirrored ? b.width - 1 - x : x, y);
+      finding.count(std::bit_cast<Bits>(p) != std::bit_cast<Bits>(q), [&] {
+        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y) + ": " + hexText(p) +
+               " against " + hexText(q);
+      });
+    }
+  }
 }
 
 }  // namespace whit::verify

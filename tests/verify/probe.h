@@ -1,5 +1,4 @@
-// Rays by the handful through the parts of the vector pipeline: Embree and the kernels, one stage
-// after the other, on the very columns that a frame uses.
+// Sends a few rays through single stages of the vector pipeline, on the columns that a frame uses.
 #pragma once
 
 #include <vector>
@@ -26,23 +25,28 @@ RenderOptions optionsOf(const Setup& setup, const ImageSize& size);
 
 class Probe {
  public:
-  // With every effect compiled in, so that all columns are there. `scene` must outlive the probe.
+  // Compiles every effect in, so that all columns are there. `scene` must outlive the probe.
   Probe(const Scene& scene, const Setup& setup);
+  // The same, and casts these rays.
+  Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>& rays);
 
-  // generateRays' output, made by hand; then findIntersections.
+  // Takes the rays as the output of generateRays and runs findIntersections.
   void cast(const std::vector<ProbeRay>& rays);
-  // The same from hits that are given: interpolateSurfels alone.
+  // Takes rays and hits as given and runs interpolateSurfels alone.
   void load(const std::vector<ProbeRay>& rays);
   void hit(std::size_t i, std::uint32_t triangle, float t, float u, float v);
   void interpolate();
-  // Surfels made by hand: one of `material` with these normals at the origin, for kernels that do
-  // not look at geometry.
+  // Loads `count` rays down the z axis; ray i hits triangle i at weights of 1/4. Then interpolates.
+  void hitEach(std::uint32_t count);
+  // Makes a surfel of `material` with these normals at the origin, for kernels that do not look at
+  // geometry.
   void surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns);
 
-  // addImpulses of all surfels, however little they contribute.
+  // Runs addImpulses for all surfels, however little they contribute.
   std::vector<ProbeChild> reflections();
   std::vector<ProbeChild> refractions();
-  // findRadianceAndShadowRays and checkShadows: shadow rays, of which `visible` were not blocked.
+  // Runs findRadianceAndShadowRays and checkShadows. Returns the number of shadow rays; visible()
+  // tells which of them are not occluded.
   std::size_t light(const Light& light);
 
   // Overwrites every slot of every column with these bits.
@@ -50,6 +54,8 @@ class Probe {
 
   std::size_t size() const { return count_; }
   bool isHit(std::size_t i) const { return hits_->triangle[i] != kMiss; }
+  // Returns true if ray i missed in both probes, or has the same hit bit for bit.
+  bool sameHit(const Probe& other, std::size_t i) const;
   Vec3f position(std::size_t i) const {
     return {surfels_->posX[i], surfels_->posY[i], surfels_->posZ[i]};
   }
@@ -85,15 +91,32 @@ class Probe {
   ColumnStore<ShadowColumns> shadows_;
 };
 
-// The rays alone.
 std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children);
 
-// Primary rays of the pixels (packed), through their centers, by the kernel.
+// Primary rays through the centers of these packed pixels, made by the kernel.
 ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
                                     const CameraRays& camera);
 
-// What most cases look at: the picture from one camera.
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);
+
+// Counts the pixels whose bits differ. With `mirrored`, column x of `a` is column w - 1 - x of `b`.
+void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,
+                      bool mirrored = false);
+
+// Number of media on a stack of media.
+inline int mediaCount(std::uint32_t stack) {
+  int count = 0;
+  for (; stack != 0; stack >>= 8) count += (stack & 0xFFu) != 0;
+  return count;
+}
+
+// Counts the rays of a probe that hit something although they must not, or the other way round.
+void countHits(Finding& finding, const Probe& probe, bool mustHit);
+
+// Vector from the middle of the image plane to the center of a pixel.
+inline Vec3d asideOf(const CameraFrame& frame, int x, int y) {
+  return frame.right * (x + 0.5 - frame.width / 2.0) - frame.up * (y + 0.5 - frame.height / 2.0);
+}
 
 }  // namespace whit::verify

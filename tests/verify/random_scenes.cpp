@@ -1,4 +1,4 @@
-// H29: scenes of random things with hostile numbers.
+// H29: random scenes with hostile numbers.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,8 +10,9 @@ namespace whit::verify {
 
 namespace {
 
-// Every number is one that a scene file may hold (io/json_reader.h): finite, up to 1e18. Lists in
-// braces, not in parentheses, take their numbers in the same order with every compiler.
+// A scene file may hold every number that is used here (io/json_reader.h): finite, up to 1e18.
+// Random numbers stand in braces, not in parentheses, because every compiler evaluates those in
+// order.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : numbers_(seed) {}
@@ -31,7 +32,7 @@ class RandomScene {
  private:
   int below(int limit) { return static_cast<int>(numbers_.in(0, limit)); }
   bool one(int of) { return below(of) == 0; }
-  // 1 mostly, else anything from tiny to huge.
+  // A size of about 1 mostly, and sometimes any size from tiny to huge.
   double size() {
     if (!one(4)) return numbers_.in(0.1, 3);
     return std::pow(10.0, one(4) ? numbers_.in(-18, 17) : numbers_.in(-5, 5));
@@ -41,7 +42,7 @@ class RandomScene {
     near *= numbers_.in(0, 4);
     return one(8) ? near * size() : near;
   }
-  // Of light: none, some, or any.
+  // An amount of light: none, an ordinary one, or any.
   float amount() {
     return one(4) ? 0.0f
                   : static_cast<float>(
@@ -178,7 +179,7 @@ class RandomScene {
     sky.scale = unit();
     return sky;
   }
-  // Anywhere, inside of things too.
+  // A camera anywhere, also inside objects.
   Camera camera() {
     Camera camera;
     camera.eye = Vec3f(place());
@@ -193,7 +194,7 @@ class RandomScene {
   SceneBuilder builder_;
 };
 
-// The scene, or what refused it: a transform that cannot be undone, say.
+// The scene, or nothing if it is refused, for example because a transform is singular.
 std::optional<Scene> finalized(std::uint64_t seed) {
   Warnings warnings;
   try {
@@ -204,7 +205,7 @@ std::optional<Scene> finalized(std::uint64_t seed) {
   }
 }
 
-// Both modes, whose pictures need not agree: such scenes are full of borders.
+// Renders in both modes. The pictures need not agree, because rays hit many borders.
 Finding randomScenes(const Setup& setup) {
   constexpr std::uint64_t kScenes = 1000;
   Finding finding(0);

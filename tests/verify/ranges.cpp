@@ -8,23 +8,21 @@ namespace whit::verify {
 
 namespace {
 
-// Unit length of what the kernels hand on, however large the scene.
+// The kernels produce normals of unit length for scenes of any size.
 Finding unitNormals(const Setup& setup) {
   Finding finding(3 * 0x1p-24);
   Numbers numbers(51);
   Mesh mesh;
   constexpr std::uint32_t kTriangles = 4000;
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
-    // Below 1e-14 edges are less than the least normal float apart at places.
+    // Below 1e-14 some edges are shorter than the least normal float.
     const double size = std::pow(10, numbers.in(-14, 17.5));
     for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(numbers.direction() * size);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
-  probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
-  for (std::uint32_t i = 0; i < kTriangles; ++i) probe.hit(i, i, 1, 0.25f, 0.25f);
-  probe.interpolate();
+  probe.hitEach(kTriangles);
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     finding.note(std::fabs(length(Vec3d(probe.ng(i))) - 1),
                  [&] { return "first corner " + hexText(mesh.positions[3 * i]); });
@@ -32,7 +30,7 @@ Finding unitNormals(const Setup& setup) {
   return finding;
 }
 
-// 64 reflections in a box of mirrors: directions keep their length.
+// Directions keep their length over 64 reflections in a box of mirrors.
 Finding lengthAfter64Reflections(const Setup& setup) {
   Finding finding(3 * 0x1p-24);
   const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), mirrorMaterial(1));
@@ -65,7 +63,7 @@ Image litPicture(float intensity, const Setup& setup) {
   return pictureOf(scene, scene.cameras[0], optionsOf(setup, {33, 21}));
 }
 
-// Light of 1e-39: what the workers flush to zero is all that is lost.
+// Light of 1e-39 loses only the values that the workers flush to zero.
 Finding denormalLight(const Setup& setup) {
   Finding finding(1e-37);
   const float intensity = 1e-39f;
@@ -78,7 +76,8 @@ Finding denormalLight(const Setup& setup) {
   return finding;
 }
 
-// The picture over the intensity: the same bits for powers of two, ulps for others.
+// The picture divided by the intensity has the same bits for powers of two, and differs by ulps for
+// others.
 Finding extremeIntensities(const Setup& setup) {
   Finding finding(4);
   const Image unit = litPicture(1, setup);
@@ -96,7 +95,8 @@ Finding extremeIntensities(const Setup& setup) {
   return finding;
 }
 
-// A sky texel that is no number: repaired when the scene is made, at most its neighbors affected.
+// A sky texel that is not a number is repaired when the scene is made; at most the colors of its
+// neighbors change.
 Finding badSkyTexels(const Setup& setup) {
   Finding finding(0);
   for (const float bad : {kNan, kInf, -kInf, -1.0f}) {
@@ -120,7 +120,7 @@ Finding badSkyTexels(const Setup& setup) {
   return finding;
 }
 
-// What Min and Max make of a NaN differs from CPU to CPU; codes must not.
+// Min and Max treat a NaN differently on different CPUs; the codes must be the same.
 Finding oddRadiance(const Setup&) {
   Finding finding(0);
   const std::array<std::pair<float, std::uint32_t>, 8> cases{{{kNan, 0},
@@ -141,7 +141,7 @@ Finding oddRadiance(const Setup&) {
     for (std::size_t i = 0; i < 64; ++i) {
       const auto& [value, code] = cases[i % 8];
       const std::uint32_t got = codes[i] & 255u;
-      // Tone curves end where they end; what matters is which end.
+      // The end values of tone curves differ; the test only asks which end is reached.
       const bool right = curve == ToneCurve::none || code == 0 ? got == code : got > 250;
       finding.count(!right, [&, v = value] { return "radiance " + hexText(double{v}); });
     }
@@ -159,9 +159,9 @@ constexpr Case kRangeCases[] = {
     {"H56", "light of 1e-30 to 1e30",
      "against the picture for light 1; ulps, none allowed for powers of two", Runs::packets,
      extremeIntensities},
-    {"H57", "sky texels that are no numbers", "NaN, infinities, -1 among 16 texels", Runs::packets,
+    {"H57", "sky texels that are not numbers", "NaN, infinities, -1 among 16 texels", Runs::packets,
      badSkyTexels},
-    {"H58", "codes of radiance that is no number", "NaN, infinities, negative; all tone curves",
+    {"H58", "codes of radiance that is not a number", "NaN, infinities, negative; all tone curves",
      Runs::targets, oddRadiance},
 };
 

@@ -1,11 +1,11 @@
-// H62 to H64: deep recursion and what it is cut short by.
+// H62 to H64: deep recursion and its limits.
 #include "verify/bodies.h"
 
 namespace whit::verify {
 
 namespace {
 
-// A closed box of mirrors that emit 1: the sum of R^k down to the deepest impulse.
+// In a closed box of mirrors that emit 1 the radiance is the sum of R^k up to the greatest depth.
 Finding hallOfMirrors(const Setup& setup) {
   Finding finding(0x1p-23);
   for (const float reflectance : {0.5f, 0.9f, 1.0f}) {
@@ -40,8 +40,8 @@ Scene plates() {
   return builder.build();
 }
 
-// Both impulses of twenty faces at depth 64: bytes beyond one queue a depth, and pixels that differ
-// between queues of 16 and of one tile.
+// Renders reflections and refractions of twenty faces at depth 64. Memory must not exceed one queue
+// per depth, and pixels must be the same with queues of 16 rays and of one tile.
 Finding boundedMemory(const Setup& setup) {
   Finding finding(0);
   const Scene scene = plates();
@@ -73,7 +73,7 @@ Finding boundedMemory(const Setup& setup) {
   return finding;
 }
 
-// What is cut at X is worth at most X a ray; a throughput that is no number ends the path.
+// A cutoff of X loses at most X per ray that is cut; a throughput of NaN ends the path.
 Finding cutoffBias(const Setup& setup) {
   Finding finding(1);
   const Scene scene = plates();

@@ -12,15 +12,13 @@ namespace whit::verify {
 
 namespace {
 
-// The surface between two dielectrics, as the kernels have it and as the textbook does.
-
-// A surfel with both normals up, met by rays at given cosines.
+// Rays that hit a surfel whose normals both point up, at given cosines.
 struct Incidence {
   std::vector<ProbeRay> rays;
   std::vector<double> cosines;  // as the kernel sees them
 };
 
-// What the kernels make of a dielectric: F from the reflected weight, or 0 where nothing is
+// Results of the kernels for a dielectric: F, which is the reflected weight, or 0 where nothing is
 // reflected; the refracted weight and direction, or 0.
 struct Interfaces {
   std::vector<double> reflected, refracted;
@@ -32,7 +30,7 @@ using Real = long double;
 Incidence raysAt(const std::vector<double>& cosines) {
   Incidence incidence;
   for (const double c : cosines) {
-    // The vertical component is what counts, and is kept as it is.
+    // The vertical component is the cosine and is not changed.
     const auto down = static_cast<float>(c);
     const double rounded = static_cast<double>(down);
     const auto along = static_cast<float>(std::sqrt(std::max(0.0, (1 - rounded) * (1 + rounded))));
@@ -42,7 +40,7 @@ Incidence raysAt(const std::vector<double>& cosines) {
   return incidence;
 }
 
-// `from` is the index in front. The medium number 1 is in front where it is not the vacuum.
+// `from` is the index in front of the surface, `to` the index behind it.
 Interfaces throughKernels(float from, float to, const Incidence& incidence, const Setup& setup) {
   SceneBuilder builder;
   const auto front = builder.add(glassMaterial(from)), behind = builder.add(glassMaterial(to));
@@ -85,7 +83,7 @@ auto describe(float from, float to, double c) {
   };
 }
 
-// Cosines around the critical one, a unit in the last place apart.
+// Cosines around the critical one, with a distance of one unit in the last place.
 std::vector<double> aroundCritical(float from, float to) {
   const double eta = static_cast<double>(to) / static_cast<double>(from);
   auto c = static_cast<float>(std::sqrt((1 - eta) * (1 + eta)));
@@ -105,7 +103,7 @@ Finding criticalFlag(const Setup& setup) {
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real c = static_cast<Real>(in.cosines[i]);
     const Real g2 = (to - from) * (Real{to} + from) / (Real{from} * from) + c * c;
-    // Within the rounding of g2 itself either answer is right: F is 1 to four digits.
+    // Within the rounding of g2 both answers are right: F is 1 to four digits.
     if (std::fabs(g2) < 2 * static_cast<Real>(kUnit)) continue;
     finding.count((got.refracted[i] == 0) != (g2 <= 0), describe(from, to, in.cosines[i]));
   }
@@ -127,7 +125,7 @@ Finding criticalReflectance(const Setup& setup) {
   return finding;
 }
 
-// Cosines away from grazing, where the bend of the direction is held to the elevation rule.
+// Cosines away from grazing incidence, where the elevation rule changes directions.
 std::vector<double> cosines(std::uint64_t seed, std::size_t n, double least) {
   Numbers numbers(seed);
   std::vector<double> result{1, 0.5547001962252291};  // normal incidence, Brewster's angle of 1.5
@@ -162,7 +160,7 @@ Finding reflectanceError(const std::vector<std::pair<float, float>>& pairs, doub
     const Interfaces got = throughKernels(from, to, in, setup);
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       const Real c = static_cast<Real>(in.cosines[i]), exact = fresnel(from, to, c);
-      // Near the critical angle the root decides (H37a).
+      // Near the critical angle the error of the root dominates (H37a).
       const Real eta = Real{to} / from;
       if (eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L) continue;
       if (exact < 1e-30L) continue;
@@ -219,7 +217,7 @@ Finding snell(const Setup& setup) {
   return finding;
 }
 
-// Through a slab 1 thick at 60 degrees: straight on, 0.512472013 to the side.
+// A slab of thickness 1 moves a ray at 60 degrees by 0.512472013 to the side and does not turn it.
 Finding slabShift(const Setup& setup) {
   // Each face moves the start of its ray by the offset: 2^-19 of coordinates of up to 8.
   Finding finding(2 * 8 * 0x1p-19 / 0.512);
@@ -248,7 +246,8 @@ Finding slabShift(const Setup& setup) {
   return finding;
 }
 
-// White inside and out: what is not white after d internal reflections is R^d (1 - R).
+// In a white room only the light that is still inside after d internal reflections is missing,
+// which is R^d (1 - R).
 Finding furnace(const Setup& setup) {
   Finding finding(1e-6);
   SceneBuilder builder;

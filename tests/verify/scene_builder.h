@@ -1,4 +1,4 @@
-// Scenes of a few polygons, built in code: for the hard cases and for tests.
+// Builds scenes of a few polygons for the hard cases and for tests.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace whit::verify {
 
-// Materials that start from black, so that a test adds up only what it names.
+// Materials without any effect but the named one.
 inline Material blackMaterial() {
   Material m;
   m.diffuse = Rgb(0.0f);
@@ -25,6 +25,11 @@ inline Material diffuseMaterial(float albedo) {
 inline Material mirrorMaterial(float reflectance) {
   Material m = blackMaterial();
   m.mirror = m.mirrorGrazing = Rgb(reflectance);
+  return m;
+}
+inline Material shinyMaterial() {
+  Material m = mirrorMaterial(1);
+  m.diffuse = Rgb(1.0f);
   return m;
 }
 inline Material emittingMaterial(float radiance) {
@@ -69,20 +74,20 @@ class SceneBuilder {
     description.textures.push_back(std::move(texture));
     return static_cast<std::int32_t>(description.textures.size() - 1);
   }
-  // Part of the world, where it is.
+  // Adds a mesh to the world, without a transform.
   void add(Mesh mesh) { world_.meshes.push_back(std::move(mesh)); }
   void sky(float radiance) {
     description.sky.kind = Sky::Kind::color;
     description.sky.zenith = Rgb(radiance);
   }
-  // Kept as instances when there are two or more placements.
+  // Two or more placements make instances.
   void place(Object object, const std::vector<Affine>& placements) {
     description.objects.push_back(std::move(object));
     const auto number = static_cast<std::uint32_t>(description.objects.size() - 1);
     for (const Affine& placement : placements) description.instances.push_back({number, placement});
   }
 
-  // Everything so far as one description; the builder is used up.
+  // Returns the description and leaves the builder empty.
   SceneDescription describe() {
     if (description.materials.empty()) add(blackMaterial());
     place(std::move(world_), {Affine{}});
@@ -97,13 +102,13 @@ class SceneBuilder {
   Object world_;
 };
 
-// As loading does it: what can be repaired is, and counted.
+// Makes the scene like a loaded one: repairs and counts bad data.
 inline Scene repaired(SceneDescription&& description, Warnings* warnings = nullptr) {
   Warnings own;
   return Scene::finalize(std::move(description), warnings ? *warnings : own);
 }
 
-// Corners counter-clockwise as seen from outside; uv runs over the unit square from the first.
+// The corners are counter-clockwise from outside; uv covers the unit square from the first corner.
 inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
                  std::uint32_t material) {
   Mesh mesh;
@@ -113,22 +118,23 @@ inline Mesh quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
   mesh.materials = {material};
   return mesh;
 }
-// A square across the y axis at height y, 2 * half wide; its outside is up.
+// A horizontal square at height y, 2 * half wide; its outside is up.
 inline Mesh floorAt(float y, float half, std::uint32_t material) {
   return quad({-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}, material);
 }
-// The same with its outside down.
+// The same square with its outside down.
 inline Mesh ceilingAt(float y, float half, std::uint32_t material) {
   return quad({-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}, material);
 }
-// Two faces with the medium in between. Large ones are as good as infinite, but the magnitudes of
-// their corners make for large offsets.
+// Two faces with the medium in between. Large faces are as good as infinite, but the coordinates of
+// their corners make offsets large.
 inline void addSlab(SceneBuilder& builder, float top, float bottom, std::uint32_t material,
                     float half = 1000) {
   builder.add(floorAt(top, half, material));
   builder.add(ceilingAt(bottom, half, material));
 }
-// An axis-aligned box with its outside outwards; eight shared corners, no texture coordinates.
+// An axis-aligned box with eight shared corners and no texture coordinates; its outside is
+// outwards.
 inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.push_back(Box{low, high}.corner(i));

@@ -9,13 +9,13 @@ namespace {
 constexpr std::size_t kSurfels = 4000;
 const Vec3f kUp{0, 1, 0};
 
-// Surfels with the geometric normal up and shading normals up to `tilt` radians off, met from
-// elevations of 10^-e, e up to `flattest`.
+// Surfels whose geometric normal points up and whose shading normal is up to `tilt` radians off it.
+// Rays arrive at elevations of 10^-e, with e up to `flattest`.
 struct Tilted {
   std::vector<ProbeRay> rays;
   std::vector<Vec3f> normals;
 
-  // One of them, as Finding takes it.
+  // Surfel i as text for a Finding.
   auto described(std::size_t i) const {
     return [d = rays[i].direction, ns = normals[i]] {
       return "direction " + hexText(d) + ", shading normal " + hexText(ns);
@@ -44,7 +44,7 @@ void fill(Probe& probe, const Tilted& surfels) {
   for (std::size_t i = 0; i < surfels.rays.size(); ++i) probe.surfel(i, 0, kUp, surfels.normals[i]);
 }
 
-// How far children fall short of the least elevation, in units in the last place of 1.
+// The distance of child rays below the least elevation, in units in the last place of 1.
 Finding childrenStayOnTheirSide(const Setup& setup) {
   Finding finding(4);
   const Scene scene = oneMaterial(glassMaterial(1.5f));
@@ -65,7 +65,7 @@ Finding childrenStayOnTheirSide(const Setup& setup) {
   return finding;
 }
 
-// Where the normals agree the rule must not touch anything: the mirrored direction as it is.
+// If the normals agree, the rule for tilted normals must not change the mirrored direction.
 Finding agreeingNormals(const Setup& setup) {
   Finding finding(4 * 0x1p-24);
   const Scene scene = oneMaterial(mirrorMaterial(1));
@@ -111,7 +111,7 @@ Finding viewBehindTheNormal(const Setup& setup) {
   return finding;
 }
 
-// Corner normals of opposite directions: along a line there is none, and the face's serves.
+// Where opposite corner normals cancel, the normal of the face replaces them.
 Finding cancellingNormals(const Setup& setup) {
   Finding finding(4 * 0x1p-24);
   Mesh mesh = floorAt(0, 1, 0);
@@ -133,7 +133,7 @@ Finding cancellingNormals(const Setup& setup) {
   return finding;
 }
 
-// A sphere of 512 facets with smooth normals, lit from the side: against the true sphere's cosine,
+// Compares a sphere of facets with smooth normals, lit from the side, with the true sphere's cosine
 // where that is below 0.3.
 Finding terminator(const Setup& setup) {
   Finding finding(kNoBound);
@@ -143,8 +143,7 @@ Finding terminator(const Setup& setup) {
   const Light light = lightAt({1000, 0, 0}, 1e6f);
   builder.description.lights = {light};
   const Scene scene = builder.build();
-  Probe probe(scene, setup);
-  probe.cast(raysOnto({}, 1, kSurfels, 35));
+  Probe probe(scene, setup, raysOnto({}, 1, kSurfels, 35));
   probe.light(light);
   double sum = 0;
   std::size_t n = 0;
@@ -179,7 +178,7 @@ Finding lightBetweenTheNormals(const Setup& setup) {
       finding.count(probe.visible(i) && s < -1e-6, surfels.described(i));
       finding.count(probe.visible(i) && g < 0, surfels.described(i));
     }
-    // The floor would hide such a light all the same, but no ray should have to find that out.
+    // The floor would occlude such a light, but no shadow ray should be traced for it.
     finding.count(shadowRays > lit, [&] { return "light at " + hexText(l); });
   }
   return finding;
@@ -191,7 +190,7 @@ Finding grazingMirror(const Setup& setup) {
   const Scene scene = oneMaterial(mirrorMaterial(1));
   Numbers numbers(79);
   for (int k = 0; k < 8; ++k) {
-    // A plane of any tilt; the error is of the angle, not relative to it.
+    // The plane has any tilt; the error is the absolute error of the angle.
     const Vec3d n = numbers.direction(), along = normalized(cross(n, numbers.direction()));
     std::vector<ProbeRay> rays;
     for (std::size_t i = 0; i < kSurfels / 8; ++i) {
@@ -216,7 +215,7 @@ Finding grazingMirror(const Setup& setup) {
 }
 
 constexpr Case kShadingNormalCases[] = {
-    {"H32", "children stay on their side of the surface",
+    {"H32", "child rays stay on their side of the surface",
      "shading normals up to 57 degrees off, views down to 0.06 degrees; ulps below the least "
      "elevation",
      Runs::targets, childrenStayOnTheirSide},

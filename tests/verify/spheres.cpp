@@ -8,109 +8,94 @@ namespace whit::verify {
 
 namespace {
 
-// Towards a sphere, and past it by up to a radius. Farther away than 1e6 radii floats hardly aim:
-// where the rays really go is for the chord to say.
-std::vector<ProbeRay> raysTowards(const Ball& ball, std::uint64_t seed) {
-  Numbers numbers(seed);
-  std::vector<ProbeRay> rays;
-  const Vec3d center(ball.center);
-  const auto radius = static_cast<double>(ball.radius);
-  for (const double away : {1.25, 10.0, 1e3, 1e5, 1e7}) {
-    for (int i = 0; i < 40; ++i) {
-      const Vec3f from(center + numbers.direction() * (away * radius));
-      const double reach = std::sqrt(numbers.in(0, 4)) * radius;
-      rays.push_back(rayThrough(from, Vec3f(center + numbers.direction() * reach)));
-    }
-  }
-  return rays;
+// Rays towards a sphere, and past it by up to a radius. From more than 1e6 radii away floats hardly
+// aim; the chord tells where such a ray really goes.
+std::vector<ProbeRay> raysTowards(const Ball& ball) {
+  constexpr double kAway[] = {1.25, 10, 1e3, 1e5, 1e7};
+  return randomRays(200, 71, [&](Numbers& numbers, int i) {
+    const Vec3f from(ball.point(numbers.direction(), kAway[i / 40]));
+    const double reach = std::sqrt(numbers.in(0, 4));
+    return rayThrough(from, Vec3f(ball.point(numbers.direction(), reach)));
+  });
 }
 
-// Calls visit(probe, ball, i) for rays towards spheres of all sizes.
-template <typename Visit>
-void forAllSizes(const Setup& setup, const Visit& visit) {
-  for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3, 1e6})) {
-    const Scene scene = sceneOfBall(ball, diffuseMaterial(1));
-    Probe probe(scene, setup);
-    probe.cast(raysTowards(ball, 71));
-    for (std::size_t i = 0; i < probe.size(); ++i) visit(probe, ball, i);
+// Casts the rays that makeRays(ball) returns at opaque spheres of all sizes, at these distances
+// from the origin in radii, and calls visit(probe, ball, ray, number of the ray).
+template <typename MakeRays, typename Visit>
+void forAllSizes(std::initializer_list<double> distances, const MakeRays& makeRays,
+                 const Setup& setup, const Visit& visit) {
+  for (const Ball& ball : ballsOfAllSizes(distances)) {
+    const Scene scene = ball.scene(diffuseMaterial(1));
+    const Probe probe(scene, setup, makeRays(ball));
+    for (std::size_t i = 0; i < probe.size(); ++i) visit(probe, ball, probe.ray(i), i);
   }
 }
+
+constexpr std::initializer_list<double> kDistances = {0, 1, 1e3, 1e6};
 
 Finding silhouettes(const Setup& setup) {
   Finding finding(0);
   std::size_t hits = 0, misses = 0;
-  forAllSizes(setup, [&](const Probe& probe, const Ball& ball, std::size_t i) {
-    const ProbeRay ray = probe.ray(i);
-    const BallChord chord = chordOf(ball, ray);
-    const bool ahead = chord.far > 0;
-    if (chord.aside > 0.99L && chord.aside < 1.01L) return;
-    const bool wanted = chord.aside < 1 && ahead;
-    ++(wanted ? hits : misses);
-    finding.count(probe.isHit(i) != wanted, describedOn(ball, ray));
-  });
+  forAllSizes(kDistances, raysTowards, setup,
+              [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
+                const BallChord chord = ball.chord(ray);
+                if (chord.aside > 0.99L && chord.aside < 1.01L) return;
+                const bool expected = chord.aside < 1 && chord.far > 0;
+                ++(expected ? hits : misses);
+                finding.count(probe.isHit(i) != expected, ball.described(ray));
+              });
   finding.count(hits < 1000 || misses < 1000, [] { return "too few rays of a kind"; });
   return finding;
 }
 
-// By how much a hit is off, of what it may be off: over the sphere, along it, and in its distance,
-// which is rounded once; that the double before is off is less than a thousandth of it.
-double hitError(const Probe& probe, const Ball& ball, std::size_t i) {
-  const ProbeRay ray = probe.ray(i);
-  const BallChord chord = chordOf(ball, ray);
-  const long double t = chord.near > 0 ? chord.near : chord.far;
-  const double over = ballHeightError(ball);
-  const double along = kWeightAngle * static_cast<double>(ball.radius) + 2 * over;
-  const Vec3l off = Vec3l(probe.position(i)) - (Vec3l(ray.origin) + Vec3l(ray.direction) * t);
-  const auto far = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / t - 1);
-  return std::max({std::fabs(heightOver(ball, probe.position(i))) / over,
-                   static_cast<double>(length(off)) / along,
-                   std::fabs(far) / (1.001 * kBallRounding)});
-}
-
 Finding pointsOnBalls(const Setup& setup) {
   Finding finding(1);
-  forAllSizes(setup, [&](const Probe& probe, const Ball& ball, std::size_t i) {
-    const ProbeRay ray = probe.ray(i);
-    if (!probe.isHit(i) || chordOf(ball, ray).aside > 0.99L) return;
-    finding.note(hitError(probe, ball, i), describedOn(ball, ray));
-  });
+  forAllSizes(
+      kDistances, raysTowards, setup,
+      [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
+        const BallChord chord = ball.chord(ray);
+        if (!probe.isHit(i) || chord.aside > 0.99L) return;
+        const long double t = chord.near > 0 ? chord.near : chord.far;
+        const double over = ball.heightError();
+        const double along = kWeightAngle * ball.r() + 2 * over;
+        const Vec3l off = Vec3l(probe.position(i)) - (Vec3l(ray.origin) + Vec3l(ray.direction) * t);
+        // The distance is rounded once; the double before it is off by less than a thousandth of
+        // that rounding.
+        const auto far = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / t - 1);
+        finding.note(std::max({std::fabs(ball.heightOf(probe.position(i))) / over,
+                               static_cast<double>(length(off)) / along,
+                               std::fabs(far) / (1.001 * kBallRounding)}),
+                     ball.described(ray));
+      });
   return finding;
 }
 
 Finding offsetOnBalls(const Setup& setup) {
   Finding finding(1);
-  forAllSizes(setup, [&](const Probe& probe, const Ball& ball, std::size_t i) {
-    if (!probe.isHit(i)) return;
-    const double height = std::fabs(heightOver(ball, probe.position(i)));
-    finding.note(height / static_cast<double>(probe.surfels().offset[i]),
-                 describedOn(ball, probe.ray(i)));
-  });
+  forAllSizes(kDistances, raysTowards, setup,
+              [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
+                if (!probe.isHit(i)) return;
+                const double height = std::fabs(ball.heightOf(probe.position(i)));
+                finding.note(height / static_cast<double>(probe.surfels().offset[i]),
+                             ball.described(ray));
+              });
   return finding;
 }
 
-// A unit vector across `d`.
-Vec3d acrossRay(const Vec3d& d, Numbers& numbers) {
-  return normalized(cross(d, numbers.direction()));
-}
-
-// Along the limb, off by up to 64 roundings; and along the axes, where nothing is rounded and the
-// line touches the sphere in one point.
+// Rays along the limb, off by up to 64 roundings; and rays along the axes, where nothing is rounded
+// and the line touches the sphere in one point.
 std::vector<ProbeRay> tangentRays(const Ball& ball) {
-  Numbers numbers(72);
-  std::vector<ProbeRay> rays;
-  const Vec3d center(ball.center);
-  const auto radius = static_cast<double>(ball.radius);
-  for (int i = 0; i < 1500; ++i) {
-    const Vec3d d = numbers.direction(), e = acrossRay(d, numbers);
+  std::vector<ProbeRay> rays = randomRays(1500, 72, [&](Numbers& numbers, int) {
+    const Vec3d d = numbers.direction(), e = across(d, numbers);
     const double off = 1 + std::floor(numbers.in(-64, 65)) * kBallRounding;
-    rays.push_back({Vec3f(center + e * (radius * off) - d * (4 * radius)), Vec3f(d)});
-  }
+    return ProbeRay{Vec3f(ball.point(e, off) - d * (4 * ball.r())), Vec3f(d)};
+  });
   for (int i = 0; i < 24; ++i) {
     const int axis = i % 3, aside = (axis + 1 + i / 3 % 2) % 3;
-    Vec3d from = center, d;
+    Vec3d from(ball.center), d;
     d[axis] = i < 12 ? 1 : -1;
-    from[aside] += i / 6 % 2 == 0 ? radius : -radius;
-    from[axis] -= 4 * radius * d[axis];
+    from[aside] += i / 6 % 2 == 0 ? ball.r() : -ball.r();
+    from[axis] -= 4 * ball.r() * d[axis];
     rays.push_back({Vec3f(from), Vec3f(d)});
   }
   return rays;
@@ -119,14 +104,15 @@ std::vector<ProbeRay> tangentRays(const Ball& ball) {
 // From four radii away a double's own roundings leave the silhouette in doubt by this much.
 constexpr double kLimbDoubt = 0x1p-47;
 
-// Of a hit on the limb: how far its cosine is from the chord's, of what the normal may be off by.
+// For a hit on the limb: the difference of its cosine from the chord's, relative to the bound on
+// the error of the normal.
 double limbError(const Probe& probe, const Ball& ball, std::size_t i) {
   const ProbeRay ray = probe.ray(i);
   const Vec3d n(probe.ng(i)), d(ray.direction);
   if (!isFinite(probe.position(i)) || !isFinite(probe.ng(i))) return kNoBound;
   if (!std::isfinite(probe.hits().t[i]) || dot(n, d) > 4 * kBallRounding) return kNoBound;
-  if (std::fabs(heightOver(ball, probe.position(i))) > ballHeightError(ball)) return kNoBound;
-  const auto aside = static_cast<double>(chordOf(ball, ray).aside);
+  if (std::fabs(ball.heightOf(probe.position(i))) > ball.heightError()) return kNoBound;
+  const double aside = ball.aside(ray);
   const double cosine = std::sqrt(std::max(0.0, (1 - aside) * (1 + aside)));
   const double outside = dot(n, Vec3d(probe.position(i)) - Vec3d(ball.center)) > 0 ? 1 : -1;
   const double bound = kWeightAngle + 8 * kBallRounding + std::sqrt(2 * kLimbDoubt);
@@ -136,75 +122,63 @@ double limbError(const Probe& probe, const Ball& ball, std::size_t i) {
 Finding tangentToBalls(const Setup& setup) {
   Finding finding(1);
   for (const Ball& ball : {Ball{}, Ball{{3, -2, 5}, 0.75f}, Ball{{0, 0, 0}, 1e5f}}) {
-    const Scene scene = sceneOfBall(ball, glassMaterial(1.5f));
-    Probe probe(scene, setup);
-    probe.cast(tangentRays(ball));
+    const Scene scene = ball.scene(glassMaterial(1.5f));
+    Probe probe(scene, setup, tangentRays(ball));
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const ProbeRay ray = probe.ray(i);
-      const auto inside = static_cast<double>(1 - chordOf(ball, ray).aside);
+      const auto inside = static_cast<double>(1 - ball.chord(ray).aside);
       const bool wrong = probe.isHit(i) ? inside < -kLimbDoubt : inside > kLimbDoubt;
-      if (wrong) finding.note(kNoBound, describedOn(ball, ray));
-      if (probe.isHit(i)) finding.note(limbError(probe, ball, i), describedOn(ball, ray));
+      if (wrong) finding.note(kNoBound, ball.described(ray));
+      if (probe.isHit(i)) finding.note(limbError(probe, ball, i), ball.described(ray));
     }
     for (const auto& children : {probe.reflections(), probe.refractions()}) {
-      for (const ProbeChild& child : children) {
-        const bool finite = isFiniteRay(child.ray) && isFinite(child.weight);
-        if (!finite) finding.note(kNoBound, describedOn(ball, child.ray));
+      for (const auto& [ray, weight, parent] : children) {
+        const bool finite = isFinite(ray.origin) && isFinite(ray.direction) && isFinite(weight);
+        if (!finite) finding.note(kNoBound, ball.described(ray));
       }
     }
   }
   return finding;
 }
 
-// On the sphere, off by up to eight roundings to both sides, in any direction.
+// Rays from points on the sphere, off by up to eight roundings to both sides, in any direction.
 std::vector<ProbeRay> raysFromSurface(const Ball& ball) {
-  Numbers numbers(73);
-  std::vector<ProbeRay> rays;
-  for (int i = 0; i < 400; ++i) {
+  return randomRays(400, 73, [&](Numbers& numbers, int) {
     const double off = 1 + std::floor(numbers.in(-8, 9)) * kBallRounding;
-    const Vec3d out = numbers.direction() * (static_cast<double>(ball.radius) * off);
-    rays.push_back({Vec3f(Vec3d(ball.center) + out), Vec3f(numbers.direction())});
-  }
-  return rays;
+    const Vec3f from(ball.point(numbers.direction(), off));
+    return ProbeRay{from, Vec3f(numbers.direction())};
+  });
 }
 
-// In radii: what a double's roundings of 1 leave open where a line that passes the center by no
-// more than kSlantest goes through the surface.
+// For a line that passes the center by no more than kSlantest: how far, in radii, a double's
+// roundings of 1 leave its intersection with the surface in doubt.
 constexpr double kStartDoubt = 0x1p-45;
 constexpr long double kSlantest = 0.999L;
 
-// How far the first place ahead is wrong: 1 is what rounding to float may do.
-double startError(const Probe& probe, const Ball& ball, std::size_t i) {
-  const BallChord chord = chordOf(ball, probe.ray(i));
-  const double doubt = kStartDoubt * static_cast<double>(ball.radius);
-  const bool outside = chord.near > 0;
-  const auto t = static_cast<double>(outside ? chord.near : chord.far);
+// The error of the first intersection ahead; 1 is the rounding to float.
+double startError(const Probe& probe, const Ball& ball, const BallChord& chord, std::size_t i) {
+  const auto t = static_cast<double>(chord.near > 0 ? chord.near : chord.far);
   if (t <= 0) return probe.isHit(i) ? kNoBound : 0;
   if (!probe.isHit(i)) return kNoBound;
   const auto found = static_cast<double>(probe.hits().t[i]);
-  return std::fabs(found - t) / (1.001 * kBallRounding * t + doubt);
+  return std::fabs(found - t) / (1.001 * kBallRounding * t + kStartDoubt * ball.r());
 }
 
 Finding startsOnBalls(const Setup& setup) {
   Finding finding(1);
-  for (const Ball& ball : ballsOfAllSizes({0, 1, 100})) {
-    const Scene scene = sceneOfBall(ball, diffuseMaterial(1));
-    Probe probe(scene, setup);
-    probe.cast(raysFromSurface(ball));
-    const long double doubt = kStartDoubt * static_cast<long double>(ball.radius);
-    for (std::size_t i = 0; i < probe.size(); ++i) {
-      const ProbeRay ray = probe.ray(i);
-      const BallChord chord = chordOf(ball, ray);
-      // Neither a graze nor a start within the doubt has an answer.
-      if (!(chord.aside < kSlantest)) continue;
-      if (std::fabs(chord.near) < doubt || std::fabs(chord.far) < doubt) continue;
-      finding.note(startError(probe, ball, i), describedOn(ball, ray));
-    }
-  }
+  forAllSizes({0, 1, 100}, raysFromSurface, setup,
+              [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
+                const BallChord chord = ball.chord(ray);
+                const long double doubt = kStartDoubt * static_cast<long double>(ball.radius);
+                // Neither a graze nor a start within the doubt has an answer.
+                if (!(chord.aside < kSlantest)) return;
+                if (std::fabs(chord.near) < doubt || std::fabs(chord.far) < doubt) return;
+                finding.note(startError(probe, ball, chord, i), ball.described(ray));
+              });
   return finding;
 }
 
-// The floats that the scene will hold.
+// The map with the floats that the scene will hold.
 Affine roundedMap(const Affine& map) {
   return {Vec3d(Vec3f(map.x)), Vec3d(Vec3f(map.y)), Vec3d(Vec3f(map.z)), Vec3d(Vec3f(map.p))};
 }
@@ -227,11 +201,12 @@ std::vector<Affine> ellipsoidMaps() {
   return maps;
 }
 
-// An ellipsoid as the quadric |A (p - center)|^2 = 1.
+// An ellipsoid as the quadric |A (p - center)|^2 = 1, where A is the inverse of the map.
 struct Quadric {
   std::array<Vec3l, 3> rows;  // of A
   Vec3l center;
-  // A is made of differences of products; of the lengths that are multiplied, over the volume.
+  // An entry of A is a difference of two products. This is the sum of the products of the lengths
+  // that are multiplied, over the volume.
   long double products = 0;
 
   explicit Quadric(const Affine& map) : center(map.p) {
@@ -245,20 +220,21 @@ struct Quadric {
   BallChord chord(const ProbeRay& ray) const {
     return chordOf(linear(Vec3l(ray.origin) - center), linear(Vec3l(ray.direction)), 1);
   }
-  // Half of it.
+  // Half of the gradient.
   Vec3l gradient(const Vec3l& p) const {
     const Vec3l q = linear(p - center);
     return rows[0] * q.x + rows[1] * q.y + rows[2] * q.z;
   }
-  // Of all entries of A.
+  // Frobenius norm of A.
   long double norm() const {
     return std::sqrt(dot(rows[0], rows[0]) + dot(rows[1], rows[1]) + dot(rows[2], rows[2]));
   }
 };
 
-// The normal's error, of what it may be: the map of normals turns an error of the unit vector into
-// up to its norm times as much. An entry of it is a difference of two products, off by three
-// roundings of their size; its product with the vector, the sums and the length by six more.
+// The error of the normal relative to its bound. The map of normals turns an error of the unit
+// vector into up to its norm times as much. An entry of the map is a difference of two products,
+// off by three roundings of their size; its product with the vector, the sums and the length add
+// six more.
 double normalError(const Probe& probe, const Quadric& quadric, std::size_t i, bool entering) {
   const ProbeRay ray = probe.ray(i);
   const BallChord chord = quadric.chord(ray);
@@ -269,21 +245,19 @@ double normalError(const Probe& probe, const Quadric& quadric, std::size_t i, bo
   const auto products = static_cast<double>(quadric.products / size);
   const double bound = stretch * (kWeightAngle + 6 * kBallRounding) + products * 3 * kBallRounding;
   const auto cosine = static_cast<double>(dot(gradient, Vec3l(ray.direction)) / size);
-  if (std::fabs(cosine) <= bound) return 0;  // either side may be met there
+  if (std::fabs(cosine) <= bound) return 0;  // the ray may hit either side there
   if (enters(probe, i) != entering) return kNoBound;
   const Vec3l outwards = Vec3l(probe.ng(i)) * (entering ? 1.0L : -1.0L);
   return static_cast<double>(length(outwards - gradient / size)) / bound;
 }
 
 std::vector<ProbeRay> raysOntoEllipsoid(const Affine& map) {
-  Numbers numbers(74);
-  std::vector<ProbeRay> rays;
   const double reach = 2 * (length(map.x) + length(map.y) + length(map.z));
-  for (int i = 0; i < 200; ++i) {
-    const Vec3d target = map.point(numbers.direction() * numbers.in(0, 0.99));
-    rays.push_back(rayThrough(Vec3f(target + numbers.direction() * reach), Vec3f(target)));
-  }
-  return rays;
+  return randomRays(200, 74, [&](Numbers& numbers, int) {
+    const Vec3d direction = numbers.direction();
+    const Vec3d target = map.point(direction * numbers.in(0, 0.99));
+    return rayThrough(Vec3f(target + numbers.direction() * reach), Vec3f(target));
+  });
 }
 
 std::string describeEllipsoid(const Affine& map, const ProbeRay& ray) {
@@ -295,8 +269,10 @@ Finding ellipsoids(const Setup& setup) {
   Finding finding(1);
   for (const Affine& map : ellipsoidMaps()) {
     const Quadric quadric(map);
-    // Straight through.
-    const Scene scene = sceneOf(mappedSphere(map, 0), glassMaterial(1));
+    Mesh mesh;
+    mesh.spheres = {map};
+    // Rays pass straight through glass of index 1 and hit both faces.
+    const Scene scene = sceneOf(mesh, glassMaterial(1));
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays = raysOntoEllipsoid(map);
     for (const bool entering : {true, false}) {
@@ -314,27 +290,25 @@ Finding ellipsoids(const Setup& setup) {
   return finding;
 }
 
-// Of rays that look away. A rounded eye may lie below the surface by 2^-24 of its coordinates; at
-// this cosine a ray is through it after 2^-15 of them, near enough to be passed over.
+// Least cosine of a ray that looks away from the surface. A rounded eye may lie below the surface
+// by 2^-24 of its coordinates; at this cosine the ray has left the surface after 2^-15 of them,
+// which is near enough to be passed over.
 constexpr double kAway = 0x1p-9;
 
-// Pixels that look away and are not the sky.
+// Counts the pixels that look away from the ball and do not show the sky.
 void lookAway(const Ball& ball, const Camera& camera, const Setup& setup, Finding& finding) {
   constexpr float kSky = 0.25f;
   SceneBuilder builder;
-  builder.add(exactBall(ball, builder.add(emittingMaterial(1))));
+  builder.add(ball.mesh(builder.add(emittingMaterial(1))));
   builder.sky(kSky);
   const Image image = pictureOf(builder.build(), camera, optionsOf(setup, {24, 18}));
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   const Vec3d out = normalized(Vec3d(camera.eye) - Vec3d(ball.center));
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const Vec3d d = normalized(frame.forward + frame.right * (x + 0.5 - image.width / 2.0) -
-                                 frame.up * (y + 0.5 - image.height / 2.0));
+      const Vec3d d = normalized(frame.forward + asideOf(frame, x, y));
       if (dot(d, out) < kAway) continue;
-      finding.count(image.at(x, y).x != kSky, [&] {
-        return describeBall(ball, {camera.eye, Vec3f(d)});
-      });
+      finding.count(image.at(x, y).x != kSky, ball.described({camera.eye, Vec3f(d)}));
     }
   }
 }
@@ -344,15 +318,14 @@ Finding eyeOnABall(const Setup& setup) {
   Numbers numbers(75);
   for (const Ball& ball : {Ball{}, Ball{{0.3f, -7, 4}, 0.7f}, Ball{{0, -6e6f, 0}, 6e6f},
                            Ball{{200, 100, -300}, 0.5f}, Ball{{0, 0, 0}, 1e-4f}}) {
-    const auto radius = static_cast<double>(ball.radius);
     for (int i = 0; i < 4; ++i) {
-      const Vec3d out = numbers.direction(), along = acrossRay(out, numbers);
+      const Vec3d out = numbers.direction(), along = across(out, numbers);
       Camera camera;
-      camera.eye = Vec3f(Vec3d(ball.center) + out * radius);
+      camera.eye = Vec3f(ball.point(out, 1));
       camera.up = Vec3f(out);
       camera.fov = 90;
       for (const Vec3d& towards : {out + along * 0.1, along + out * 0.1}) {
-        const double step = std::max(radius, length(Vec3d(camera.eye)));
+        const double step = std::max(ball.r(), length(Vec3d(camera.eye)));
         camera.at = Vec3f(Vec3d(camera.eye) + towards * step);
         lookAway(ball, camera, setup, finding);
       }
@@ -364,8 +337,7 @@ Finding eyeOnABall(const Setup& setup) {
 constexpr Case kSphereCases[] = {
     {"H71", "exact spheres of any size are hit from any distance, and not beside",
      "radii of 1e-6 to 1e6, up to 1e6 radii from the origin, seen from up to 1e7 radii; rays "
-     "within "
-     "0.99 of the silhouette that miss and beyond 1.01 that hit",
+     "within 0.99 of the silhouette that miss and beyond 1.01 that hit",
      Runs::packets, silhouettes},
     {"H71a", "points on spheres and their distance",
      "the same spheres; height over the sphere, way along it and distance, over their bounds",

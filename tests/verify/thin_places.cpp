@@ -36,7 +36,7 @@ Finding thinGap(const Setup& setup) {
   return finding;
 }
 
-// Pixels that are not black.
+// Counts the pixels that are not black.
 Finding litPixels(const Scene& scene, const Setup& setup) {
   Finding finding(0);
   const Camera above{.eye = {0.5f, 3, 4}, .at = {0, 0.5f, 0}};
@@ -61,7 +61,8 @@ Finding contactLeak(const Setup& setup) {
   return finding;
 }
 
-// Towards edges and corners of the inside of a cube, off by up to four units in the last place.
+// Rays towards edges and corners of the inside of a cube, off by up to four units in the last
+// place.
 std::vector<ProbeRay> intoCorners(std::size_t n, std::uint64_t seed) {
   Numbers numbers(seed);
   std::vector<ProbeRay> rays;
@@ -80,8 +81,7 @@ std::vector<ProbeRay> intoCorners(std::size_t n, std::uint64_t seed) {
 Finding concaveCorners(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(box({-1, -1, -1}, {1, 1, 1}, 0), diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(intoCorners(kThinPlaceRays, 7));
+  Probe probe(scene, setup, intoCorners(kThinPlaceRays, 7));
   for (const Vec3f& outside : {Vec3f{2.3f, 1.7f, 0.4f}, {-1.01f, 0.2f, 0.3f}, {0, 1.5f, -1.5f}}) {
     probe.light(lightAt(outside, 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {

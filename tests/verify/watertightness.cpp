@@ -7,14 +7,12 @@ namespace whit::verify {
 
 namespace {
 
-// Rays from inside a closed body exactly or nearly through its edges and corners.
-
 // A point well inside the sphere.
 Vec3f inside(Numbers& numbers, const Vec3d& center, double radius) {
   return Vec3f(center + numbers.direction() * (0.5 * radius));
 }
 
-// Towards the middle of every edge, from inside.
+// Rays from inside towards the middle of every edge.
 std::vector<ProbeRay> throughEdges(const Mesh& mesh, const Vec3d& center, double radius) {
   Numbers numbers(13);
   std::vector<ProbeRay> rays;
@@ -27,10 +25,10 @@ std::vector<ProbeRay> throughEdges(const Mesh& mesh, const Vec3d& center, double
   return rays;
 }
 
-// Exactly: from the origin the target is the direction.
+// A ray from the origin goes exactly through its target, which is the direction.
 ProbeRay exactlyThrough(const Vec3f& target) { return {{0, 0, 0}, target}; }
 
-// Towards every corner: the first time exactly, then from inside.
+// Rays towards every corner: exactly from the origin the first time, then from any point inside.
 std::vector<ProbeRay> throughCorners(const Mesh& mesh, const Vec3d& center, double radius,
                                      int times) {
   Numbers numbers(14);
@@ -46,16 +44,12 @@ std::vector<ProbeRay> throughCorners(const Mesh& mesh, const Vec3d& center, doub
 
 constexpr std::size_t kEdgeRays = 4000;
 
-// Rays from inside a closed mesh that find nothing.
+// Counts the rays from inside a closed mesh that miss.
 Finding misses(const Mesh& mesh, const std::vector<ProbeRay>& rays, double bound,
                const Setup& setup) {
   Finding finding(bound);
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
-  Probe probe(scene, setup);
-  probe.cast(rays);
-  for (std::size_t i = 0; i < probe.size(); ++i) {
-    finding.count(!probe.isHit(i), described(rays[i]));
-  }
+  countHits(finding, Probe(scene, setup, rays), true);
   return finding;
 }
 
@@ -109,7 +103,7 @@ Finding unsharedCube(const Setup& setup) {
   return misses(cube, rays, 0, setup);
 }
 
-// Glass of the vacuum's index: rays go on as they are, and the stack of media counts crossings.
+// Glass of index 1 does not change the rays, and the stack of media counts the crossings.
 Finding crossingsBalance(const Setup& setup) {
   Finding finding(0);
   const Mesh ball = sphereMesh(2, {}, 1, 0);
@@ -155,7 +149,8 @@ Finding tJunctions(const Setup& setup) {
   return finding;
 }
 
-// Between the shells 5 and 6 outwards: shell 6 is next. A far mesh changes the hierarchy only.
+// Rays that start between the shells 5 and 6 and go outwards hit shell 6. A far mesh changes only
+// the hierarchy.
 Finding nestedShells(const Setup& setup) {
   Finding finding(0);
   for (const bool farMesh : {false, true}) {
@@ -180,8 +175,7 @@ Finding nestedShells(const Setup& setup) {
     for (const ProbeRay& ray : throughEdges(sixth, {}, 0)) {
       rays.push_back({ray.direction * static_cast<float>(start), ray.direction});
     }
-    Probe probe(scene, setup);
-    probe.cast(rays);
+    Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
       finding.count(triangle < before || triangle >= before + count, described(rays[i]));
@@ -190,7 +184,7 @@ Finding nestedShells(const Setup& setup) {
   return finding;
 }
 
-// What a ray exactly on an open border finds is not specified, but it is always the same.
+// The hit of a ray exactly on an open border is not specified, but it is always the same.
 Finding openBorder(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(floorAt(0, 1, 0), diffuseMaterial(1));
@@ -209,15 +203,16 @@ Finding openBorder(const Setup& setup) {
   return finding;
 }
 
-// A closed room with a corner exactly in the middle of every pixel: the wall that is seen, finer
-// than the pixels' grid by one all around, and a hood from its border to a point behind the eye.
+// A closed room with a corner exactly in the middle of every pixel: a wall that extends the grid of
+// pixels by one on all sides, and a hood from its border to a point behind the eye.
 Mesh roomOfPixels(const CameraFrame& frame) {
   const int columns = frame.width + 2, rows = frame.height + 2;
   std::vector<std::uint32_t> pixels;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) pixels.push_back(packedPixel(x, y));
   }
-  // One pixel up and left of the picture, which the middle of this larger one makes good.
+  // The grid begins one pixel up and left of the picture; a middle that is moved by one corrects
+  // that.
   CameraRays rays = cameraRays(frame);
   rays.halfWidth += 1;
   rays.halfHeight += 1;
@@ -247,7 +242,7 @@ Mesh roomOfPixels(const CameraFrame& frame) {
   return mesh;
 }
 
-// Pixels that look through a corner at the magenta outside.
+// Counts the pixels that see the magenta outside through a corner.
 Finding lostPixels(const Setup& setup) {
   Finding finding(0);
   const Camera camera{.eye = {0, 0, 0}, .at = {0, 0, -1}, .fov = 70};
@@ -279,11 +274,11 @@ constexpr Case kWatertightnessCases[] = {
      corners},
     {"H14a", "no pixel is lost at corners", "closed room with a corner in every pixel's middle",
      Runs::packets, lostPixels},
-    {"H15", "every way in has its way out", "media stacks of rays through edges and corners",
-     Runs::packets, crossingsBalance},
+    {"H15", "every ray that enters a body leaves it",
+     "media stacks of rays through edges and corners", Runs::packets, crossingsBalance},
     {"H16", "cracks at T-junctions (reported only: such a mesh is not closed)",
      "rays onto an edge that a corner of its neighbors divides", Runs::packets, tJunctions},
-    {"H17", "of nested shells the next one is hit",
+    {"H17", "the next one of nested shells is hit",
      "10 spheres 5 % apart, with and without a far mesh", Runs::packets, nestedShells},
     {"H18", "on an open border the answer is always the same", "rays exactly onto a border, twice",
      Runs::packets, openBorder},

@@ -1,7 +1,6 @@
-// H80 to H83: faces that share a plane, as models are made everywhere: boxes side by side, decals,
-// glass that stands on a table, objects placed twice.
+// H80 to H83: coplanar faces as models often have them: boxes side by side, decals, glass that
+// stands on a table, objects placed twice.
 #include <array>
-#include <bit>
 
 #include "verify/bodies.h"
 
@@ -20,9 +19,9 @@ std::array<Vec3f, 2> cornersOnGrid(Numbers& numbers) {
   return corners;
 }
 
-// Blocks on a grid, so that their faces, edges and corners coincide; decals one on the other in the
-// floor, one with itself in the same place; sheets that cross. Seeds that are odd are turned and
-// moved, so that planes agree to rounding only.
+// Blocks on a grid, whose faces, edges and corners coincide; decals on top of each other in the
+// floor; coincident instances; sheets that cross. Scenes of odd seeds are turned and moved, so that
+// planes agree only up to rounding.
 Scene blocksOnGrid(std::uint64_t seed) {
   Numbers numbers(seed);
   SceneBuilder builder;
@@ -56,29 +55,33 @@ Scene blocksOnGrid(std::uint64_t seed) {
   camera.eye = Vec3f(place.point(numbers.direction() * 9.0));
   camera.at = Vec3f(place.point({0.1, -0.2, 0.05}));
   builder.description.cameras = {camera};
-  Warnings warnings;  // boxes of one material in one place
+  Warnings warnings;  // coincident boxes of one material
   return Scene::finalize(builder.describe(), warnings);
 }
 
 RenderOptions fewPixels(const Setup& setup) {
-  RenderOptions options = optionsOf(setup);
-  options.size = ImageSize{64, 48};
+  RenderOptions options = optionsOf(setup, {64, 48});
   options.depth = 6;
   return options;
 }
 
-void countOtherBits(const Image& a, const Image& b, const std::string& what, Finding& finding) {
-  using Bits = std::array<std::uint32_t, 3>;
-  for (int y = a.window.y0; y < a.window.y1; ++y) {
-    for (int x = a.window.x0; x < a.window.x1; ++x) {
-      finding.count(std::bit_cast<Bits>(a.at(x, y)) != std::bit_cast<Bits>(b.at(x, y)), [&] {
-        return what + ", pixel " + std::to_string(x) + "," + std::to_string(y);
-      });
+// Calls visit(color, x, z) for every pixel of a picture that looks straight down from a parallel
+// camera of this height, with the position that its center shows.
+template <typename Visit>
+void lookStraightDown(const Scene& scene, float height, const Setup& setup, const Visit& visit) {
+  Camera camera = lookingDown();
+  camera.orthographicHeight = height;
+  const Image image = pictureOf(scene, camera, fewPixels(setup));
+  const double pixel = static_cast<double>(height) / image.height;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      visit(image.at(x, y).x, (x + 0.5 - image.width / 2.0) * pixel,
+            (y + 0.5 - image.height / 2.0) * pixel);
     }
   }
 }
 
-// Against packets of one ray, and again with other tiles, queues, batches, threads and a crop.
+// Compares pictures with packets of one ray, other tiles, queues, batches, threads and a crop.
 Finding sameBits(const Setup& setup) {
   Finding finding(0);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -87,7 +90,8 @@ Finding sameBits(const Setup& setup) {
       return pictureOf(scene, scene.cameras[0], options);
     };
     const auto differs = [&](const RenderOptions& options, const Image& from, const char* how) {
-      countOtherBits(picture(options), from, "seed " + std::to_string(seed) + ", " + how, finding);
+      countOtherPixels(finding, picture(options), from,
+                       "seed " + std::to_string(seed) + ", " + how);
     };
     RenderOptions options = fewPixels(setup);
     const Image own = picture(options);
@@ -108,7 +112,7 @@ Finding sameBits(const Setup& setup) {
   return finding;
 }
 
-// A block of glass, face in face with an opaque floor that hides something bright.
+// A block of glass with a face coincident with an opaque floor that hides something bright.
 Finding glassOnTheFloor(const Setup& setup) {
   Finding finding(0);
   for (const float height : {0.0f, 0.1f, 33.3f}) {
@@ -128,8 +132,8 @@ Finding glassOnTheFloor(const Setup& setup) {
   return finding;
 }
 
-// What lies under two slabs, one on the other, seen straight through: all that is not reflected at
-// the three interfaces, first order only.
+// A glowing floor under two slabs, one on the other: the picture shows the light that none of the
+// three interfaces reflects, first order only.
 Finding slabOnSlab(const Setup& setup) {
   // Two dozen roundings.
   Finding finding(24 * 0x1p-24);
@@ -157,8 +161,8 @@ Finding slabOnSlab(const Setup& setup) {
   return finding;
 }
 
-// Which of several squares in one place is seen: the opaque one rather than glass, and of two the
-// one that comes later in the scene.
+// Among coincident squares an opaque one is seen rather than glass, and the later one of two in the
+// scene.
 Finding whichIsSeen(const Setup& setup) {
   Finding finding(0);
   for (const bool glassFirst : {false, true}) {
@@ -180,8 +184,8 @@ Finding whichIsSeen(const Setup& setup) {
   return finding;
 }
 
-// Ways in which a square may be stored apart from others: in the world, carried by an instance,
-// with what casts no shadow, with what has holes.
+// Ways in which a square may be stored apart from others: in the world, in an instance, with the
+// meshes that cast no shadow, with the meshes that have holes.
 constexpr int kWaysOfStoring = 4;
 
 void addStored(int way, float half, float radiance, SceneBuilder& builder) {
@@ -195,8 +199,8 @@ void addStored(int way, float half, float radiance, SceneBuilder& builder) {
   builder.place({"square", {floorAt(0, half, builder.add(material))}}, places);
 }
 
-// Whatever the order in which they are stored, of two squares in one place the later is seen, to
-// its edges.
+// The later one of two coincident squares is seen up to its edges, in whatever order they are
+// stored.
 Finding laterHoweverStored(const Setup& setup) {
   Finding finding(0);
   for (int early = 0; early < kWaysOfStoring; ++early) {
@@ -204,26 +208,20 @@ Finding laterHoweverStored(const Setup& setup) {
       SceneBuilder builder;
       addStored(early, 1.7f, 0.25f, builder);
       addStored(late, 1.3f, 0.75f, builder);
-      Camera camera = lookingDown();
-      camera.orthographicHeight = 3;
-      const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const double pixel = 3.0 / image.height, wx = (x + 0.5 - image.width / 2.0) * pixel,
-                       wz = (y + 0.5 - image.height / 2.0) * pixel;
-          if (std::fabs(wx) > 1.3 || std::fabs(wz) > 1.3) continue;
-          finding.count(image.at(x, y).x != 0.75f, [&] {
-            return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", pixel " +
-                   std::to_string(x) + "," + std::to_string(y);
-          });
-        }
-      }
+      lookStraightDown(builder.build(), 3, setup, [&](float color, double x, double z) {
+        if (std::fabs(x) > 1.3 || std::fabs(z) > 1.3) return;
+        finding.count(color != 0.75f, [&] {
+          return "stored " + std::to_string(early) + " and " + std::to_string(late) + ", at " +
+                 hexText(x) + " " + hexText(z);
+        });
+      });
     }
   }
   return finding;
 }
 
-// A decal in the corner of a floor, with one corner or an edge in common: it covers what it covers.
+// A decal in the corner of a floor, with one corner or an edge in common, covers exactly its own
+// area.
 Finding decalInACorner(const Setup& setup) {
   Finding finding(0);
   for (const float side : {1.0f, 4.0f}) {
@@ -232,37 +230,28 @@ Finding decalInACorner(const Setup& setup) {
                decal = builder.add(emittingMaterial(0.75f));
     builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
     builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
-    Camera camera = lookingDown();
-    camera.orthographicHeight = 3.9f;
-    const Image image = pictureOf(builder.build(), camera, fewPixels(setup));
-    const double pixel = 3.9 / image.height;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        const double wx = (x + 0.5 - image.width / 2.0) * pixel,
-                     wz = (y + 0.5 - image.height / 2.0) * pixel;
-        if (std::fabs(wx) > 2) continue;
-        const bool covered = wx < static_cast<double>(side) - 2 && wz > 1;
-        finding.count(image.at(x, y).x != (covered ? 0.75f : 0.25f), [&] {
-          return "side " + hexText(double{side}) + ", pixel " + std::to_string(x) + "," +
-                 std::to_string(y);
-        });
-      }
-    }
+    lookStraightDown(builder.build(), 3.9f, setup, [&](float color, double x, double z) {
+      if (std::fabs(x) > 2) return;
+      const bool covered = x < static_cast<double>(side) - 2 && z > 1;
+      finding.count(color != (covered ? 0.75f : 0.25f), [&] {
+        return "side " + hexText(double{side}) + ", at " + hexText(x) + " " + hexText(z);
+      });
+    });
   }
   return finding;
 }
 
-constexpr Case kFlushFaceCases[] = {
-    {"H80", "the same bits where faces share a plane",
+constexpr Case kCoplanarFaceCases[] = {
+    {"H80", "the same bits with coplanar faces",
      "random blocks, decals, instances in one place, crossing sheets, also turned; against single "
      "rays, other tiles, queues, batches, threads, a crop",
      Runs::packets, sameBits},
     {"H81", "glass on an opaque floor does not leak",
      "pixels that show what is under the floor, at three heights", Runs::packets, glassOnTheFloor},
-    {"H82", "slab on slab, face in face",
+    {"H82", "slab on slab, with coincident faces",
      "light through three interfaces, against Fresnel; equal and other indices", Runs::packets,
      slabOnSlab},
-    {"H83", "which of several faces in one place is seen",
+    {"H83", "which of several coincident faces is seen",
      "the opaque one, the later one, in any order with glass", Runs::packets, whichIsSeen},
     {"H83a", "a decal in the corner of a floor covers what it covers",
      "two triangles of one plane with one corner or an edge in common", Runs::packets,
@@ -274,6 +263,6 @@ constexpr Case kFlushFaceCases[] = {
 
 }  // namespace
 
-std::span<const Case> flushFaceCases() { return kFlushFaceCases; }
+std::span<const Case> coplanarFaceCases() { return kCoplanarFaceCases; }
 
 }  // namespace whit::verify
