@@ -1,4 +1,4 @@
-// What buildings are made of: solids from a plan, walls, columns.
+// Parts of buildings: solids from a plan, walls, columns.
 #pragma once
 
 #include <array>

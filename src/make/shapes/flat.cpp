@@ -16,26 +16,18 @@ double side(ShapeParameters& parameters, const char* key, double fallback) {
   return parameters.number(key, fallback, 1e-6, 1e9);
 }
 
-Shape flatSheet(ShapeParameters& parameters, int nx, int nz, const char* name) {
-  const double width = side(parameters, "width", 2), depth = side(parameters, "depth", 2);
-  const double repeat = repeatOf(parameters, 0);
-  MeshBuilder builder(MeshBuilder::Shading::flat);
-  builder.sheet(nx, nz, [&](int i, int j) {
-    const double u = static_cast<double>(i) / nx, v = static_cast<double>(j) / nz;
-    const Uv uv = repeat > 0 ? Uv{u * width / repeat, v * depth / repeat} : Uv{u, v};
-    return SurfacePoint{{(u - 0.5) * width, 0, (0.5 - v) * depth}, {0, 1, 0}, uv};
-  });
-  return singlePart(builder.take(name));
-}
-
 }  // namespace
 
 // Faces up, centered on the origin: width along x, depth along z.
-Shape makeQuad(ShapeParameters& parameters) { return flatSheet(parameters, 1, 1, "quad"); }
-
-Shape makeGrid(ShapeParameters& parameters) {
-  const int nx = parameters.integer("nx", 10, 1, 4096);
-  return flatSheet(parameters, nx, parameters.integer("nz", nx, 1, 4096), "grid");
+Shape makeQuad(ShapeParameters& parameters) {
+  const double width = side(parameters, "width", 2), depth = side(parameters, "depth", 2);
+  const double repeat = repeatOf(parameters, 0);
+  MeshBuilder builder(MeshBuilder::Shading::flat);
+  builder.sheet(1, 1, [&](int u, int v) {
+    const Uv uv = repeat > 0 ? Uv{u * width / repeat, v * depth / repeat} : Uv{1.0 * u, 1.0 * v};
+    return SurfacePoint{{(u - 0.5) * width, 0, (0.5 - v) * depth}, {0, 1, 0}, uv};
+  });
+  return singlePart(builder.take("quad"));
 }
 
 Shape makeBox(ShapeParameters& parameters) {

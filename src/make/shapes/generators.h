@@ -8,13 +8,13 @@ namespace whit::procedural {
 using MakeShape = Shape(ShapeParameters& parameters);
 
 // round.cpp: turned and tessellated solids about the y axis, centered on the origin.
-MakeShape makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeTube, makeDisc;
+MakeShape makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeDisc;
 
 // Its exact spheres become triangles: so many around, half as many from pole to pole.
 void tessellateSpheres(Mesh& mesh, int segments);
 
 // flat.cpp: plane faces, no normals.
-MakeShape makeQuad, makeGrid, makeBox, makeRoundedBox, makeStairs;
+MakeShape makeQuad, makeBox, makeRoundedBox, makeStairs;
 
 // vessels.cpp: standing on y = 0.
 MakeShape makeVase, makeTumbler;

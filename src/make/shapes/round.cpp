@@ -165,17 +165,6 @@ Shape makeTorus(ShapeParameters& parameters) {
   return finished(builder.take("torus"), parameters);
 }
 
-// A pipe with a wall: outer radius, inner radius.
-Shape makeTube(ShapeParameters& parameters) {
-  const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
-  const double inner = parameters.number("innerRadius", 0.8 * r, 1e-9, r * (1 - 1e-6));
-  MeshBuilder builder;
-  builder.revolve(sharpProfile({{inner, -h}, {r, -h}, {r, h}, {inner, h}, {inner, -h}},
-                               2 * std::numbers::pi * r),
-                  segmentsOf(parameters, 64));
-  return finished(builder.take("tube"), parameters);
-}
-
 // Faces up.
 Shape makeDisc(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
