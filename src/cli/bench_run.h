@@ -1,5 +1,5 @@
-// Runs that are measured against each other: their frames take turns, so that whatever else the
-// machine does hits all of them alike.
+// Runs that are measured against each other: their frames take turns, so that other load of the
+// machine affects all of them alike.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,15 @@ class BenchRun {
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
            const RenderOptions& options, Progress* progress, Farm* farm = nullptr);
 
-  // From the second frame of warming up on shadows have verdicts: frames that know none yet, and
-  // from the first that is measured on frames that know all that these have asked for. Not in
-  // reference mode, nor in frames that several processes share.
+  // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
+  // without it, and filled before the measured ones. Not in reference mode, nor in frames that
+  // several processes share.
   void proveShadows() { proves_ = true; }
 
   void warmUp();
   void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
   const RunSummary& summary() const { return summary_; }
-  // Of the scene and of what the renderer has allocated, in 10^6 bytes. Complete after a frame.
+  // Memory of the scene and the renderer in 10^6 bytes; complete after a frame.
   double memoryMb() const;
   // The last frame, and the options that made it.
   const Film& film() const { return film_; }

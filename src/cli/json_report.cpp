@@ -73,16 +73,16 @@ void addFrames(const RunSummary& run, Json& json) {
   }
   const auto [lit, dark] = frame.meter.shadows;
   const std::uint64_t traced = frame.of(RayKind::shadow).rays;
-  // All of them, so that frames with and without verdicts have the same rays.
+  // The sum is the same with and without the shadow cache.
   json["rays"]["shadow"] = traced + lit + dark;
   if (run.verdicts) {
     const double cold = run.verdicts->coldMs;
-    json["verdicts"] = {{"lit", lit},
-                        {"dark", dark},
-                        {"traced", traced},
-                        {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
-                        {"fill_ms", run.verdicts->fillMs},
-                        {"bytes", run.verdicts->bytes}};
+    json["shadow_cache"] = {{"lit", lit},
+                            {"dark", dark},
+                            {"traced", traced},
+                            {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
+                            {"fill_ms", run.verdicts->fillMs},
+                            {"bytes", run.verdicts->bytes}};
   }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
@@ -201,7 +201,7 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
   const VerdictOutlook verdicts = verdictOutlook(scene, options);
-  json["verdicts"] = {
+  json["shadow_cache"] = {
       {"lights", verdicts.lights}, {"parts", verdicts.parts}, {"samples", verdicts.samples}};
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) {

@@ -50,12 +50,12 @@ void appendVerdicts(std::string& text, const RunSummary& run) {
   const FrameStats& frame = medianFrame(run);
   const auto [lit, dark] = frame.meter.shadows;
   const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
-  text += formatted("  warm: verdicts for %.1f %% of the shadow rays; ",
+  text += formatted("  shadow cache: %.1f %% of the shadow rays; ",
                     rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
   if (run.verdicts->coldMs > 0) {
-    text += formatted("cold, with none known, a frame took %.2f ms, ", run.verdicts->coldMs);
+    text += formatted("with an empty one a frame took %.2f ms, ", run.verdicts->coldMs);
   }
-  text += formatted("tables filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
+  text += formatted("filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
                     static_cast<double>(run.verdicts->bytes) / 1e6);
 }
 
@@ -105,7 +105,7 @@ void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
        {std::pair{"shadow, lit", decided.lit}, std::pair{"shadow, dark", decided.dark}}) {
     if (decided.lit + decided.dark == 0) continue;
     text += formatted("  %-14s%12llu%10s%16s\n", name, static_cast<unsigned long long>(rays), "-",
-                      "proved");
+                      "cached");
   }
   text +=
       formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
@@ -145,14 +145,14 @@ std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary&
   };
   std::string text = formatted("%s, %s, medians of %zu turns\n", first.scene.c_str(),
                                pairs == RunPairs::effects ? "every effect over the scene's"
-                                                          : "warm over all shadow rays traced",
+                                                          : "with over without shadow cache",
                                first.frames.size());
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
   text +=
       row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(second), outsideEmbreeMs(first));
   if (second.verdicts && base > 0) {
     const double cold = second.verdicts->coldMs;
-    text += row("cold, with no verdict known", cold / base, cold, base);
+    text += row("with an empty shadow cache", cold / base, cold, base);
   }
   return text;
 }

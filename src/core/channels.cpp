@@ -36,8 +36,7 @@ ChannelSet parseChannels(const std::string& commaSeparated) {
       std::vector<std::string> names;
       names.reserve(kChannels.size());
       for (const ChannelInfo& c : kChannels) names.emplace_back(c.name);
-      throwUsage("no channel is called '" + word + "'; nearest: '" + nearestName(word, names) +
-                 "'");
+      throwUsage("no channel is called '" + word + "'" + didYouMean(word, names));
     }
     set = set.with(static_cast<Channel>(found - kChannels.begin()));
   }

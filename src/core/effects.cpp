@@ -20,7 +20,7 @@ EffectSet parseEffects(const std::string& commaSeparated) {
       std::vector<std::string> names;
       names.reserve(std::size(kEffectNames));
       for (const EffectName& e : kEffectNames) names.emplace_back(e.name);
-      throwUsage("no effect is called '" + word + "'; nearest: '" + nearestName(word, names) + "'");
+      throwUsage("no effect is called '" + word + "'" + didYouMean(word, names));
     }
     set = set.with(static_cast<Effect>(found));
   }

@@ -25,18 +25,20 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-  const auto closer = [&](const std::string& a, const std::string& b) {
-    return editDistance(word, a) < editDistance(word, b);
-  };
-  const auto best = std::min_element(names.begin(), names.end(), closer);
-  return best == names.end() ? std::string() : *best;
+  std::string nearest;
+  std::size_t least = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
+  for (const std::string& name : names) {
+    const std::size_t edits = editDistance(word, name);
+    if (edits >= least) continue;
+    least = edits;
+    nearest = name;
+  }
+  return nearest;
 }
 
-std::string nearName(const std::string& word, const std::vector<std::string>& names) {
-  constexpr std::size_t kMostEdits = 2;
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
-  const std::size_t edits = editDistance(word, nearest);
-  return edits <= kMostEdits && edits < word.size() ? nearest : std::string();
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
 }  // namespace whit

@@ -1,4 +1,4 @@
-// Suggestions for misspelt names: the nearest of those there are.
+// Suggestions for misspelt names.
 #pragma once
 
 #include <string>
@@ -6,9 +6,11 @@
 
 namespace whit {
 
-// The name at the smallest edit distance from `word`; empty when there are no names.
+// The name at the smallest edit distance from `word`, if that is at most 2, or a third of the word,
+// and less than the whole word; otherwise empty.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
-// The same if it can be meant: at most two letters off, and not in all of them. Empty otherwise.
-std::string nearName(const std::string& word, const std::vector<std::string>& names);
+
+// "; did you mean 'NAME'?" for the end of a message; empty if no name is near.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace whit

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/luminance.h"
+#include "core/vec3.h"
 #include "core/quantile.h"
 #include "inspect/metrics.h"
 
