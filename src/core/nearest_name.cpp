@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
+
+#include "core/error.h"
 
 namespace whit {
 
@@ -39,6 +42,21 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
+                                   const std::vector<std::string>& names, const std::string& kind) {
+  std::vector<std::size_t> indices;
+  std::istringstream in(commaSeparated);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word.empty()) continue;
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names));
+    }
+    indices.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return indices;
 }
 
 }  // namespace whit

@@ -3,29 +3,13 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "core/option_values.h"
 
 namespace whit::cli {
-
-// The names that a value may list, if it is a list of names.
-template <typename T>
-std::vector<std::string> namesIn(const T&) {
-  return {};
-}
-inline std::vector<std::string> namesIn(const EffectSet&) {
-  std::vector<std::string> names;
-  names.reserve(kEffectNames.size());
-  for (const EffectName& effect : kEffectNames) names.emplace_back(effect.name);
-  return names;
-}
-inline std::vector<std::string> namesIn(const ChannelSet&) {
-  std::vector<std::string> names;
-  names.reserve(kChannels.size());
-  for (const ChannelInfo& channel : kChannels) names.emplace_back(channel.name);
-  return names;
-}
 
 class OptionList {
  public:
@@ -51,7 +35,8 @@ class OptionList {
     const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
     Entry& entry = push(spec, tell ? help + " (default: " + known + ")" : help,
                         [spec, &field](const std::string& text) { parseValue(spec, text, field); });
-    entry.names = namesIn(field);
+    if constexpr (std::is_same_v<T, EffectSet>) entry.names = namesIn(kEffectNames);
+    if constexpr (std::is_same_v<T, ChannelSet>) entry.names = namesIn(kChannels);
     return entry;
   }
   Entry& flag(std::string_view name, const std::string& help, bool& field) {
