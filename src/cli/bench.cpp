@@ -27,7 +27,7 @@ struct BenchJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   int frames = 0;  // 0: not given
-  bool floor = false, widths = false, abEffects = false, abVerdicts = false;
+  bool floor = false, widths = false, abEffects = false, abShadowCache = false;
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
@@ -36,14 +36,14 @@ struct BenchJob {
     Turns turns;
     if (reference()) turns = {0, 1};
     // After the frame that fills queues, those with an empty shadow cache.
-    if (abVerdicts) turns.warmUp = 1 + VerdictSchedule::kTurns;
+    if (abShadowCache) turns.warmUp = 1 + VerdictSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;
   }
-  bool comparesRuns() const { return widths || abEffects || abVerdicts; }
+  bool comparesRuns() const { return widths || abEffects || abShadowCache; }
   RunPairs pairs() const {
-    if (abVerdicts) return RunPairs::verdicts;
+    if (abShadowCache) return RunPairs::shadowCache;
     return abEffects ? RunPairs::effects : RunPairs::none;
   }
 };
@@ -57,7 +57,7 @@ OptionList listOptions(BenchJob& job) {
   list.flag("widths", "packets of 1, 4, 8 and 16 as separate runs", job.widths);
   list.flag("ab-effects", "kernels with the scene's effects and with every effect as two runs",
             job.abEffects);
-  list.flag("ab-shadow-cache", "without and with the shadow cache as two runs", job.abVerdicts);
+  list.flag("ab-shadow-cache", "without and with the shadow cache as two runs", job.abShadowCache);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -82,19 +82,19 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
       options.effects = choice;
       add(options);
     }
-  } else if (job.abVerdicts) {
+  } else if (job.abShadowCache) {
     for (const Verdicts verdicts : {Verdicts::off, job.common.render.verdicts}) {
       options.verdicts = verdicts;
       add(options);
     }
-    runs.back()->proveShadows();
+    runs.back()->useShadowCache();
   } else {
     add(options);
-    if (options.verdicts == Verdicts::audit) runs.back()->proveShadows();
+    if (options.verdicts == Verdicts::audit) runs.back()->useShadowCache();
   }
 }
 
-void checkVerdictTurns(const BenchJob& job, const Farm& farm) {
+void checkShadowCacheTurns(const BenchJob& job, const Farm& farm) {
   if (job.reference()) throwUsage("--ab-shadow-cache is for packets, not --mode reference");
   if (farm.ranks() > 1) throwUsage("--ab-shadow-cache is for one process, not for mpirun");
   if (job.widths || job.abEffects) {
@@ -115,7 +115,7 @@ void checkJob(const BenchJob& job, const Farm& farm) {
   if (job.widths && job.common.given.contains("packet")) {
     throwUsage("--widths runs every packet width: leave out --packet");
   }
-  if (job.abVerdicts) checkVerdictTurns(job, farm);
+  if (job.abShadowCache) checkShadowCacheTurns(job, farm);
   if (!job.abEffects) return;
   if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
   if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");

@@ -21,7 +21,7 @@ class BenchRun {
   // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
   // without it, and filled before the measured ones. Not in reference mode, nor in frames that
   // several processes share.
-  void proveShadows() { proves_ = true; }
+  void useShadowCache() { cachesShadows_ = true; }
 
   void warmUp();
   void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
@@ -34,7 +34,7 @@ class BenchRun {
 
  private:
   FrameStats frame();
-  void fillVerdicts();
+  void fillShadowCache();
 
   std::shared_ptr<const OpenScene> open_;
   Farm* farm_;
@@ -43,7 +43,7 @@ class BenchRun {
   Camera camera_;
   Film film_;
   std::uint64_t maxMemoryBytes_;
-  bool proves_ = false, begun_ = false;
+  bool cachesShadows_ = false, begun_ = false;
   std::vector<double> coldMs_;
   RunSummary summary_;
 };

@@ -30,7 +30,7 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
-  const VerdictOutlook verdicts = verdictOutlook(s, renderer.options());
+  const ShadowCacheOutlook verdicts = shadowCacheOutlook(s, renderer.options());
   if (verdicts.lights > 0) {
     std::printf(
         "  %-12sshadow cache for %zu light%s, %zu pieces of triangles; used in films and pictures "

@@ -330,7 +330,7 @@ class ImageWriter {
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
-    lookForVerdicts();
+    fillShadowCache();
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
@@ -354,24 +354,24 @@ class ImageWriter {
   // --shadow-cache audit: an extra first frame requests what the cache then holds.
   void prepareAudit(Film& film) {
     if (options_.verdicts != Verdicts::audit || options_.mode == Mode::reference) return;
-    if (run_.verdicts || farm_.ranks() > 1) return;
+    if (run_.shadowCache || farm_.ranks() > 1) return;
     const std::uint64_t most = job_.common.load.maxMemoryBytes;
     renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
     if (!renderer_->decidesShadows()) return;
-    run_.verdicts.emplace();
+    run_.shadowCache.emplace();
     renderer_->render(camera_, film);
-    lookForVerdicts();
+    fillShadowCache();
   }
 
-  void lookForVerdicts() {
-    if (options_.verdicts == Verdicts::audit && run_.verdicts) {
-      run_.verdicts->fillMs += renderer_->fillVerdicts().ms;
+  void fillShadowCache() {
+    if (options_.verdicts == Verdicts::audit && run_.shadowCache) {
+      run_.shadowCache->fillMs += renderer_->fillVerdicts().ms;
     } else if (schedule_ && schedule_->used()) {
       schedule_->frameDone();
-      if (!run_.verdicts) run_.verdicts.emplace();
-      run_.verdicts->fillMs = schedule_->fillMs();
+      if (!run_.shadowCache) run_.shadowCache.emplace();
+      run_.shadowCache->fillMs = schedule_->fillMs();
     }
-    if (run_.verdicts) run_.verdicts->bytes = renderer_->verdictBytes();
+    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->verdictBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,

@@ -45,18 +45,18 @@ void appendFrames(std::string& text, const RunSummary& run) {
   text += formatted("; load %.0f ms, build %.0f ms\n", run.loadMs, run.buildMs);
 }
 
-void appendVerdicts(std::string& text, const RunSummary& run) {
-  if (!run.verdicts) return;
+void appendShadowCache(std::string& text, const RunSummary& run) {
+  if (!run.shadowCache) return;
   const FrameStats& frame = medianFrame(run);
   const auto [lit, dark] = frame.meter.shadows;
   const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
   text += formatted("  shadow cache: %.1f %% of the shadow rays; ",
                     rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
-  if (run.verdicts->coldMs > 0) {
-    text += formatted("with an empty one a frame took %.2f ms, ", run.verdicts->coldMs);
+  if (run.shadowCache->coldMs > 0) {
+    text += formatted("with an empty one a frame took %.2f ms, ", run.shadowCache->coldMs);
   }
-  text += formatted("filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
-                    static_cast<double>(run.verdicts->bytes) / 1e6);
+  text += formatted("filled in %.0f ms, %.1f MB\n", run.shadowCache->fillMs,
+                    static_cast<double>(run.shadowCache->bytes) / 1e6);
 }
 
 void appendStages(std::string& text, const FrameStats& frame) {
@@ -118,7 +118,7 @@ std::string stageTable(const RunSummary& run) {
   std::string text;
   appendSettings(text, run);
   appendFrames(text, run);
-  appendVerdicts(text, run);
+  appendShadowCache(text, run);
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
@@ -150,8 +150,8 @@ std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary&
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
   text +=
       row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(second), outsideEmbreeMs(first));
-  if (second.verdicts && base > 0) {
-    const double cold = second.verdicts->coldMs;
+  if (second.shadowCache && base > 0) {
+    const double cold = second.shadowCache->coldMs;
     text += row("with an empty shadow cache", cold / base, cold, base);
   }
   return text;

@@ -114,7 +114,7 @@ std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint
   return most > taken ? most - taken : 0;
 }
 
-VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options) {
+ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options) {
   if (options.verdicts == Verdicts::off) return {0, 0, 0, "it is off by --shadow-cache"};
   const std::size_t lights = lightsWithVerdicts(makePlan(scene, options, true)).size();
   if (lights == 0) return {0, 0, 0, "there is no light whose shadows it could hold"};

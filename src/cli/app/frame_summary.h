@@ -15,7 +15,7 @@
 namespace whit::cli {
 
 // How the shadow cache was used.
-struct VerdictUse {
+struct ShadowCacheUse {
   double coldMs = 0;  // the median frame with an empty cache; 0: not measured
   double fillMs = 0;  // filling it, between frames
   std::uint64_t bytes = 0;
@@ -29,11 +29,11 @@ struct RunSummary {
   EffectSet effects;
   std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;      // counted ones; none: all images were there
-  std::vector<double> floorMs;         // empty without --floor
-  std::string imageHash;               // of the last frame: accuracy::digestOf(image)
-  std::optional<VerdictUse> verdicts;  // none: all shadow rays were traced
-  std::vector<FarmFrame> shares;       // how the frames were shared; empty for one process
+  std::vector<FrameStats> frames;             // counted ones; none: all images were there
+  std::vector<double> floorMs;                // empty without --floor
+  std::string imageHash;                      // of the last frame: accuracy::digestOf(image)
+  std::optional<ShadowCacheUse> shadowCache;  // none: all shadow rays were traced
+  std::vector<FarmFrame> shares;              // how the frames were shared; empty for one process
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
@@ -60,7 +60,7 @@ double outsideEmbreeMs(const RunSummary& run);
 
 // Runs that come in pairs: with the scene's effects and with all of them; without and with the
 // shadow cache.
-enum class RunPairs { none, effects, verdicts };
+enum class RunPairs { none, effects, shadowCache };
 
 // `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
 // else the machine did to both of a turn's frames cancels. 0 for none.
@@ -95,12 +95,12 @@ std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint
 
 // The shadow cache that a scene could have: its lights, its pieces of triangles, the number of
 // pixel samples from which it saves time, and otherwise why there is none.
-struct VerdictOutlook {
+struct ShadowCacheOutlook {
   std::size_t lights = 0, parts = 0;
   double samples = 0;
   std::string because;
 };
-VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options);
+ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options);
 
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);
