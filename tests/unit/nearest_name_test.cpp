@@ -16,9 +16,7 @@ TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
   EXPECT_EQ(nearestName("abcd", {"axxd", "abc"}), "abc");
 }
 
-TEST(NearestName, TheFirstOfEquallyNearOnes) {
-  EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax");
-}
+TEST(NearestName, TheFirstOfEquallyNearOnes) { EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax"); }
 
 TEST(NearestName, NothingToChooseFrom) {
   EXPECT_EQ(nearestName("x", {}), "");

@@ -44,7 +44,8 @@ TEST(Script, ErrorsNameTheLine) {
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
   EXPECT_EQ(errorOf("click 3"), "walk.txt:1: expected click X Y [X2 Y2]");
-  EXPECT_EQ(errorOf("panel knob"), "walk.txt:1: the panel has no tab 'knob'; did you mean 'knobs'?");
+  EXPECT_EQ(errorOf("panel knob"),
+            "walk.txt:1: the panel has no tab 'knob'; did you mean 'knobs'?");
   EXPECT_EQ(errorOf("drop"), "walk.txt:1: expected drop FILE");
   EXPECT_EQ(errorOf("resize 0 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
   EXPECT_EQ(errorOf("resize 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
