@@ -397,21 +397,9 @@ HWY_AFTER_NAMESPACE();
 namespace whit::simd {
 HWY_EXPORT(FindPacketKernels);
 PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernels)(); }
-HWY_EXPORT(FindInterpolateSurfels);
-StepFunction findInterpolateSurfels(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindInterpolateSurfels)(index);
-}
-HWY_EXPORT(FindLookUpRoughness);
-StepFunction findLookUpRoughness(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLookUpRoughness)(index);
-}
-HWY_EXPORT(FindLookUpCoverage);
-StepFunction findLookUpCoverage(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLookUpCoverage)(index);
-}
-HWY_EXPORT(FindLiftShadowOrigins);
-StepFunction findLiftShadowOrigins(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLiftShadowOrigins)(index);
-}
+WHIT_EXPORT_KERNEL(InterpolateSurfels)
+WHIT_EXPORT_KERNEL(LookUpRoughness)
+WHIT_EXPORT_KERNEL(LookUpCoverage)
+WHIT_EXPORT_KERNEL(LiftShadowOrigins)
 }  // namespace whit::simd
 #endif

@@ -66,6 +66,11 @@ struct Kernel {
   constexpr std::uint32_t bits() const { return choices.bits(); }
 };
 
+// Defines find##Name() below by Find##Name() of the chosen target; after HWY_ONCE, once for each.
+#define WHIT_EXPORT_KERNEL(Name) \
+  HWY_EXPORT(Find##Name);        \
+  StepFunction find##Name(std::size_t index) { return HWY_DYNAMIC_DISPATCH(Find##Name)(index); }
+
 // Of the chosen target; `index` as in Kernel::variant.
 StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);

@@ -31,8 +31,8 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
       if (c.name == options.camera) found = &c;
     }
     if (!found) {
-      throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'; nearest: '" +
-                 nearestName(options.camera, names) + "'");
+      throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
+                 didYouMean(options.camera, names));
     }
     camera = *found;
   }

@@ -249,7 +249,7 @@ std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
     std::istringstream words(list);
     for (std::string name; std::getline(words, name, ',');) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        throwUsage("there is no case '" + name + "'; nearest: '" + nearestName(name, known) + "'");
+        throwUsage("there is no case '" + name + "'" + didYouMean(name, known));
       }
       names.push_back(name);
     }

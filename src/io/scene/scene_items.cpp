@@ -231,7 +231,18 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   --depth_;
 }
 
+void refuseRemovedShapes(const JsonValue& name) {
+  const std::pair<std::string, std::string> removed[] = {
+      {"grid", "\"quad\""}, {"tube", "\"tumbler\", or a model of a pipe"}};
+  for (const auto& [shape, instead] : removed) {
+    if (name.isText() && name.text() == shape) {
+      name.fail(instead + " in place of the removed shape");
+    }
+  }
+}
+
 Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
+  refuseRemovedShapes(name);
   JsonShapeParameters parameters(item);
   const GenerationLimit limit(context_.budget.left());
   Shape shape = findGenerator(name, shapeGenerators())(parameters);
