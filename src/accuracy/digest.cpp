@@ -11,6 +11,7 @@
 
 #include "core/formatted.h"
 #include "core/options.h"
+#include "scene/members.h"
 
 namespace whit::accuracy {
 
@@ -87,10 +88,6 @@ void add(Digester& d, const std::optional<T>& value) {
 void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
 
 // The bindings below name every member: one that is added does not compile before it is here.
-void add(Digester& d, const Camera& camera) {
-  const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
-  add(d, eye), add(d, at), add(d, up), add(d, fov), add(d, orthographicHeight);
-}
 void add(Digester& d, const Medium& medium) {
   const auto& [ior, absorption, priority] = medium;
   add(d, ior), add(d, absorption), add(d, priority);
@@ -98,6 +95,10 @@ void add(Digester& d, const Medium& medium) {
 void add(Digester& d, const InstanceRecord& instance) {
   const auto& [geometry, written, toWorld, mover, toMover, moves, firstItem] = instance;
   add(d, geometry), add(d, toWorld);
+}
+
+void add(Digester& d, const Camera& camera) {
+  forEachMember<Camera>([&](const auto& member) { add(d, camera.*member.field); });
 }
 
 // A material, a light, ambient light.

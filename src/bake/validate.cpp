@@ -3,7 +3,9 @@
 #include <set>
 
 #include "bake/finalize_steps.h"
+#include "core/formatted.h"
 #include "core/options.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -27,22 +29,27 @@ void checkSize(const SceneDescription& d) {
                 "expected 1 to " + std::to_string(kImageSideLimit) + " pixels a side");
 }
 
-void checkCamera(const Camera& c, const std::string& where) {
-  if (!(c.orthographicHeight >= 0 && std::isfinite(c.orthographicHeight))) {
-    throwBadScene(where, "expected a finite height of an orthographic camera, or 0");
-  }
-  if (!isFinite(c.eye) || !isFinite(c.at) || !isFinite(c.up) || !std::isfinite(c.fov)) {
-    throwBadScene(where, "expected finite eye, at, up and fov");
-  }
+template <typename Noun>
+void checkMembers(const Noun& noun, const std::string& where) {
+  forEachMember<Noun>([&](const auto& member) {
+    const auto& value = noun.*member.field;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Vec3f>) {
+      if (!isFinite(value)) throwBadScene(where, std::string("expected a finite ") + member.name);
+    } else {
+      const double low = member.rules.low, high = member.rules.high;
+      if (value >= low && value <= high) return;
+      throwBadScene(where, formatted("expected %s to be from %g to %g", member.name, low, high));
+    }
+  });
 }
 
 void checkCameras(const SceneDescription& d) {
   for (std::size_t i = 0; i < d.cameras.size(); ++i) {
-    checkCamera(d.cameras[i], place(d.name, "camera", i, d.cameras[i].name));
+    checkMembers(d.cameras[i], place(d.name, "camera", i, d.cameras[i].name));
   }
   for (std::size_t i = 0; i < d.cameraPath.size(); ++i) {
     const std::string where = place(d.name, "keyframe", i, "");
-    checkCamera(d.cameraPath[i].camera, where);
+    checkMembers(d.cameraPath[i].camera, where);
     const float time = d.cameraPath[i].time;
     if (!std::isfinite(time)) throwBadScene(where, "expected a finite time");
     if (i > 0 && !(time > d.cameraPath[i - 1].time)) {

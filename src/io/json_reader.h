@@ -10,11 +10,9 @@
 
 #include "core/vec3.h"
 #include "io/scene/json_text.h"
+#include "scene/members.h"
 
 namespace whit {
-
-// Numbers in a scene stay below what Embree takes for a coordinate.
-inline constexpr double kLargestNumber = 1e18;
 
 // What all values of one file share. Numbers may be written "$name", "$name*0.5" or "$name/2", with
 // a parameter's name.
@@ -86,5 +84,23 @@ class JsonObject {
   JsonValue value_;
   std::vector<std::string> known_;
 };
+
+template <typename Noun, typename Value>
+void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value& value) {
+  const MemberRules<Noun>& rules = member.rules;
+  if constexpr (std::is_same_v<Value, Vec3f>) {
+    value = rules.kind == MemberKind::color ? json.color(rules.high) : Vec3f(json.vector());
+  } else {
+    value = static_cast<Value>(json.number(rules.low, rules.high));
+  }
+}
+
+// Reads the members that the object gives; the others keep their values.
+template <typename Noun>
+void readMembers(JsonObject& object, Noun& noun) {
+  forEachMember<Noun>([&](const auto& member) {
+    if (const auto json = object.find(member.name)) readMember(*json, member, noun.*member.field);
+  });
+}
 
 }  // namespace whit

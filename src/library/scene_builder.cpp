@@ -28,9 +28,11 @@ Json describe(const Light& light) {
 }
 
 Json describe(const Camera& camera) {
-  Json json{{"eye", camera.eye}, {"at", camera.at}, {"up", camera.up}, {"fov", camera.fov}};
-  if (camera.orthographicHeight != 0) json["orthographicHeight"] = camera.orthographicHeight;
-  return json;
+  return {{"eye", camera.eye},
+          {"at", camera.at},
+          {"up", camera.up},
+          {"fov", camera.fov},
+          {"orthographicHeight", camera.orthographicHeight}};
 }
 
 // Members that decide on others are written only where they are given.

@@ -9,6 +9,7 @@
 
 namespace whit {
 
+// Members are listed in scene/members.h.
 struct Camera {
   std::string name = "default";
   Vec3f eye{0, 0, 5};
@@ -20,19 +21,16 @@ struct Camera {
   float orthographicHeight = 0;
 };
 
-// Whether both see the same: the name does not count.
-inline bool sameView(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov == b.fov &&
-         a.orthographicHeight == b.orthographicHeight;
-}
+// Compares all members but the name.
+bool sameView(const Camera& a, const Camera& b);
 
 struct Keyframe {
   float time = 0;  // seconds
   Camera camera;
 };
 
-// Where the camera is at `time`: Catmull-Rom through eye and at, linear in fov and height. Clamped
-// to the ends. Needs at least one keyframe, in order of time.
+// Interpolates the keyframes at `time`: Catmull-Rom through eye and at, linearly in all other
+// members. Clamped to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
 // What the ray generator needs, worked out once a frame in double: the direction through image

@@ -6,12 +6,21 @@
 
 #include "core/vec3.h"
 #include "io/scene/json_text.h"
+#include "scene/members.h"
 
 namespace whit {
 
 // The shortest decimals that are read as this float.
 Json describe(float x);
 Json describe(const Vec3f& v);
+
+template <typename Noun>
+Json describeMembers(const Noun& noun) {
+  Json json;
+  forEachMember<Noun>(
+      [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
+  return json;
+}
 
 // The path of a file for a scene in `folder`: "$WHIT_DATA/..." where it lies below that, else
 // relative to the folder.

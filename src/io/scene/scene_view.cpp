@@ -10,16 +10,11 @@
 namespace whit {
 namespace {
 
-constexpr double kLeastFov = 0.01, kLargestFov = 179;
 constexpr double kLeastRadius = 1e-6;
 
-// The fields that are given; the others stay.
+// Reads the members that are given; the others keep their values.
 void readCamera(JsonObject& object, Camera& camera) {
-  camera.eye = object.vector("eye", camera.eye);
-  camera.at = object.vector("at", camera.at);
-  camera.up = object.vector("up", camera.up);
-  camera.fov = object.number("fov", camera.fov, kLeastFov, kLargestFov);
-  camera.orthographicHeight = object.number("orthographicHeight", camera.orthographicHeight, 0);
+  readMembers(object, camera);
   const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
   if (forward == Vec3d()) object.value().fail("eye and at to differ");
   const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
@@ -227,16 +222,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   return fromSky;
 }
 
-Json describe(const Camera& camera) {
-  Json json{{"eye", describe(camera.eye)},
-            {"at", describe(camera.at)},
-            {"up", describe(camera.up)},
-            {"fov", describe(camera.fov)}};
-  if (camera.orthographicHeight > 0) {
-    json["orthographicHeight"] = describe(camera.orthographicHeight);
-  }
-  return json;
-}
+Json describe(const Camera& camera) { return describeMembers(camera); }
 
 Json describe(const Ambient& ambient) {
   Json json = ambient.ofSky > 0
