@@ -2,6 +2,7 @@
 // its keys were asked for, so that errors name the place and misspelt keys do not go unnoticed.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -88,18 +89,28 @@ class JsonObject {
 template <typename Noun, typename Value>
 void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value& value) {
   const MemberRules<Noun>& rules = member.rules;
-  if constexpr (std::is_same_v<Value, Vec3f>) {
+  if constexpr (std::is_same_v<Value, bool>) {
+    value = json.flag();
+  } else if constexpr (std::is_integral_v<Value>) {
+    value = json.integer(static_cast<int>(rules.low), static_cast<int>(rules.high));
+  } else if constexpr (std::is_same_v<Value, Vec3f>) {
     value = rules.kind == MemberKind::color ? json.color(rules.high) : Vec3f(json.vector());
+  } else if constexpr (std::is_same_v<Value, Light::Kind>) {
+    const std::string word = json.word({kLightKindNames.begin(), kLightKindNames.end()});
+    const auto* const found = std::find(kLightKindNames.begin(), kLightKindNames.end(), word);
+    value = static_cast<Value>(found - kLightKindNames.begin());
   } else {
     value = static_cast<Value>(json.number(rules.low, rules.high));
   }
 }
 
-// Reads the members that the object gives; the others keep their values.
+// Reads the members that the object gives, except maps; the others keep their values.
 template <typename Noun>
 void readMembers(JsonObject& object, Noun& noun) {
-  forEachMember<Noun>([&](const auto& member) {
-    if (const auto json = object.find(member.name)) readMember(*json, member, noun.*member.field);
+  forEachMemberInFiles(noun, [&](const auto& member) {
+    const std::optional<JsonValue> json =
+        member.rules.required ? object.need(member.name) : object.find(member.name);
+    if (json) readMember(*json, member, noun.*member.field);
   });
 }
 

@@ -2,11 +2,17 @@
 // validation, comparison, digests, edits between frames and the viewer's widgets follow from it.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
 #include "core/options.h"
 #include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/texture.h"
 
 namespace whit {
 
@@ -14,16 +20,27 @@ namespace whit {
 inline constexpr double kLargestNumber = 1e18;
 
 // What the type of a member does not say.
-enum class MemberKind { plain, color };
+enum class MemberKind : std::uint8_t { plain, color, map };
 
 template <typename Noun>
 struct MemberRules {
   MemberKind kind = MemberKind::plain;
+  TextureUse use = TextureUse::color;  // of a map
+  bool inFiles = true;                 // false: only readers of models set it
+  bool required = false;               // scene files have to give it
+  bool baked = false;                  // triangles or images depend on it: no edit between frames
   double low = -kLargestNumber, high = kLargestNumber;  // of numbers; channels are at least 0
+  double usual = high;                                  // upper end of widgets
+  bool (*exists)(const Noun&) =
+      nullptr;  // false: scene files cannot give it; null: all nouns have it
+  // Widgets are shown for nouns that it returns true for; null: for all.
+  bool (*matters)(const Noun&) = nullptr;
+  std::array<std::string_view, 2> decides{};  // members whose default values follow from this one
 };
 
 template <typename Noun, typename Value>
 struct Member {
+  using Type = Value;
   const char* name;  // in scene files and in the library
   Value Noun::*field;
   MemberRules<Noun> rules = {};
@@ -43,10 +60,152 @@ inline constexpr auto kMembers<Camera> = std::tuple{
     Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0}},
 };
 
+constexpr MemberRules<Material> mapOf(TextureUse use) {
+  return {.kind = MemberKind::map, .use = use, .baked = true};
+}
+
+// A member follows those that decide on its default value.
+template <>
+inline constexpr auto kMembers<Material> = std::tuple{
+    Member{"diffuse", &Material::diffuse, {.kind = MemberKind::color, .high = 1}},
+    Member{"diffuseMap", &Material::diffuseMap, mapOf(TextureUse::color)},
+    Member{"specular", &Material::specular, {.kind = MemberKind::color, .high = 1}},
+    Member{"specularMap", &Material::specularMap, mapOf(TextureUse::color)},
+    Member{"roughness",
+           &Material::roughness,
+           {.low = 0, .high = 1, .matters = [](const Material& m) { return m.hasGlossy(); }}},
+    Member{"roughnessMap", &Material::roughnessMap, mapOf(TextureUse::data)},
+    Member{"emission", &Material::emission, {.kind = MemberKind::color, .usual = 1e4}},
+    Member{"emissionMap", &Material::emissionMap, mapOf(TextureUse::emission)},
+    Member{"normalMap", &Material::normalMap, mapOf(TextureUse::data)},
+    Member{"alphaMap", &Material::alphaMap, mapOf(TextureUse::mask)},
+    Member{"alphaCutoff", &Material::alphaCutoff, {.baked = true, .low = 0, .high = 1}},
+    Member{"coverage",
+           &Material::coverage,
+           {.baked = true, .low = 0, .high = 1, .decides = {"castsShadow"}}},
+    Member{"coverageMap",
+           &Material::coverageMap,
+           {.kind = MemberKind::map,
+            .use = TextureUse::mask,
+            .baked = true,
+            .decides = {"alphaMap", "alphaCutoff"}}},
+    Member{
+        "mirror",
+        &Material::mirror,
+        {.kind = MemberKind::color, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
+    Member{"mirrorGrazing",
+           &Material::mirrorGrazing,
+           {.kind = MemberKind::color, .high = 1, .decides = {"glossyReflection"}}},
+    Member{"transmission",
+           &Material::transmission,
+           {.kind = MemberKind::color, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
+    Member{"thin",
+           &Material::thin,
+           {.matters = [](const Material& m) { return m.hasTransmission(); }}},
+    Member{"ior",
+           &Material::ior,
+           {.low = kLeastIor,
+            .high = kLargestIor,
+            .usual = 3,
+            .matters = [](const Material& m) { return m.hasTransmission(); }}},
+    Member{"absorption",
+           &Material::absorption,
+           {.kind = MemberKind::color,
+            .usual = 100,
+            .matters = [](const Material& m) { return m.hasTransmission(); }}},
+    Member{"priority",
+           &Material::priority,
+           {.low = -1000,
+            .high = 1000,
+            .matters = [](const Material& m) { return m.hasTransmission(); }}},
+    Member{"diffuseReflection", &Material::diffuseReflection},
+    Member{"glossyReflection",
+           &Material::glossyReflection,
+           {.matters = [](const Material& m) { return m.hasGlossy(); }}},
+    Member{"castsShadow", &Material::castsShadow, {.baked = true}},
+    Member{"vertexTint", &Material::vertexTint, {.inFiles = false}},
+    Member{
+        "emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
+    Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},
+    Member{"doubleSided", &Material::doubleSided, {.inFiles = false, .baked = true}},
+};
+
+constexpr bool hasPlace(const Light& light) { return light.kind != Light::Kind::directional; }
+constexpr bool hasDirection(const Light& light) { return light.kind != Light::Kind::point; }
+constexpr bool hasCone(const Light& light) { return light.kind == Light::Kind::spot; }
+
+inline constexpr std::array<std::string_view, 3> kLightKindNames{"point", "spot", "directional"};
+
+// The square of the radius is divided by, so it has to be a normal number.
+inline constexpr double kLeastLightRadius = 1.1e-19;
+
+// The type decides which members exist.
+template <>
+inline constexpr auto kMembers<Light> = std::tuple{
+    Member{"type", &Light::kind},
+    Member{"position", &Light::position, {.required = true, .exists = hasPlace}},
+    Member{"intensity",
+           &Light::intensity,
+           {.kind = MemberKind::color, .required = true, .exists = hasPlace}},
+    Member{"radius", &Light::radius, {.low = kLeastLightRadius, .exists = hasPlace}},
+    Member{"direction", &Light::direction, {.required = true, .exists = hasDirection}},
+    Member{"irradiance",
+           &Light::intensity,
+           {.kind = MemberKind::color,
+            .required = true,
+            .exists = [](const Light& light) { return !hasPlace(light); }}},
+    Member{"innerConeAngle",
+           &Light::innerConeAngle,
+           {.low = 0, .high = kLargestConeAngle, .exists = hasCone}},
+    Member{"outerConeAngle",
+           &Light::outerConeAngle,
+           {.low = kLeastConeAngle, .high = kLargestConeAngle, .exists = hasCone}},
+};
+
+template <>
+inline constexpr auto kMembers<Sky> = std::tuple{
+    Member{"zenith", &Sky::zenith, {.kind = MemberKind::color}},
+    Member{"horizon", &Sky::horizon, {.kind = MemberKind::color}},
+    Member{"ground", &Sky::ground, {.kind = MemberKind::color}},
+    Member{"scale", &Sky::scale, {.low = 0}},
+    Member{"rotation", &Sky::rotation},
+};
+
+template <>
+inline constexpr auto kMembers<Ambient> = std::tuple{
+    Member{"up", &Ambient::up, {.kind = MemberKind::color}},
+    Member{"down", &Ambient::down, {.kind = MemberKind::color}},
+    Member{"occlusion", &Ambient::occlusion, {.low = 0}},
+};
+
 // Calls visit(member) for each member of the noun.
 template <typename Noun, typename Visit>
 constexpr void forEachMember(Visit&& visit) {
   std::apply([&](const auto&... members) { (visit(members), ...); }, kMembers<Noun>);
+}
+
+// The same for the members that a scene file of this noun can give, except maps.
+template <typename Noun, typename Visit>
+constexpr void forEachMemberInFiles(const Noun& noun, Visit&& visit) {
+  forEachMember<Noun>([&](const auto& member) {
+    using Value = typename std::remove_cvref_t<decltype(member)>::Type;
+    const auto& rules = member.rules;
+    const bool isThere =
+        rules.inFiles && rules.kind != MemberKind::map && (!rules.exists || rules.exists(noun));
+    if constexpr (!std::is_same_v<Value, VertexTint>) {  // files give none
+      if (isThere) visit(member);
+    }
+  });
+}
+
+// The same for the members of a material that are textures.
+template <typename Visit>
+constexpr void forEachMap(Visit&& visit) {
+  forEachMember<Material>([&](const auto& member) {
+    if constexpr (std::is_same_v<decltype(member.field), std::int32_t Material::*>) {
+      if (member.rules.kind == MemberKind::map) visit(member);
+    }
+  });
 }
 
 template <typename Noun>

@@ -28,11 +28,16 @@ consteval std::size_t countFields() {
 template <typename Noun>
 constexpr std::size_t kListed = std::tuple_size_v<decltype(kMembers<Noun>)>;
 
-static_assert(countFields<Camera>() == kListed<Camera> + 1, "all but the name are listed");
+static_assert(countFields<Camera>() == kListed<Camera> + 1, "all but the name");
+static_assert(countFields<Material>() == kListed<Material> + 2, "all but name and pointer");
+static_assert(countFields<Light>() + 1 == kListed<Light> + 2, "the same; intensity has two names");
+static_assert(countFields<Sky>() == kListed<Sky> + 3, "all but name, kind and image");
+static_assert(countFields<Ambient>() == kListed<Ambient> + 1, "all but ofSky");
 
 template <typename Noun>
 void expectDocumented(const std::string& page) {
   forEachMember<Noun>([&](const auto& member) {
+    if (!member.rules.inFiles) return;
     const std::string name = std::string("`") + member.name + "`";
     EXPECT_NE(page.find(name), std::string::npos) << name;
   });
@@ -44,6 +49,10 @@ TEST(Members, AreInTheReadme) {
   std::stringstream page;
   page << std::ifstream(std::string(folder) + "/scenes/README.md").rdbuf();
   expectDocumented<Camera>(page.str());
+  expectDocumented<Material>(page.str());
+  expectDocumented<Light>(page.str());
+  expectDocumented<Sky>(page.str());
+  expectDocumented<Ambient>(page.str());
 }
 
 }  // namespace

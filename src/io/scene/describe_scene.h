@@ -13,12 +13,15 @@ namespace whit {
 // The shortest decimals that are read as this float.
 Json describe(float x);
 Json describe(const Vec3f& v);
+inline Json describe(bool x) { return x; }
+inline Json describe(int x) { return x; }
+inline Json describe(Light::Kind kind) { return kLightKindNames[static_cast<std::size_t>(kind)]; }
 
 template <typename Noun>
 Json describeMembers(const Noun& noun) {
   Json json;
-  forEachMember<Noun>(
-      [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
+  forEachMemberInFiles(
+      noun, [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
   return json;
 }
 

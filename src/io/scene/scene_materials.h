@@ -44,7 +44,6 @@ class MaterialReader {
   std::int32_t texture(const JsonValue& name, TextureUse use);
   std::int32_t load(const JsonValue& definition, const JsonValue& name, TextureUse use);
   std::int32_t loadArray(JsonObject& object, const JsonValue& name, TextureUse use);
-  void readMap(JsonObject& object, const std::string& key, TextureUse use, std::int32_t& map);
 
   SceneContext& context_;
   std::map<std::string, NamedTexture> textures_;
