@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "core/vec3.h"
 #include "io/scene/json_text.h"
 #include "scene/members.h"
@@ -75,8 +76,6 @@ class JsonObject {
 
   float number(const std::string& key, double fallback, double low = -kLargestNumber,
                double high = kLargestNumber);
-  Vec3f vector(const std::string& key, const Vec3f& fallback);
-  Rgb color(const std::string& key, const Rgb& fallback, double high = kLargestNumber);
 
   // Fails at a key that was never asked for, naming the nearest that was.
   void finish() const;
@@ -85,6 +84,21 @@ class JsonObject {
   JsonValue value_;
   std::vector<std::string> known_;
 };
+
+// Finds the entry that `name` names; an error suggests the nearest. `kind` has an article: "a
+// material".
+template <typename Entries>
+typename Entries::const_iterator findNamed(const Entries& entries, const JsonValue& name,
+                                           const std::string& kind) {
+  const auto found = entries.find(name.text());
+  if (found != entries.end()) return found;
+  std::vector<std::string> names;
+  names.reserve(entries.size());
+  for (const auto& [known, entry] : entries) names.push_back(known);
+  const std::string nearest = nearestName(name.text(), names);
+  name.fail("the name of " + kind +
+            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+}
 
 template <typename Noun, typename Value>
 void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value& value) {

@@ -3,7 +3,7 @@
 #include "io/scene/json_text.h"
 #include "io/scene/scene_settings.h"
 #include "library/guarded.h"
-#include "library/scene_data.h"
+#include "library/private_data.h"
 
 namespace whit::api {
 

@@ -33,7 +33,7 @@ struct Keyframe {
 // members. Clamped to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
-// What the ray generator needs, worked out once a frame in double: the direction through image
+// Input of the ray generator, computed once a frame in double: the direction through image
 // position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
 // normalized. Directions never come from a difference of world positions, so a camera far from the
 // origin loses nothing (hard case H75). Orthographic rays have the direction forward and start as

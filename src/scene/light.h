@@ -9,7 +9,7 @@
 
 namespace whit {
 
-// What arrives at a surface that faces the light, with nothing in between:
+// Irradiance of a surface that faces the light, without occlusion:
 // - point, at distance d: intensity / max(d^2, radius^2). It is a sphere of this radius that shines
 //   evenly in all directions; its center stands for it, unless --light-samples asks for more;
 // - spot: the same within its cone, see SpotCone;

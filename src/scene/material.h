@@ -1,6 +1,6 @@
-// What a surface does with light. One record for every kind of material: an effect that a material
-// does not have is a zero, and a surface may have several at once (a diffuse floor with a mirror
-// coat, glass that both reflects and refracts).
+// Reflection, transmission and emission of surfaces. One record serves all materials: an effect
+// that a material does not have is a zero, and a surface may have several at once (a diffuse floor
+// with a mirror coat, glass that both reflects and refracts).
 //
 // Diffuse, specular and emission are multiplied by their maps and, as `vertexTint` says, by the
 // colors of the mesh's vertices. Radiance leaving towards the viewer, with n the shading normal

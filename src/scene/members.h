@@ -19,8 +19,9 @@ namespace whit {
 // Scene files give no number beyond this; Embree's limit for coordinates is 1.844e18.
 inline constexpr double kLargestNumber = 1e18;
 
-// What the type of a member does not say.
+// Meaning of a member, where its type leaves it open.
 enum class MemberKind : std::uint8_t { plain, color, map };
+inline constexpr MemberKind kColor = MemberKind::color;
 
 template <typename Noun>
 struct MemberRules {
@@ -31,10 +32,8 @@ struct MemberRules {
   bool baked = false;                  // triangles or images depend on it: no edit between frames
   double low = -kLargestNumber, high = kLargestNumber;  // of numbers; channels are at least 0
   double usual = high;                                  // upper end of widgets
-  bool (*exists)(const Noun&) =
-      nullptr;  // false: scene files cannot give it; null: all nouns have it
-  // Widgets are shown for nouns that it returns true for; null: for all.
-  bool (*matters)(const Noun&) = nullptr;
+  bool (*exists)(const Noun&) = nullptr;   // where it is false, scene files cannot give the member
+  bool (*matters)(const Noun&) = nullptr;  // where it is false, widgets do not show the member
   std::array<std::string_view, 2> decides{};  // members whose default values follow from this one
 };
 
@@ -63,72 +62,52 @@ inline constexpr auto kMembers<Camera> = std::tuple{
 constexpr MemberRules<Material> mapOf(TextureUse use) {
   return {.kind = MemberKind::map, .use = use, .baked = true};
 }
+inline bool isGlossy(const Material& m) { return m.hasGlossy(); }
+inline bool isTransparent(const Material& m) { return m.hasTransmission(); }
 
+// clang-format off
 // A member follows those that decide on its default value.
 template <>
 inline constexpr auto kMembers<Material> = std::tuple{
-    Member{"diffuse", &Material::diffuse, {.kind = MemberKind::color, .high = 1}},
+    Member{"diffuse", &Material::diffuse, {.kind = kColor, .high = 1}},
     Member{"diffuseMap", &Material::diffuseMap, mapOf(TextureUse::color)},
-    Member{"specular", &Material::specular, {.kind = MemberKind::color, .high = 1}},
+    Member{"specular", &Material::specular, {.kind = kColor, .high = 1}},
     Member{"specularMap", &Material::specularMap, mapOf(TextureUse::color)},
-    Member{"roughness",
-           &Material::roughness,
-           {.low = 0, .high = 1, .matters = [](const Material& m) { return m.hasGlossy(); }}},
+    Member{"roughness", &Material::roughness, {.low = 0, .high = 1, .matters = isGlossy}},
     Member{"roughnessMap", &Material::roughnessMap, mapOf(TextureUse::data)},
-    Member{"emission", &Material::emission, {.kind = MemberKind::color, .usual = 1e4}},
+    Member{"emission", &Material::emission, {.kind = kColor, .usual = 1e4}},
     Member{"emissionMap", &Material::emissionMap, mapOf(TextureUse::emission)},
     Member{"normalMap", &Material::normalMap, mapOf(TextureUse::data)},
     Member{"alphaMap", &Material::alphaMap, mapOf(TextureUse::mask)},
     Member{"alphaCutoff", &Material::alphaCutoff, {.baked = true, .low = 0, .high = 1}},
-    Member{"coverage",
-           &Material::coverage,
+    Member{"coverage", &Material::coverage,
            {.baked = true, .low = 0, .high = 1, .decides = {"castsShadow"}}},
-    Member{"coverageMap",
-           &Material::coverageMap,
+    Member{"coverageMap", &Material::coverageMap,
            {.kind = MemberKind::map,
             .use = TextureUse::mask,
             .baked = true,
             .decides = {"alphaMap", "alphaCutoff"}}},
-    Member{
-        "mirror",
-        &Material::mirror,
-        {.kind = MemberKind::color, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
-    Member{"mirrorGrazing",
-           &Material::mirrorGrazing,
-           {.kind = MemberKind::color, .high = 1, .decides = {"glossyReflection"}}},
-    Member{"transmission",
-           &Material::transmission,
-           {.kind = MemberKind::color, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
-    Member{"thin",
-           &Material::thin,
-           {.matters = [](const Material& m) { return m.hasTransmission(); }}},
-    Member{"ior",
-           &Material::ior,
-           {.low = kLeastIor,
-            .high = kLargestIor,
-            .usual = 3,
-            .matters = [](const Material& m) { return m.hasTransmission(); }}},
-    Member{"absorption",
-           &Material::absorption,
-           {.kind = MemberKind::color,
-            .usual = 100,
-            .matters = [](const Material& m) { return m.hasTransmission(); }}},
-    Member{"priority",
-           &Material::priority,
-           {.low = -1000,
-            .high = 1000,
-            .matters = [](const Material& m) { return m.hasTransmission(); }}},
+    Member{"mirror", &Material::mirror,
+           {.kind = kColor, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
+    Member{"mirrorGrazing", &Material::mirrorGrazing,
+           {.kind = kColor, .high = 1, .decides = {"glossyReflection"}}},
+    Member{"transmission", &Material::transmission,
+           {.kind = kColor, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
+    Member{"thin", &Material::thin, {.matters = isTransparent}},
+    Member{"ior", &Material::ior,
+           {.low = kLeastIor, .high = kLargestIor, .usual = 3, .matters = isTransparent}},
+    Member{"absorption", &Material::absorption,
+           {.kind = kColor, .usual = 100, .matters = isTransparent}},
+    Member{"priority", &Material::priority, {.low = -1000, .high = 1000, .matters = isTransparent}},
     Member{"diffuseReflection", &Material::diffuseReflection},
-    Member{"glossyReflection",
-           &Material::glossyReflection,
-           {.matters = [](const Material& m) { return m.hasGlossy(); }}},
+    Member{"glossyReflection", &Material::glossyReflection, {.matters = isGlossy}},
     Member{"castsShadow", &Material::castsShadow, {.baked = true}},
     Member{"vertexTint", &Material::vertexTint, {.inFiles = false}},
-    Member{
-        "emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
+    Member{"emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"doubleSided", &Material::doubleSided, {.inFiles = false, .baked = true}},
 };
+// clang-format on
 
 constexpr bool hasPlace(const Light& light) { return light.kind != Light::Kind::directional; }
 constexpr bool hasDirection(const Light& light) { return light.kind != Light::Kind::point; }
@@ -139,42 +118,39 @@ inline constexpr std::array<std::string_view, 3> kLightKindNames{"point", "spot"
 // The square of the radius is divided by, so it has to be a normal number.
 inline constexpr double kLeastLightRadius = 1.1e-19;
 
+constexpr bool isDirectional(const Light& light) { return !hasPlace(light); }
+
+// clang-format off
 // The type decides which members exist.
 template <>
 inline constexpr auto kMembers<Light> = std::tuple{
     Member{"type", &Light::kind},
     Member{"position", &Light::position, {.required = true, .exists = hasPlace}},
-    Member{"intensity",
-           &Light::intensity,
-           {.kind = MemberKind::color, .required = true, .exists = hasPlace}},
+    Member{"intensity", &Light::intensity, {.kind = kColor, .required = true, .exists = hasPlace}},
     Member{"radius", &Light::radius, {.low = kLeastLightRadius, .exists = hasPlace}},
     Member{"direction", &Light::direction, {.required = true, .exists = hasDirection}},
-    Member{"irradiance",
-           &Light::intensity,
-           {.kind = MemberKind::color,
-            .required = true,
-            .exists = [](const Light& light) { return !hasPlace(light); }}},
-    Member{"innerConeAngle",
-           &Light::innerConeAngle,
+    Member{"irradiance", &Light::intensity,
+           {.kind = kColor, .required = true, .exists = isDirectional}},
+    Member{"innerConeAngle", &Light::innerConeAngle,
            {.low = 0, .high = kLargestConeAngle, .exists = hasCone}},
-    Member{"outerConeAngle",
-           &Light::outerConeAngle,
+    Member{"outerConeAngle", &Light::outerConeAngle,
            {.low = kLeastConeAngle, .high = kLargestConeAngle, .exists = hasCone}},
 };
+// clang-format on
 
 template <>
 inline constexpr auto kMembers<Sky> = std::tuple{
-    Member{"zenith", &Sky::zenith, {.kind = MemberKind::color}},
-    Member{"horizon", &Sky::horizon, {.kind = MemberKind::color}},
-    Member{"ground", &Sky::ground, {.kind = MemberKind::color}},
+    Member{"zenith", &Sky::zenith, {.kind = kColor}},
+    Member{"horizon", &Sky::horizon, {.kind = kColor}},
+    Member{"ground", &Sky::ground, {.kind = kColor}},
     Member{"scale", &Sky::scale, {.low = 0}},
     Member{"rotation", &Sky::rotation},
 };
 
 template <>
 inline constexpr auto kMembers<Ambient> = std::tuple{
-    Member{"up", &Ambient::up, {.kind = MemberKind::color}},
-    Member{"down", &Ambient::down, {.kind = MemberKind::color}},
+    Member{"up", &Ambient::up, {.kind = kColor}},
+    Member{"down", &Ambient::down, {.kind = kColor}},
     Member{"occlusion", &Ambient::occlusion, {.low = 0}},
 };
 
@@ -184,7 +160,7 @@ constexpr void forEachMember(Visit&& visit) {
   std::apply([&](const auto&... members) { (visit(members), ...); }, kMembers<Noun>);
 }
 
-// The same for the members that a scene file of this noun can give, except maps.
+// Calls visit(member) for each member that a scene file can give of this noun, except maps.
 template <typename Noun, typename Visit>
 constexpr void forEachMemberInFiles(const Noun& noun, Visit&& visit) {
   forEachMember<Noun>([&](const auto& member) {
@@ -198,7 +174,7 @@ constexpr void forEachMemberInFiles(const Noun& noun, Visit&& visit) {
   });
 }
 
-// The same for the members of a material that are textures.
+// Calls visit(member) for each texture map of a material.
 template <typename Visit>
 constexpr void forEachMap(Visit&& visit) {
   forEachMember<Material>([&](const auto& member) {

@@ -1,4 +1,4 @@
-// Numbers and paths as scene files have them; what is read of that is the same bit for bit.
+// Writes numbers, members and paths for scene files; reading them gives the same bits.
 #pragma once
 
 #include <filesystem>
@@ -29,11 +29,11 @@ Json describeMembers(const Noun& noun) {
 // relative to the folder.
 std::string describePath(const std::filesystem::path& file, const std::filesystem::path& folder);
 
-// Whether that path leaves the folder, so that a scene there needs --allow-outside for it.
+// True if the path leaves the folder, so that a scene there needs --allow-outside for it.
 bool leavesFolder(const std::string& path);
 
-// Of the scene file `root` in the folder `from`, all paths as a scene in `to` has them. Whether one
-// of them leaves that folder.
+// Rewrites all paths of the scene file `root` from the folder `from` to the folder `to`. Returns
+// whether one of them leaves that folder.
 bool movePaths(Json& root, const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace whit

@@ -47,8 +47,8 @@ bool editLights(const SceneSetting& setting, const LoadOptions& options, Scene& 
   return editLights(options, described, scene);
 }
 
-// Of cameras that stand still, and the image size. Which instances are too small to be traced
-// follows from where cameras are.
+// Edits cameras that stand still, and the image size. The positions of cameras decide which
+// instances are too small to be traced.
 bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
   SceneDescription read;
   JsonObject file{JsonValue(sections)};

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "io/scene/find_named.h"
 #include "io/scene/shape_parameters.h"
 #include "scene/generation_limit.h"
 
@@ -50,7 +49,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
             formatName(is) + ")");
 }
 
-// What the texture says that it is read as, where it does.
+// The member "as" of a texture, or else `use`.
 TextureUse readUse(JsonObject& object, const JsonValue& name, TextureUse use) {
   const auto as = object.find("as");
   if (!as) return use;

@@ -20,7 +20,7 @@ void readSky(JsonObject& file, SceneContext& context);
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
 
-// What is read of these is the same bit for bit: one of "cameras", "lights", "ambient".
+// Sections "lights" and "ambient" and one of the "cameras"; reading them gives the same bits.
 Json describe(const Camera& camera);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);
