@@ -93,6 +93,14 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   return scene;
 }
 
+ItemNumbers::Run ItemNumbers::find(std::uint32_t triangle) const {
+  const auto isBehind = [](std::uint32_t t, const Run& run) { return t < run.first; };
+  Run run = *(std::upper_bound(runs_.begin(), runs_.end(), triangle, isBehind) - 1);
+  run.number += triangle - run.first;
+  run.first = triangle;
+  return run;
+}
+
 Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max() - 1;
   const ItemNumbers::Run own = items.find(triangle);

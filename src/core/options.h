@@ -159,6 +159,7 @@ struct RenderOptions {
 
 inline constexpr int kSppLimit = 4096;
 inline constexpr int kImageSideLimit = 65536;
+inline constexpr double kLeastFov = 0.001, kLargestFov = 179.9;  // degrees
 
 // An option and its value.
 template <typename Field>
@@ -191,7 +192,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image",
               .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.up},
-      Option{{.name = "fov", .words = "DEG", .low = 0.001, .high = 179,
+      Option{{.name = "fov", .words = "DEG", .low = kLeastFov, .high = kLargestFov,
               .help = "vertical field of view in degrees",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.fov},

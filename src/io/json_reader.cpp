@@ -180,16 +180,6 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
   return static_cast<float>(value ? value->number(low, high) : fallback);
 }
 
-Vec3f JsonObject::vector(const std::string& key, const Vec3f& fallback) {
-  const auto value = find(key);
-  return value ? Vec3f(value->vector()) : fallback;
-}
-
-Rgb JsonObject::color(const std::string& key, const Rgb& fallback, double high) {
-  const auto value = find(key);
-  return value ? value->color(high) : fallback;
-}
-
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;

@@ -1,6 +1,7 @@
 #include "make/leave_out.h"
 
 #include "make/shapes/generators.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -36,10 +37,10 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
 void dropUnusedTexels(SceneDescription& d) {
   std::vector<bool> used(d.textures.size(), false);
   for (const Material& m : d.materials) {
-    for (const std::int32_t map : {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap,
-                                   m.normalMap, m.alphaMap, m.coverageMap}) {
+    forEachMap([&](const auto& member) {
+      const std::int32_t map = m.*member.field;
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
-    }
+    });
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) continue;

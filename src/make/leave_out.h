@@ -22,11 +22,11 @@ namespace whit {
 // others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
-// What the matte scene starts with: primary and shadow rays, lights that shine all around.
+// Effects of the matte scene: primary and shadow rays, lights that shine all around.
 inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with(Effect::shadows);
 
-// What is added to it, in this order: each needs only those before it. Those that others need, or
-// that most scenes have, come as they stand here, the rest as in core/effects.h.
+// Effects that are added to it, in this order: each needs only those before it. Effects that others
+// need, or that most scenes have, are listed here; the rest follows in the order of core/effects.h.
 inline constexpr std::array kAddedEffects = [] {
   constexpr std::array kFirst{
       Effect::spotLights,  Effect::directionalLights, Effect::ambient,       Effect::emission,

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "io/gltf/accessor.h"
 #include "io/scene/distinct_names.h"
 #include "scene/description.h"
@@ -382,7 +383,7 @@ class TreeReader {
     if (orthographic) {
       camera.orthographicHeight = static_cast<float>(2 * ymag);
     } else {
-      camera.fov = static_cast<float>(fov);
+      camera.fov = static_cast<float>(std::clamp(fov, kLeastFov, kLargestFov));
     }
     if (stage_.cameras.empty()) {
       stage_.aspect = orthographic ? xmag / ymag : source.perspective.aspectRatio;

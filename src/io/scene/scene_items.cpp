@@ -12,7 +12,6 @@
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
 #include "io/scene/distinct_names.h"
-#include "io/scene/find_named.h"
 #include "io/scene/read_motion.h"
 #include "io/scene/shape_parameters.h"
 #include "scene/generation_limit.h"
@@ -112,7 +111,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
-// What a shape or a model has not named itself is one item, or one each where it is placed often.
+// A shape or model without item names of its own is one item, or one item a placement.
 void nameItem(Body& content, const std::string& pointer) {
   if (content.parts.empty() && content.children.empty()) return;
   const ItemName name = std::make_shared<const std::string>(pointer);

@@ -1,4 +1,4 @@
-// A scene with what it was read of.
+// Private data of the scenes and images that the library hands out.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
+#include "render/film.h"
 
 namespace whit::api {
 
@@ -27,6 +29,11 @@ struct Scene::Data {
                                     whit::Progress* progress);
   // What settings are put into; none of a model without a scene file.
   std::optional<JsonDocument> document() const;
+};
+
+struct Image::Data {
+  Film film;
+  ImageMetadata metadata, aboutChannels;
 };
 
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes);
