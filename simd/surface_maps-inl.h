@@ -31,7 +31,7 @@ struct SurfelJob {
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, flush, glossy, instances, radianceMaps, secondUvs,
+  bool absorption, cones, emissionFactors, coplanar, glossy, instances, radianceMaps, secondUvs,
       spheres, transmission, vertexColors;
 };
 
@@ -45,7 +45,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::absorption),
           c.has(Feature::cones),
           c.has(Feature::emissionFactors),
-          c.has(Feature::flush),
+          c.has(Feature::coplanar),
           c.has(Feature::glossy),
           c.has(Feature::instances),
           c.tables().radianceMaps,
