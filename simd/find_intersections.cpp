@@ -109,8 +109,8 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
-  const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
-  if (job.flush) {
+  const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
+  if (job.coplanar) {
     const auto shared = hn::Ne(hn::And(others, hn::Set(du, kSharesPlace)), hn::Zero(du));
     s.inDoubt = hn::Or(s.inDoubt, hn::RebindMask(d, shared));
   }

@@ -29,7 +29,7 @@ struct SurfelJob {
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, flush, glossy, instances, normalMaps, radianceMaps,
+  bool absorption, cones, emissionFactors, coplanar, glossy, instances, normalMaps, radianceMaps,
       secondUvs, spheres, textures, transmission, vertexColors;
 };
 
@@ -43,7 +43,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::absorption),
           c.has(Feature::cones),
           c.has(Feature::emissionFactors),
-          c.has(Feature::flush),
+          c.has(Feature::coplanar),
           c.has(Feature::glossy),
           c.has(Feature::instances),
           c.has(Feature::normalMaps),

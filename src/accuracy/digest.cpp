@@ -138,13 +138,13 @@ std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
                materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
-               instancedSpheres, items, flush, motion, effects, reasons] = scene;
+               instancedSpheres, items, coplanar, motion, effects, reasons] = scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);
-  addTable(d, flush.ranks());  // all else of it follows from the tables
+  addTable(d, coplanar.ranks());  // everything else in it follows from the tables
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

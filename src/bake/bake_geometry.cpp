@@ -101,7 +101,7 @@ class Baker {
   std::vector<std::vector<PlacedSphere>> spheres_;  // likewise
   std::vector<Box> boxes_;                          // one a geometry, in its own space
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
-  bool isSearched_ = false;  // for flush triangles
+  bool isSearched_ = false;  // for coplanar triangles
 };
 
 void Baker::findWhatMoves() {

@@ -15,7 +15,7 @@ void validate(SceneDescription& description, Warnings& warnings);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
 // fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes
-// that are not searched for flush triangles the order comes back empty.
+// that are not searched for coplanar triangles the order comes back empty.
 SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
                         Progress* progress);
 

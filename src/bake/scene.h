@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/flush_triangles.h"
+#include "bake/coplanar_triangles.h"
 #include "bake/item_numbers.h"
 #include "bake/scene_order.h"
 #include "core/box.h"
@@ -99,7 +99,7 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
-  StillFlush still;
+  StillCoplanar still;
 
   bool ofLights() const { return !given.lights.empty(); }
   bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }
@@ -151,8 +151,8 @@ class Scene {
   std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
 
   ItemNumbers items;
-  FlushTriangles flush;  // that share their place with others
-  BakedMotion motion;    // see scene/move_scene.h
+  CoplanarTriangles coplanar;  // triangles that overlap others in their plane
+  BakedMotion motion;          // see scene/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include "render/settle_flush.h"
+#include "render/settle_coplanar.h"
 #include "simd/kernels.h"
 
 namespace whit::verify {
@@ -126,7 +126,7 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
   chunk_.segmentCount = 1;
   chunk_.depth = 1;  // not from an eye, which sees nothing of the surfaces that it lies in
   findHits(chunk_);
-  if (chunk_.has(Feature::flush)) settleFlush(chunk_);
+  if (chunk_.has(Feature::coplanar)) settleCoplanar(chunk_);
   chunk_.depth = 0;
   interpolate();
 }

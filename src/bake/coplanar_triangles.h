@@ -1,6 +1,6 @@
-// Triangles that share their place with another one in its plane: flush boxes, decals in a floor,
-// instances in one place, glass that stands on a floor. A ray meets them at the same distance, and
-// which of them is nearer has to be settled by a rule.
+// Coplanar triangles that overlap: boxes face in face, decals in a floor, instances in one place,
+// glass that stands on a floor. A ray hits them at the same distance, and a rule decides which of
+// them is nearer.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace whit {
 
 class Scene;
-class TriangleBlocks;
+class BoxTree;
 struct SceneOrder;
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
@@ -35,43 +35,43 @@ inline PlacedTriangleId placedTriangle(std::uint64_t order) {
   return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
 }
 
-class FlushTriangles {
+class CoplanarTriangles {
  public:
-  FlushTriangles() = default;
-  // From each pair once, by the orders of its triangles, whichever first.
-  FlushTriangles(std::uint64_t triangles,
-                 std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs);
+  CoplanarTriangles() = default;
+  // Each pair of orderOf() is given once, in any order of its two.
+  CoplanarTriangles(std::uint64_t triangles,
+                    std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs);
 
   bool empty() const { return partners_.empty(); }
 
-  // Whether the triangle is flush with another one in some placement of it. Numbers beyond the
-  // scene's are not.
+  // True if the triangle is coplanar with another one in some placement of it. False for numbers
+  // that no triangle has.
   bool any(std::uint32_t triangle) const {
     const std::size_t word = triangle / 64;
     return word < any_.size() && (any_[word] >> triangle % 64 & 1) != 0;
   }
 
   // The triangles that lie in the plane of this one and touch it, itself excluded, ascending by
-  // orderOf(). Empty where it is not flush.
+  // orderOf(). Empty if there are none.
   std::span<const PlacedTriangleId> partnersOf(PlacedTriangleId id) const;
 
-  // Of a scene that has some: false only where forEachPartnerAt() visits none.
+  // False only if forEachPartnerAt() visits none. The scene must have coplanar triangles.
   bool anyAt(PlacedTriangleId id, double u, double v) const {
     const Slot& slot = slots_[slotOf(id)];
     return slot.count != 0 && isContested(slot, u, v);
   }
 
-  // Among each other, the first in the scene first; all 0 before this.
+  // Numbers the coplanar triangles in the order of the scene file; all ranks are 0 before this.
   void rankBy(const Scene& scene, const SceneOrder& order);
 
-  // Of a triangle that is flush.
+  // The triangle must be coplanar with another one.
   std::uint32_t rankOf(PlacedTriangleId id) const { return slots_[slotOf(id)].rank; }
 
-  // Of the partners of all, one after the other.
+  // The ranks of the partners of all triangles, one after the other.
   std::span<const std::uint32_t> ranks() const { return ranks_; }
 
-  // visit(partner, rank) for those that may lie at the point of this one that has the weights u and
-  // v of corners 1 and 2. None where none overlaps it there.
+  // Calls visit(partner, rank) for partners that may lie at the point of this triangle that has the
+  // weights u and v of corners 1 and 2. Visits none if no partner overlaps the triangle there.
   template <typename Visitor>
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
@@ -92,7 +92,7 @@ class FlushTriangles {
   std::uint64_t bytes() const;
 
  private:
-  friend class FlushFinder;
+  friend class CoplanarFinder;
 
   struct Slot {
     PlacedTriangleId id;
@@ -100,9 +100,9 @@ class FlushTriangles {
     std::uint32_t rank = 0;
     std::uint64_t first = 0;    // in partners_
     std::size_t firstCell = 0;  // in cells_
-    std::size_t side = 1;       // of a square of so many cells a side
+    std::size_t side = 1;       // the number of cells along each side of a square
     std::size_t firstWord = 0;  // in contested_
-    std::size_t maskSide = 0;   // of a finer square
+    std::size_t maskSide = 0;   // likewise, of a finer square
   };
   static std::size_t cellOf(double weight, std::size_t side) {
     const auto most = static_cast<double>(side);
@@ -124,49 +124,50 @@ class FlushTriangles {
   std::vector<std::uint64_t> any_;  // a bit a triangle
   std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
-  std::vector<std::uint32_t> ranks_;  // of partners_
-  std::vector<CoveredPart> covered_;  // by each of them of the one whose partner it is
-  // Partners by place: of each cell that some partner overlaps, all that reach into it, those that
-  // overlap first.
+  std::vector<std::uint32_t> ranks_;  // one for each of partners_
+  std::vector<CoveredPart> covered_;  // the part that each of partners_ covers of its triangle
+  // Partners by place: a cell that some partner overlaps lists all partners that reach into it; the
+  // overlapping ones come first.
   struct Cell {
     std::uint64_t first = 0;  // in inCells_
     std::uint32_t count = 0, overlapping = 0;
   };
   std::vector<Cell> cells_;
   std::vector<std::size_t> inCells_;  // places in partners_
-  // A bit a cell of the finer squares, for those that some overlapping partner reaches into.
+  // A bit for each cell of the finer squares: some overlapping partner reaches into it.
   std::vector<std::uint64_t> contested_;
 };
 
 // Two placed triangles lie in one plane if the corners of each are no farther from the plane of the
 // other than the sum of their error bounds (see Facet). They overlap if no edge of either, by its
 // normal in the plane, leaves them less than that sum in common, and touch if none separates them
-// by more. What is found are the triangles that overlap another one in their plane, and those that
-// touch one of these in its plane; both are partners of all of them that they touch in their plane.
-// Triangles without area are left out.
+// by more. The search finds the triangles that overlap another one in their plane, and the ones
+// that touch one of these in its plane; both are partners of all of them that they touch in their
+// plane. Triangles without area are left out. The result is the same for any number of threads.
 //
-// The work is bounded, and pairs beyond the bound are not found: where more than some thousands of
-// triangles are in one place each is compared with a part of the others, and of instances that lie
-// in heaps so deep that they have thousands of pairs for each triangle of the scene some heaps are
-// not searched to their end. Of instances of one object in exactly one place, only the first four
-// take part. Scenes of more triangles than kMostSearched, each instanced object counted once, are
-// not searched: at a microsecond or two each that would take longer than all else at the start. The
-// result is the same for any number of threads.
+// The work is bounded (see findPairs), and `complete` says if all pairs were found. Heaps of
+// triangles or instances that overlap deeply may exceed the bound. Of instances of one object in
+// exactly one place only the first four take part. Scenes of more triangles than kMostSearched,
+// each instanced object counted once, are not searched.
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
-FlushTriangles findFlushTriangles(const Scene& scene, int threads);
+CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
 
-// What is flush among all that stands still in a scene that moves, looked for once.
-struct StillFlush {
+// The geometries' trees, see bake/coplanar_pairs.h.
+using TriangleTrees = std::vector<std::shared_ptr<const BoxTree>>;
+
+// The coplanar triangles among all that stands still in a scene that moves, searched once.
+struct StillCoplanar {
   bool known = false;
-  std::vector<std::uint32_t> instances;  // InstanceRecord::written of those that were there
-  std::vector<std::uint64_t> triangles;  // that overlap others, by orderOf()
-  bool all = false;                      // nothing else was flush when the scene was last searched
-  std::vector<std::shared_ptr<const TriangleBlocks>> blocks;  // of geometries, as they were then
+  std::vector<std::uint32_t> instances;  // InstanceRecord::written of all instances at that time
+  std::vector<std::uint64_t> triangles;  // orderOf() of triangles that overlap others
+  bool all = false;     // no moving triangle overlapped another one at the last search
+  TriangleTrees trees;  // at that time
 };
 
-// Searches again where that may have changed: scene.flush comes out as findFlushTriangles() would
-// find it, but that what moves and only touches what is flush is a partner of that no more unless
-// something that moves overlaps another triangle in its plane.
-void updateFlushTriangles(Scene& scene, StillFlush& still, const SceneOrder& order, int threads);
+// Searches again after the scene has moved: scene.coplanar comes out as findCoplanarTriangles()
+// would find it, except that a moving triangle that only touches coplanar ones is no partner of
+// them unless some moving triangle overlaps another one in its plane.
+void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrder& order,
+                             int threads);
 
 }  // namespace whit

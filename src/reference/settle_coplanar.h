@@ -1,7 +1,6 @@
-// What a ray meets where triangles share their place: flush boxes, decals in a floor, glass that
-// stands on a table, instances in one place (scene/flush_triangles.h). Which of them is nearest is
-// decided by rounding; this rule knows only the scene and the ray's line, so that every mode,
-// packet width and order of rays finds the same.
+// Chooses among coplanar triangles that a ray hits in one place (bake/coplanar_triangles.h).
+// Rounding decides which of them is nearest. The rule depends only on the scene and the ray's line,
+// so that every mode, packet width and order of rays finds the same triangle.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +29,14 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 struct Settled {
   Candidate candidate;
-  TriangleHit hit;                // nothing where `flush` is false
-  bool flush = false;             // the triangle shared its place
+  TriangleHit hit;                // valid if `isCoplanar`
+  bool isCoplanar = false;        // other triangles lie in the same place
   std::uint32_t alsoCrossed = 0;  // dielectrics whose faces lie there too (reference/media.h)
 };
 
 // Light meets the opaque surface; of dielectrics alone the one of highest priority, and with it all
 // the others are crossed; of equals the last in the scene as it was written, as paint lies on what
 // was painted before.
-Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met);
+Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met);
 
 }  // namespace whit::reference

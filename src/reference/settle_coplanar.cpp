@@ -1,4 +1,4 @@
-#include "reference/settle_flush.h"
+#include "reference/settle_coplanar.h"
 
 #include <algorithm>
 #include <utility>
@@ -94,7 +94,7 @@ bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
 std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ray,
                             const Candidate& met) {
   std::vector<Place> places;
-  if (!scene.flush.any(met.triangle)) return places;
+  if (!scene.coplanar.any(met.triangle)) return places;
   const auto add = [&](const PlacedTriangleId& id, std::uint32_t rank) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
@@ -112,16 +112,17 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     place.entering = isEntered(scene, place.candidate, ray.direction);
     places.push_back(place);
   };
-  scene.flush.forEachPartnerAt(idOf(met), met.u, met.v, add);
+  scene.coplanar.forEachPartnerAt(idOf(met), met.u, met.v, add);
   if (places.empty()) return places;
-  add(idOf(met), scene.flush.rankOf(idOf(met)));
+  add(idOf(met), scene.coplanar.rankOf(idOf(met)));
   keepNearest(scene, ray, places);
   mergeNeighbors(scene, places);
   return places;
 }
 
-Settled settleFlush(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met) {
-  if (scene.flush.empty()) return {met, {}};
+Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
+                       const Candidate& met) {
+  if (scene.coplanar.empty()) return {met, {}};
   const std::vector<Place> places = placesAt(scene, effects, ray, met);
   if (places.empty()) return {met, {}};
   const Place* first = &places[0];

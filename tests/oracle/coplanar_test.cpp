@@ -5,7 +5,7 @@
 namespace oracle {
 namespace {
 
-class Flush : public Agreement {};
+class Coplanar : public Agreement {};
 
 // On a grid: corners are exact, so that faces in one plane are in one place for the oracle as well.
 Transform onGrid(SceneMaker& maker, const Vec& low, const Vec& size) {
@@ -75,14 +75,14 @@ void glassBlocks(SceneMaker& maker) {
   }
 }
 
-TEST_F(Flush, OpaqueBlocksAndDecals) { expectAgreement({"flush blocks", opaqueBlocks}); }
+TEST_F(Coplanar, OpaqueBlocksAndDecals) { expectAgreement({"coplanar blocks", opaqueBlocks}); }
 
-TEST_F(Flush, BlocksOfGlass) {
-  expectAgreement({"flush blocks of glass", glassBlocks, {.depth = 10}});
+TEST_F(Coplanar, BlocksOfGlass) {
+  expectAgreement({"coplanar blocks of glass", glassBlocks, {.depth = 10}});
 }
 
 // Nothing but glass on a floor.
-TEST_F(Flush, GlassAgainstGlass) {
+TEST_F(Coplanar, GlassAgainstGlass) {
   expectAgreement({"glass against glass",
                    [](SceneMaker& maker) {
                      gridRoom(maker);
@@ -159,11 +159,13 @@ void blocksInAnyOrder(SceneMaker& maker) {
   }
 }
 
-TEST_F(Flush, OrderOfTheFile) {
-  expectAgreement({"flush in any order", blocksInAnyOrder, {.depth = 10}});
+TEST_F(Coplanar, OrderOfTheFile) {
+  expectAgreement({"coplanar in any order", blocksInAnyOrder, {.depth = 10}});
 }
 
-TEST_F(Flush, Instances) { expectAgreement({"flush instances", instancedBlocks, {.depth = 10}}); }
+TEST_F(Coplanar, Instances) {
+  expectAgreement({"coplanar instances", instancedBlocks, {.depth = 10}});
+}
 
 }  // namespace
 }  // namespace oracle

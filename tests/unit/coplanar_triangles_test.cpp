@@ -1,5 +1,5 @@
 // Triangles that share their place with another one in its plane.
-#include "bake/flush_triangles.h"
+#include "bake/coplanar_triangles.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,13 @@ namespace {
 using test::finalized;
 
 constexpr int kThreads = 2;
+
+CoplanarTriangles foundAmong(const Scene& scene, int threads = kThreads) {
+  bool complete = false;
+  CoplanarTriangles found = findCoplanarTriangles(scene, threads, complete);
+  EXPECT_TRUE(complete);
+  return found;
+}
 
 // Two triangles, across the diagonal from `corner`.
 Mesh rectangle(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
@@ -77,7 +84,7 @@ std::vector<PlacedTriangleId> allOf(const Scene& scene) {
   return all;
 }
 
-// The definition in flush_triangles.h, word by word.
+// The definition in coplanar_triangles.h, word by word.
 struct Placed {
   PlacedTriangleId id;
   Vec3d corners[3];
@@ -139,7 +146,7 @@ Partners byDefinition(const Scene& scene) {
   std::vector<Placed> all;
   for (const PlacedTriangleId id : allOf(scene)) all.push_back(placed(scene, id));
   std::vector<std::vector<std::size_t>> touching(all.size());
-  std::vector<bool> overlaps(all.size()), flush(all.size());
+  std::vector<bool> overlaps(all.size()), coplanar(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (i == k || !inOnePlane(all[i], all[k])) continue;
@@ -150,19 +157,19 @@ Partners byDefinition(const Scene& scene) {
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!overlaps[i]) continue;
-    flush[i] = true;
-    for (const std::size_t k : touching[i]) flush[k] = true;
+    coplanar[i] = true;
+    for (const std::size_t k : touching[i]) coplanar[k] = true;
   }
   Partners partners(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const std::size_t k : touching[i]) {
-      if (flush[i] && flush[k]) partners[i].push_back(all[k].id);
+      if (coplanar[i] && coplanar[k]) partners[i].push_back(all[k].id);
     }
   }
   return partners;
 }
 
-Partners partnersIn(const FlushTriangles& found, const Scene& scene) {
+Partners partnersIn(const CoplanarTriangles& found, const Scene& scene) {
   Partners partners;
   for (const PlacedTriangleId id : allOf(scene)) {
     const auto own = found.partnersOf(id);
@@ -185,82 +192,82 @@ std::string textOf(const Partners& partners) {
   return text;
 }
 
-// Returns how many placed triangles are flush.
+// Returns how many placed triangles are coplanar with others.
 std::size_t expectAsDefined(const Scene& scene) {
-  const FlushTriangles found = findFlushTriangles(scene, kThreads);
+  const CoplanarTriangles found = foundAmong(scene);
   const Partners wanted = byDefinition(scene);
   EXPECT_EQ(textOf(partnersIn(found, scene)), textOf(wanted));
   std::vector<bool> any(scene.triangles.size());
-  std::size_t flush = 0;
+  std::size_t coplanar = 0;
   const std::vector<PlacedTriangleId> all = allOf(scene);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    flush += !wanted[i].empty();
+    coplanar += !wanted[i].empty();
     if (!wanted[i].empty()) any[all[i].triangle] = true;
   }
   for (std::uint32_t i = 0; i < any.size(); ++i) EXPECT_EQ(found.any(i), any[i]) << i;
-  EXPECT_EQ(found.empty(), flush == 0);
-  return flush;
+  EXPECT_EQ(found.empty(), coplanar == 0);
+  return coplanar;
 }
 
 // As built, and where planes agree to rounding only.
-void expectFlush(Builder builder, std::size_t flush) {
-  EXPECT_EQ(expectAsDefined(builder.scene()), flush);
+void expectCoplanar(Builder builder, std::size_t coplanar) {
+  EXPECT_EQ(expectAsDefined(builder.scene()), coplanar);
   builder.move(farAndTurned());
-  EXPECT_EQ(expectAsDefined(builder.scene()), flush);
+  EXPECT_EQ(expectAsDefined(builder.scene()), coplanar);
 }
 
 std::string foundIn(const Builder& builder) {
   const Scene scene = builder.scene();
-  return textOf(partnersIn(findFlushTriangles(scene, kThreads), scene));
+  return textOf(partnersIn(foundAmong(scene), scene));
 }
 
-TEST(FlushTriangles, ADecalInAFloor) {
+TEST(CoplanarTriangles, ADecalInAFloor) {
   Builder builder;
   builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1)});
   // The decal lies in the floor's first triangle, which touches the second.
   EXPECT_EQ(foundIn(builder), "0: 1 2 3\n1: 0\n2: 0 3\n3: 0 2\n");
-  expectFlush(builder, 4);
+  expectCoplanar(builder, 4);
 }
 
-TEST(FlushTriangles, WhatTheyTake) {
+TEST(CoplanarTriangles, WhatTheyTake) {
   Builder builder;
   builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1)});
-  const FlushTriangles found = findFlushTriangles(builder.scene(), kThreads);
+  const CoplanarTriangles found = foundAmong(builder.scene());
   EXPECT_GT(found.bytes(), 8 * sizeof(PlacedTriangleId));
   EXPECT_LT(found.bytes(), 2000u);
   EXPECT_TRUE(found.any(3));
   EXPECT_FALSE(found.any(4));
   EXPECT_FALSE(found.any(0xfffffffe));
   EXPECT_TRUE(found.partnersOf({0, 0}).empty());
-  EXPECT_EQ(FlushTriangles().bytes(), 0u);
-  EXPECT_TRUE(FlushTriangles().partnersOf({0, kNoInstance}).empty());
+  EXPECT_EQ(CoplanarTriangles().bytes(), 0u);
+  EXPECT_TRUE(CoplanarTriangles().partnersOf({0, kNoInstance}).empty());
 }
 
-TEST(FlushTriangles, TwoBoxesSideBySide) {
+TEST(CoplanarTriangles, TwoBoxesSideBySide) {
   Builder builder;
   builder.add(box({0, 0, 0}, {1, 1, 1}));
   builder.add(box({1, 0.25, 0.25}, {1, 0.5, 0.5}));
-  expectFlush(builder, 4);
+  expectCoplanar(builder, 4);
   Builder equal;
   equal.add(box({0, 0, 0}, {1, 1, 1}));
   equal.add(box({1, 0, 0}, {1, 1, 1}));
-  expectFlush(equal, 4);
+  expectCoplanar(equal, 4);
 }
 
-TEST(FlushTriangles, ThreeLayersOfDecals) {
+TEST(CoplanarTriangles, ThreeLayersOfDecals) {
   Builder builder;
   builder.add({tile(0, 0, 9, 9), tile(1, 2, 5, 5), tile(4, 1, 4, 4), tile(4.5, 3, 1, 1)});
-  expectFlush(builder, 8);
+  expectCoplanar(builder, 8);
 }
 
-TEST(FlushTriangles, ABoxOfGlassOnAFloor) {
+TEST(CoplanarTriangles, ABoxOfGlassOnAFloor) {
   Builder builder;
   builder.add({tile(-5, -5, 20, 20)});
   builder.add(box({1, 2, 0}, {3, 1, 2}));
-  expectFlush(builder, 4);
+  expectCoplanar(builder, 4);
 }
 
-TEST(FlushTriangles, NeighborsOfWhatOverlapsAreFlushAsWell) {
+TEST(CoplanarTriangles, NeighborsOfWhatOverlapsAreCoplanarAsWell) {
   Builder builder;
   std::vector<Mesh> floor;
   for (int x = 0; x < 6; ++x) {
@@ -269,72 +276,72 @@ TEST(FlushTriangles, NeighborsOfWhatOverlapsAreFlushAsWell) {
   floor.push_back(tile(2.25, 2.25, 0.5, 0.5));
   builder.add(floor);
   // The decal, the tile below it, and all that touch its two triangles: the eight tiles around it.
-  expectFlush(builder, 2 + 2 + 14);
+  expectCoplanar(builder, 2 + 2 + 14);
 }
 
-TEST(FlushTriangles, InstancesInOnePlace) {
+TEST(CoplanarTriangles, InstancesInOnePlace) {
   Builder builder;
   builder.add(box({0, 0, 0}, {1, 2, 3}), {Affine{}, Affine{}});
-  expectFlush(builder, 24);
+  expectCoplanar(builder, 24);
   const Affine place = Affine::translation({3, 4, 5}) * Affine::scaling({2, 1, 0.5});
   builder.add(box({0, 0, 0}, {1, 2, 3}), {place, place, Affine::translation({20, 0, 0})});
-  expectFlush(builder, 48);
+  expectCoplanar(builder, 48);
 }
 
-TEST(FlushTriangles, OfManyInstancesInOnePlaceFourTakePart) {
+TEST(CoplanarTriangles, OfManyInstancesInOnePlaceFourTakePart) {
   Builder builder;
   builder.add(box({0, 0, 0}, {1, 2, 3}), std::vector<Affine>(7));
   const Scene scene = builder.scene();
-  const FlushTriangles found = findFlushTriangles(scene, kThreads);
+  const CoplanarTriangles found = foundAmong(scene);
   for (std::uint32_t i = 0; i < 7; ++i) {
     // Each face's two triangles, four times.
     EXPECT_EQ(found.partnersOf({0, i}).size(), i < 4 ? 7u : 0u) << i;
   }
 }
 
-TEST(FlushTriangles, InstancesAgainstTheWorldAndEachOther) {
+TEST(CoplanarTriangles, InstancesAgainstTheWorldAndEachOther) {
   Builder builder;
   builder.add({tile(-10, -10, 40, 40)});
   builder.add(box({0, 0, 0}, {1, 1, 1}),
               {Affine{}, Affine::translation({1, 0.5, 0}), Affine::translation({9, 9, 1}),
                Affine::translation({5, 5, -1}) * Affine::rotation({0, 0, 1}, 20)});
   // The floor, the bottoms of two boxes, the top of the last, and two faces against each other.
-  expectFlush(builder, 2 + 2 + 2 + 2 + 4);
+  expectCoplanar(builder, 2 + 2 + 2 + 2 + 4);
 }
 
-TEST(FlushTriangles, WithinAnObjectThatIsInstanced) {
+TEST(CoplanarTriangles, WithinAnObjectThatIsInstanced) {
   Builder builder;
   std::vector<Mesh> object = box({0, 0, 0}, {4, 4, 4});
   object.push_back(tile(0.5, 2, 1, 1, 4));
   builder.add(object, {Affine{}, Affine::translation({100, 0, 0}) * Affine::rotation({1, 2, 3}, 50),
                        Affine::translation({0, 70, 0}) * Affine::scaling({0.1, -3, 1})});
-  expectFlush(builder, 3 * 4);
+  expectCoplanar(builder, 3 * 4);
 }
 
-TEST(FlushTriangles, AboveItIsNotFlush) {
+TEST(CoplanarTriangles, AboveItIsNotCoplanar) {
   Builder builder;
   builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1, 1e-3)});
   EXPECT_EQ(expectAsDefined(builder.scene()), 0u);
 }
 
-TEST(FlushTriangles, CrossingPlanesAndFoldedSheetsAreNot) {
+TEST(CoplanarTriangles, CrossingPlanesAndFoldedSheetsAreNot) {
   Builder builder;
   builder.add({tile(0, 0, 10, 10), rectangle({2, 3, -4}, {5, 0, 0}, {0, 0, 8}),
                rectangle({2, 3, -4}, {5, 1, 0}, {1, 0, 8})});
   builder.add({rectangle({20, 0, 0}, {1, 0, 0}, {0, 4, 0}),
                rectangle({21, 0, 0}, {-0.99, 0, 0.05}, {0, 4, 0}),
                rectangle({20.01, 0, 0.05}, {0.99, 0, 0.02}, {0, 4, 0})});
-  expectFlush(builder, 0);
+  expectCoplanar(builder, 0);
 }
 
-TEST(FlushTriangles, NeighborsInAPlaneAreNot) {
+TEST(CoplanarTriangles, NeighborsInAPlaneAreNot) {
   Builder builder;
   // With corners on edges of others, too.
   builder.add({tile(0, 0, 2, 1), tile(2, 0, 1, 3), tile(0, 1, 1, 2), tile(1, 1, 1, 2)});
-  expectFlush(builder, 0);
+  expectCoplanar(builder, 0);
 }
 
-TEST(FlushTriangles, ASphereIsNot) {
+TEST(CoplanarTriangles, ASphereIsNot) {
   constexpr int kAround = 96, kDown = 48;
   Mesh sphere;
   for (int j = 0; j <= kDown; ++j) {
@@ -352,14 +359,14 @@ TEST(FlushTriangles, ASphereIsNot) {
   }
   Builder builder;
   builder.add({sphere});
-  EXPECT_TRUE(findFlushTriangles(builder.scene(), kThreads).empty());
+  EXPECT_TRUE(foundAmong(builder.scene()).empty());
   Builder instanced;
   instanced.add({sphere}, {Affine{}, Affine::translation({0.7, 0.1, 0})});
-  EXPECT_TRUE(findFlushTriangles(instanced.scene(), kThreads).empty());
+  EXPECT_TRUE(foundAmong(instanced.scene()).empty());
 }
 
-TEST(FlushTriangles, NothingAtAll) {
-  EXPECT_TRUE(findFlushTriangles(finalized(SceneDescription{}), kThreads).empty());
+TEST(CoplanarTriangles, NothingAtAll) {
+  EXPECT_TRUE(foundAmong(finalized(SceneDescription{})).empty());
 }
 
 // The corner of a rectangle and its sides, in planes and at places that many share.
@@ -373,9 +380,9 @@ Mesh randomRectangle(std::mt19937& random) {
   return rectangle(corner, axes[u] * (1 + below(4)), axes[v] * (1 + below(4)));
 }
 
-TEST(FlushTriangles, RandomRectanglesAreAsDefined) {
+TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
   std::mt19937 random(5);
-  std::size_t flush = 0;
+  std::size_t coplanar = 0;
   for (int round = 0; round < 12; ++round) {
     Builder builder;
     std::vector<Mesh> world;
@@ -387,12 +394,12 @@ TEST(FlushTriangles, RandomRectanglesAreAsDefined) {
                   {Affine{}, turned, Affine::translation({2, 0, 1})});
     }
     if (round % 2 == 1) builder.move(farAndTurned());
-    flush += expectAsDefined(builder.scene());
+    coplanar += expectAsDefined(builder.scene());
   }
-  EXPECT_GT(flush, 500u);
+  EXPECT_GT(coplanar, 500u);
 }
 
-TEST(FlushTriangles, ManyTilesInOnePlane) {
+TEST(CoplanarTriangles, ManyTilesInOnePlane) {
   constexpr int kTiles = 200;
   Mesh floor;
   for (int y = 0; y <= kTiles; ++y) {
@@ -408,16 +415,16 @@ TEST(FlushTriangles, ManyTilesInOnePlane) {
   }
   Builder builder;
   builder.add({floor});
-  EXPECT_TRUE(findFlushTriangles(builder.scene(), kThreads).empty());
+  EXPECT_TRUE(foundAmong(builder.scene()).empty());
   // One decal strictly within a tile: its two triangles, the tile's, and the 14 around these.
   builder.add({rectangle({10.02, 0, 10.02}, {0.06, 0, 0}, {0, 0, 0.06})});
   const Scene scene = builder.scene();
-  const FlushTriangles found = findFlushTriangles(scene, kThreads);
-  std::size_t flush = 0;
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) flush += found.any(i);
-  EXPECT_EQ(flush, 18u);
+  const CoplanarTriangles found = foundAmong(scene);
+  std::size_t coplanar = 0;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) coplanar += found.any(i);
+  EXPECT_EQ(coplanar, 18u);
   const Partners partners = partnersIn(found, scene);
-  EXPECT_EQ(textOf(partners), textOf(partnersIn(findFlushTriangles(scene, 1), scene)));
+  EXPECT_EQ(textOf(partners), textOf(partnersIn(foundAmong(scene, 1), scene)));
 }
 
 }  // namespace

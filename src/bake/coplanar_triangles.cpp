@@ -1,4 +1,4 @@
-#include "bake/flush_triangles.h"
+#include "bake/coplanar_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "bake/coplanar_pairs.h"
 #include "bake/facet.h"
-#include "bake/facet_pairs.h"
-#include "bake/facet_space.h"
 #include "bake/scene_order.h"
 #include "core/worker_pool.h"
 
@@ -41,47 +40,59 @@ std::size_t hashOf(PlacedTriangleId id) {
 
 }  // namespace
 
-class FlushFinder {
+class CoplanarFinder {
  public:
   enum class Among { all, still, moving };
 
-  FlushFinder(const Scene& scene, BlocksOfGeometries known, int threads);
+  CoplanarFinder(const Scene& scene, TriangleTrees known, int threads);
 
-  const BlocksOfGeometries& blocks() const { return blocks_; }
+  const TriangleTrees& trees() const { return trees_; }
+  bool complete() const { return complete_; }
 
-  // Triangles that overlap others; of those that move the others may stand still.
-  Orders overlapping(Among which) const;
-  // With what touches the triangles that overlap others, itself among those.
-  FlushTriangles find(Orders flush, Among touching) const;
+  // Triangles that overlap others in their plane. For Among::moving at least one of the two moves.
+  Orders overlapping(Among which);
+  // The triangles that overlap others, and the ones of `touching` that touch one of these.
+  CoplanarTriangles find(Orders overlapping, Among touching);
 
  private:
   bool isAmong(Among which, std::uint32_t instance) const {
-    if (which == Among::all) return true;
-    return world_.moves(instance) == (which == Among::moving);
+    return which == Among::all || world_.moves(instance) == (which == Among::moving);
   }
-  std::vector<BoxedBlock> everything(Among which) const;
-  std::vector<BoxedBlock> boxesOf(const Orders& orders) const;
-  std::vector<FacetPair> pairs(std::vector<BoxedBlock> of, PairsOf which, FacetTest test) const {
-    return findPairs(world_, std::move(of), which, test, scene_.triangles.size(), threads_);
+  std::vector<TriangleGroup> everything(bool withMoving) const;
+  std::vector<FacetPair> pairs(const PairSearch& search, int threads) {
+    return findPairs(search, scene_.triangles.size(), threads, complete_);
   }
-  void addWithinInstances(std::uint32_t geometry, Among which, Orders& all) const;
-  void findCovered(FlushTriangles& found) const;
+  std::vector<FacetPair> pairsOf(const Orders& list, int threads,
+                                 bool (*test)(const Facet&, const Facet&), bool& complete) const;
+  void addWithinInstances(std::uint32_t geometry, Among which, Orders& all);
+  void findCovered(CoplanarTriangles& found) const;
 
   const Scene& scene_;
   int threads_;
-  BlocksOfGeometries blocks_;  // one a geometry
+  TriangleTrees trees_;  // one a geometry
   FacetSpace world_;
   std::vector<bool> leftOut_;  // one an instance
+  bool complete_ = true;
 };
 
-// Those that are known already stay.
-BlocksOfGeometries blocksOf(const Scene& scene, BlocksOfGeometries blocks, int threads) {
-  blocks.resize(scene.geometries.size());
-  for (std::size_t g = 0; g < blocks.size(); ++g) {
-    if (blocks[g]) continue;
-    blocks[g] = std::make_shared<const TriangleBlocks>(scene, scene.geometries[g], threads);
+// Makes the trees that are not known yet.
+TriangleTrees treesOf(const Scene& scene, TriangleTrees trees, int threads) {
+  trees.resize(scene.geometries.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t g = 0; g < trees.size(); ++g) {
+    if (!trees[g]) missing.push_back(g);
   }
-  return blocks;
+  parallelFor(missing.size() > 1 ? threads : 1, missing.size(), [&](std::size_t i, int) {
+    trees[missing[i]] = std::make_shared<const BoxTree>(treeOf(scene, missing[i]));
+  });
+  return trees;
+}
+
+BoxTree treeOf(const FacetSpace& space, const Orders& list) {
+  std::vector<Box> boxes;
+  boxes.reserve(list.size());
+  for (const std::uint64_t order : list) boxes.push_back(space.boxOf(placedTriangle(order)));
+  return BoxTree(boxes);
 }
 
 // Those of one object that have as many before them in their place as take part.
@@ -110,62 +121,85 @@ std::vector<bool> instancesInHeaps(const Scene& scene) {
   return leftOut;
 }
 
-FlushFinder::FlushFinder(const Scene& scene, BlocksOfGeometries known, int threads)
+CoplanarFinder::CoplanarFinder(const Scene& scene, TriangleTrees known, int threads)
     : scene_(scene),
       threads_(threads),
-      blocks_(blocksOf(scene, std::move(known), threads)),
-      world_(scene, blocks_),
+      trees_(treesOf(scene, std::move(known), threads)),
+      world_(scene),
       leftOut_(instancesInHeaps(scene)) {}
 
-std::vector<BoxedBlock> FlushFinder::everything(Among which) const {
-  std::vector<BoxedBlock> all = world_.everything();
-  std::erase_if(all, [&](const BoxedBlock& b) {
-    if (which == Among::still && !isAmong(which, b.instance)) return true;
-    return b.instance != kNoInstance && leftOut_[b.instance];
-  });
+std::vector<TriangleGroup> CoplanarFinder::everything(bool withMoving) const {
+  std::vector<TriangleGroup> all;
+  if (!trees_[0]->empty()) {
+    all.push_back({trees_[0].get(), kNoInstance, scene_.geometries[0].firstTriangle, true});
+  }
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const std::uint32_t g = scene_.instances[i].geometry;
+    if (trees_[g]->empty() || leftOut_[i] || (!withMoving && world_.moves(i))) continue;
+    all.push_back({trees_[g].get(), i, scene_.geometries[g].firstTriangle});
+  }
   return all;
 }
 
-std::vector<BoxedBlock> FlushFinder::boxesOf(const Orders& orders) const {
-  std::vector<BoxedBlock> boxes;
-  boxes.reserve(orders.size());
-  for (const std::uint64_t order : orders) boxes.push_back(world_.triangle(placedTriangle(order)));
-  return boxes;
+// Pairs of the triangles of a list.
+std::vector<FacetPair> CoplanarFinder::pairsOf(const Orders& list, int threads,
+                                               bool (*test)(const Facet&, const Facet&),
+                                               bool& complete) const {
+  const BoxTree tree = treeOf(world_, list);
+  const auto all = [](const FacetSpace&, const TriangleGroup&, const TriangleGroup&) {
+    return true;
+  };
+  return findPairs({world_, {{&tree, kNoInstance, 0, true, &list}}, all, test},
+                   scene_.triangles.size(), threads, complete);
 }
 
-// Of triangles that one instance carries. What may overlap is looked for once for all instances.
-void FlushFinder::addWithinInstances(std::uint32_t geometry, Among which, Orders& all) const {
+// Adds triangles that overlap others of the same instance. One search in the space of the geometry
+// finds the candidates for all of its instances.
+void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Among which, Orders& all) {
   std::vector<std::uint32_t> instances;
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
     const bool own = scene_.instances[i].geometry == geometry;
     if (own && !leftOut_[i] && isAmong(which, i)) instances.push_back(i);
   }
-  if (blocks_[geometry]->top() == 0 || instances.empty()) return;
-  const FacetSpace object = FacetSpace::ofObject(scene_, blocks_, geometry);
+  if (trees_[geometry]->empty() || instances.empty()) return;
+  const FacetSpace object(scene_, *trees_[geometry], geometry);
+  const TriangleGroup group{trees_[geometry].get(), kNoInstance,
+                            scene_.geometries[geometry].firstTriangle};
+  const auto any = [](const FacetSpace&, const TriangleGroup&, const TriangleGroup&) {
+    return true;
+  };
   Orders candidates;
-  addBoth(findPairs(object, object.everything(), PairsOf::differentPlaces, facetsOverlap,
-                    scene_.triangles.size(), threads_),
-          candidates);
+  addBoth(pairs({object, {group}, any, facetsOverlap}, threads_), candidates);
   if (candidates.empty()) return;
   sortUnique(candidates);
   std::vector<Orders> found(instances.size());
+  std::vector<std::uint8_t> complete(instances.size());
   parallelFor(threads_, instances.size(), [&](std::size_t i, int) {
-    std::vector<BoxedBlock> boxes;
+    Orders placed;
     for (const std::uint64_t order : candidates) {
-      boxes.push_back(world_.triangle({placedTriangle(order).triangle, instances[i]}));
+      placed.push_back(orderOf({placedTriangle(order).triangle, instances[i]}));
     }
-    addBoth(findPairs(world_, std::move(boxes), PairsOf::all, facetsOverlap,
-                      scene_.triangles.size(), 1),
-            found[i]);
+    bool whole = true;
+    addBoth(pairsOf(placed, 1, facetsOverlap, whole), found[i]);
     sortUnique(found[i]);
+    complete[i] = whole ? 1 : 0;
   });
   for (const Orders& some : found) all.insert(all.end(), some.begin(), some.end());
+  if (std::find(complete.begin(), complete.end(), 0) != complete.end()) complete_ = false;
 }
 
-Orders FlushFinder::overlapping(Among which) const {
+Orders CoplanarFinder::overlapping(Among which) {
+  const auto anyPlaces = [](const FacetSpace&, const TriangleGroup& a, const TriangleGroup& b) {
+    return a.instance != b.instance || a.instance == kNoInstance;
+  };
+  const auto oneMoves = [](const FacetSpace& space, const TriangleGroup& a,
+                           const TriangleGroup& b) {
+    return a.instance != b.instance && (space.moves(a.instance) || space.moves(b.instance));
+  };
   Orders found;
-  const PairsOf places = which == Among::moving ? PairsOf::withMoving : PairsOf::differentPlaces;
-  addBoth(pairs(everything(which), places, facetsOverlap), found);
+  PairSearch search{world_, everything(which != Among::still), anyPlaces, facetsOverlap};
+  if (which == Among::moving) search.wanted = oneMoves;
+  addBoth(pairs(search, threads_), found);
   for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) {
     addWithinInstances(g, which, found);
   }
@@ -173,24 +207,27 @@ Orders FlushFinder::overlapping(Among which) const {
   return found;
 }
 
-FlushTriangles FlushFinder::find(Orders flush, Among touching) const {
-  if (flush.empty()) return {};
-  std::vector<BoxedBlock> blocks = boxesOf(flush);
-  for (BoxedBlock& b : blocks) b.asked = true;
-  const std::vector<BoxedBlock> all = everything(touching);
-  blocks.insert(blocks.end(), all.begin(), all.end());
-  addBoth(pairs(std::move(blocks), PairsOf::asked, facetsTouch), flush);
-  sortUnique(flush);
-  FlushTriangles found(scene_.triangles.size(), pairs(boxesOf(flush), PairsOf::all, facetsTouch));
+CoplanarTriangles CoplanarFinder::find(Orders overlapping, Among touching) {
+  if (overlapping.empty()) return {};
+  const auto ofList = [](const FacetSpace&, const TriangleGroup& a, const TriangleGroup& b) {
+    return (a.list == nullptr) != (b.list == nullptr);
+  };
+  Orders all = overlapping;
+  const BoxTree tree = treeOf(world_, overlapping);
+  PairSearch search{world_, everything(touching != Among::still), ofList, facetsTouch};
+  search.groups.push_back({&tree, kNoInstance, 0, true, &overlapping});
+  addBoth(pairs(search, threads_), all);
+  sortUnique(all);
+  CoplanarTriangles found(scene_.triangles.size(), pairsOf(all, threads_, facetsTouch, complete_));
   findCovered(found);
   return found;
 }
 
-void FlushFinder::findCovered(FlushTriangles& found) const {
+void CoplanarFinder::findCovered(CoplanarTriangles& found) const {
   found.covered_.resize(found.partners_.size());
   std::vector<std::uint8_t> overlaps(found.partners_.size());
   parallelFor(threads_, found.slots_.size(), [&](std::size_t k, int) {
-    FlushTriangles::Slot& slot = found.slots_[k];
+    CoplanarTriangles::Slot& slot = found.slots_[k];
     if (slot.count == 0) return;
     const Facet own = world_.facet(slot.id);
     for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
@@ -199,14 +236,14 @@ void FlushFinder::findCovered(FlushTriangles& found) const {
       overlaps[i] = facetsOverlap(own, partner) ? 1 : 0;
     }
   });
-  for (FlushTriangles::Slot& slot : found.slots_) {
+  for (CoplanarTriangles::Slot& slot : found.slots_) {
     if (slot.count > 0) found.fillCells(slot, overlaps);
   }
 }
 
 // visit(cell) for those of side * side cells that the part may reach into.
 template <typename Visitor>
-void FlushTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit) {
+void CoplanarTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit) {
   const float size = 1 / static_cast<float>(side);
   for (std::size_t v = cellOf(part.v0, side); v <= cellOf(part.v1, side); ++v) {
     for (std::size_t u = cellOf(part.u0, side); u <= cellOf(part.u1, side); ++u) {
@@ -219,7 +256,7 @@ void FlushTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Vi
 
 // About as many cells as there are partners, fewer where these are so large that together they
 // would reach into several times as many: those that lie one on the other share one cell.
-void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
+void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;           // cells that a partner reaches into, in the mean
   constexpr std::uint32_t kFewPartners = 32;  // a fine mask is not worth its start
@@ -260,8 +297,8 @@ void FlushTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlap
   }
 }
 
-FlushTriangles::FlushTriangles(std::uint64_t triangles,
-                               std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs) {
+CoplanarTriangles::CoplanarTriangles(std::uint64_t triangles,
+                                     std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs) {
   if (pairs.empty()) return;
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
@@ -285,7 +322,7 @@ FlushTriangles::FlushTriangles(std::uint64_t triangles,
   ranks_.resize(partners_.size());
 }
 
-void FlushTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
+void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
   std::vector<std::pair<WrittenPlace, std::size_t>> all;  // of slots
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
@@ -298,20 +335,20 @@ void FlushTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
 }
 
 // That of the triangle, or the free one where it would be.
-std::size_t FlushTriangles::slotOf(PlacedTriangleId id) const {
+std::size_t CoplanarTriangles::slotOf(PlacedTriangleId id) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = hashOf(id) & mask;
   while (slots_[i].count != 0 && slots_[i].id != id) i = (i + 1) & mask;
   return i;
 }
 
-std::span<const PlacedTriangleId> FlushTriangles::partnersOf(PlacedTriangleId id) const {
+std::span<const PlacedTriangleId> CoplanarTriangles::partnersOf(PlacedTriangleId id) const {
   if (empty()) return {};
   const Slot& slot = slots_[slotOf(id)];
   return std::span(partners_).subspan(slot.first, slot.count);
 }
 
-std::uint64_t FlushTriangles::bytes() const {
+std::uint64_t CoplanarTriangles::bytes() const {
   if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(ranks_[0]) + sizeof(CoveredPart)) +
@@ -319,32 +356,37 @@ std::uint64_t FlushTriangles::bytes() const {
          contested_.size() * sizeof(contested_[0]);
 }
 
-FlushTriangles findFlushTriangles(const Scene& scene, int threads) {
-  if (scene.firstSphere > kMostSearched) return {};
-  const FlushFinder finder(scene, {}, threads);
-  return finder.find(finder.overlapping(FlushFinder::Among::all), FlushFinder::Among::all);
+CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete) {
+  complete = scene.firstSphere <= kMostSearched;
+  if (!complete) return {};
+  CoplanarFinder finder(scene, {}, threads);
+  CoplanarTriangles found =
+      finder.find(finder.overlapping(CoplanarFinder::Among::all), CoplanarFinder::Among::all);
+  complete = finder.complete();
+  return found;
 }
 
-void updateFlushTriangles(Scene& scene, StillFlush& still, const SceneOrder& order, int threads) {
-  using Among = FlushFinder::Among;
+void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrder& order,
+                             int threads) {
+  using Among = CoplanarFinder::Among;
   if (scene.firstSphere > kMostSearched) return;
-  BlocksOfGeometries rigid = still.blocks;
+  TriangleTrees rigid = still.trees;
   for (const BentVertices& bent : scene.motion.bent) {
     if (bent.geometry < rigid.size()) rigid[bent.geometry].reset();
   }
-  const FlushFinder finder(scene, std::move(rigid), threads);
+  CoplanarFinder finder(scene, std::move(rigid), threads);
   std::vector<std::uint32_t> instances;
   for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
   if (!still.known || still.instances != instances) {
-    still = {true, std::move(instances), finder.overlapping(Among::still), false, finder.blocks()};
+    still = {true, std::move(instances), finder.overlapping(Among::still), false, finder.trees()};
   }
   Orders moving = finder.overlapping(Among::moving);
   if (moving.empty() && still.all) return;
   still.all = moving.empty();
   moving.insert(moving.end(), still.triangles.begin(), still.triangles.end());
   sortUnique(moving);
-  scene.flush = finder.find(std::move(moving), still.all ? Among::still : Among::all);
-  scene.flush.rankBy(scene, order);
+  scene.coplanar = finder.find(std::move(moving), still.all ? Among::still : Among::all);
+  scene.coplanar.rankBy(scene, order);
 }
 
 }  // namespace whit
