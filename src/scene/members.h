@@ -21,7 +21,7 @@ inline constexpr double kLargestNumber = 1e18;
 
 // Meaning of a member, where its type leaves it open.
 enum class MemberKind : std::uint8_t { plain, color, map };
-inline constexpr MemberKind kColor = MemberKind::color;
+inline constexpr MemberKind kColorMember = MemberKind::color;
 
 template <typename Noun>
 struct MemberRules {
@@ -69,13 +69,13 @@ inline bool isTransparent(const Material& m) { return m.hasTransmission(); }
 // A member follows those that decide on its default value.
 template <>
 inline constexpr auto kMembers<Material> = std::tuple{
-    Member{"diffuse", &Material::diffuse, {.kind = kColor, .high = 1}},
+    Member{"diffuse", &Material::diffuse, {.kind = kColorMember, .high = 1}},
     Member{"diffuseMap", &Material::diffuseMap, mapOf(TextureUse::color)},
-    Member{"specular", &Material::specular, {.kind = kColor, .high = 1}},
+    Member{"specular", &Material::specular, {.kind = kColorMember, .high = 1}},
     Member{"specularMap", &Material::specularMap, mapOf(TextureUse::color)},
     Member{"roughness", &Material::roughness, {.low = 0, .high = 1, .matters = isGlossy}},
     Member{"roughnessMap", &Material::roughnessMap, mapOf(TextureUse::data)},
-    Member{"emission", &Material::emission, {.kind = kColor, .usual = 1e4}},
+    Member{"emission", &Material::emission, {.kind = kColorMember, .usual = 1e4}},
     Member{"emissionMap", &Material::emissionMap, mapOf(TextureUse::emission)},
     Member{"normalMap", &Material::normalMap, mapOf(TextureUse::data)},
     Member{"alphaMap", &Material::alphaMap, mapOf(TextureUse::mask)},
@@ -88,16 +88,16 @@ inline constexpr auto kMembers<Material> = std::tuple{
             .baked = true,
             .decides = {"alphaMap", "alphaCutoff"}}},
     Member{"mirror", &Material::mirror,
-           {.kind = kColor, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
+           {.kind = kColorMember, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
     Member{"mirrorGrazing", &Material::mirrorGrazing,
-           {.kind = kColor, .high = 1, .decides = {"glossyReflection"}}},
+           {.kind = kColorMember, .high = 1, .decides = {"glossyReflection"}}},
     Member{"transmission", &Material::transmission,
-           {.kind = kColor, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
+           {.kind = kColorMember, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
     Member{"thin", &Material::thin, {.matters = isTransparent}},
     Member{"ior", &Material::ior,
            {.low = kLeastIor, .high = kLargestIor, .usual = 3, .matters = isTransparent}},
     Member{"absorption", &Material::absorption,
-           {.kind = kColor, .usual = 100, .matters = isTransparent}},
+           {.kind = kColorMember, .usual = 100, .matters = isTransparent}},
     Member{"priority", &Material::priority, {.low = -1000, .high = 1000, .matters = isTransparent}},
     Member{"diffuseReflection", &Material::diffuseReflection},
     Member{"glossyReflection", &Material::glossyReflection, {.matters = isGlossy}},
@@ -126,11 +126,11 @@ template <>
 inline constexpr auto kMembers<Light> = std::tuple{
     Member{"type", &Light::kind},
     Member{"position", &Light::position, {.required = true, .exists = hasPlace}},
-    Member{"intensity", &Light::intensity, {.kind = kColor, .required = true, .exists = hasPlace}},
+    Member{"intensity", &Light::intensity, {.kind = kColorMember, .required = true, .exists = hasPlace}},
     Member{"radius", &Light::radius, {.low = kLeastLightRadius, .exists = hasPlace}},
     Member{"direction", &Light::direction, {.required = true, .exists = hasDirection}},
     Member{"irradiance", &Light::intensity,
-           {.kind = kColor, .required = true, .exists = isDirectional}},
+           {.kind = kColorMember, .required = true, .exists = isDirectional}},
     Member{"innerConeAngle", &Light::innerConeAngle,
            {.low = 0, .high = kLargestConeAngle, .exists = hasCone}},
     Member{"outerConeAngle", &Light::outerConeAngle,
@@ -140,17 +140,17 @@ inline constexpr auto kMembers<Light> = std::tuple{
 
 template <>
 inline constexpr auto kMembers<Sky> = std::tuple{
-    Member{"zenith", &Sky::zenith, {.kind = kColor}},
-    Member{"horizon", &Sky::horizon, {.kind = kColor}},
-    Member{"ground", &Sky::ground, {.kind = kColor}},
+    Member{"zenith", &Sky::zenith, {.kind = kColorMember}},
+    Member{"horizon", &Sky::horizon, {.kind = kColorMember}},
+    Member{"ground", &Sky::ground, {.kind = kColorMember}},
     Member{"scale", &Sky::scale, {.low = 0}},
     Member{"rotation", &Sky::rotation},
 };
 
 template <>
 inline constexpr auto kMembers<Ambient> = std::tuple{
-    Member{"up", &Ambient::up, {.kind = kColor}},
-    Member{"down", &Ambient::down, {.kind = kColor}},
+    Member{"up", &Ambient::up, {.kind = kColorMember}},
+    Member{"down", &Ambient::down, {.kind = kColorMember}},
     Member{"occlusion", &Ambient::occlusion, {.low = 0}},
 };
 
