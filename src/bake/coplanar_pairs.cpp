@@ -24,7 +24,7 @@ constexpr std::uint64_t kTaskTriangles = 8192;
 
 // Limits of the work, in comparisons of two boxes. An ordinary mesh takes less than a hundred for
 // each triangle.
-constexpr std::int64_t kWork = std::int64_t{1} << 28, kWorkPerTriangle = 256;
+constexpr std::int64_t kWork = std::int64_t{1} << 27, kWorkPerTriangle = 256;
 constexpr std::size_t kWorkOfNodes = 16;    // of taking two nodes apart
 constexpr std::int64_t kWorkOfFacets = 4;   // of comparing two facets
 constexpr std::int64_t kWorkOfPair = 128;   // of a pair that is found; it takes memory
