@@ -427,27 +427,5 @@ TEST(CoplanarTriangles, ManyTilesInOnePlane) {
   EXPECT_EQ(textOf(partners), textOf(partnersIn(foundAmong(scene, 1), scene)));
 }
 
-// Thousands of tiles one on the other have more pairs than the search may look at.
-TEST(CoplanarTriangles, AHeapIsSearchedInPart) {
-  std::vector<Mesh> heap;
-  for (int i = 0; i < 1200; ++i) {
-    const double x = 1e-4 * i;
-    heap.push_back(tile(x, -x, 3 - x, 2 + x));
-  }
-  Builder builder;
-  builder.add(heap);
-  const Scene scene = builder.scene();
-  bool complete = true;
-  const CoplanarTriangles found = findCoplanarTriangles(scene, kThreads, complete);
-  EXPECT_FALSE(complete);
-  EXPECT_FALSE(found.empty());
-  const CoplanarTriangles again = findCoplanarTriangles(scene, 1, complete);
-  EXPECT_FALSE(complete);
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    const auto own = found.partnersOf({i, kNoInstance}), other = again.partnersOf({i, kNoInstance});
-    EXPECT_TRUE(std::equal(own.begin(), own.end(), other.begin(), other.end())) << i;
-  }
-}
-
 }  // namespace
 }  // namespace whit
