@@ -23,8 +23,10 @@ constexpr double kLargestError = 8.0 * kLargestCoordinate;
 constexpr std::uint64_t kTaskTriangles = 8192;
 
 // Limits of the work, in comparisons of two boxes. An ordinary mesh takes less than a hundred for
-// each triangle.
-constexpr std::int64_t kWork = std::int64_t{1} << 28, kWorkPerTriangle = 256;
+// each triangle. Many instances that overlap are given less: they seldom have coplanar faces.
+constexpr std::int64_t kWork = std::int64_t{1} << 31, kWorkPerTriangle = 256;
+constexpr std::int64_t kWorkOfInstances = std::int64_t{1} << 27;
+constexpr std::size_t kManyGroups = 64;
 constexpr std::size_t kWorkOfNodes = 16;    // of taking two nodes apart
 constexpr std::int64_t kWorkOfFacets = 4;   // of comparing two facets
 constexpr std::int64_t kWorkOfPair = 128;   // of a pair that is found; it takes memory
@@ -338,7 +340,8 @@ std::vector<FacetPair> findPairs(const PairSearch& search, std::uint64_t triangl
     boxes.push_back(group.isPlaced ? all : search.space.boxOf(all, group.instance));
   }
   const BoxTree groups(boxes);
-  const std::int64_t work = kWork + kWorkPerTriangle * static_cast<std::int64_t>(triangles);
+  const std::int64_t work = (search.groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
+                            kWorkPerTriangle * static_cast<std::int64_t>(triangles);
   std::vector<Task> tasks;
   PairFinder sharer(search, groups, work);
   sharer.searchAll(tasks);

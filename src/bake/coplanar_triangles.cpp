@@ -258,8 +258,9 @@ void CoplanarTriangles::forEachCellOf(const CoveredPart& part, std::size_t side,
 // would reach into several times as many: those that lie one on the other share one cell.
 void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
-  constexpr std::size_t kReach = 8;           // cells that a partner reaches into, in the mean
-  constexpr std::uint32_t kFewPartners = 32;  // a fine mask is not worth its start
+  constexpr std::size_t kReach = 8;            // cells that a partner reaches into, in the mean
+  constexpr std::size_t kMostReached = 65536;  // cells of the mask, with heaps of partners in mind
+  constexpr std::uint32_t kFewPartners = 32;   // a fine mask is not worth its start
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
@@ -274,6 +275,7 @@ void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> over
   while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
   slot.firstCell = cells_.size();
   slot.maskSide = slot.count < kFewPartners ? 16 : 64;
+  while (slot.maskSide > 8 && reached(slot.maskSide) > kMostReached) slot.maskSide /= 2;
   slot.firstWord = contested_.size();
   contested_.resize(slot.firstWord + slot.maskSide * slot.maskSide / 64);
   std::vector<std::vector<std::size_t>> overlapping(slot.side * slot.side), touching = overlapping;
