@@ -19,7 +19,7 @@ fi
 # warns of more has another try.
 buildAll() {
   cmake -DWHIT_WERROR="$1" "$build" >/dev/null &&
-    cmake --build "$build" --parallel "$(nproc)" --target shipped
+    cmake --build "$build" --parallel "$(nproc)" --target programs
 }
 buildAll ON || buildAll OFF
 

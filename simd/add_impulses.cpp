@@ -412,29 +412,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindAddReflections);
-StepFunction findAddReflections(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindAddReflections)(index);
-}
-HWY_EXPORT(FindAddGlossyReflections);
-StepFunction findAddGlossyReflections(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindAddGlossyReflections)(index);
-}
-HWY_EXPORT(FindAddRefractions);
-StepFunction findAddRefractions(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindAddRefractions)(index);
-}
-HWY_EXPORT(FindAddIndirect);
-StepFunction findAddIndirect(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindAddIndirect)(index);
-}
-HWY_EXPORT(FindReturnImpulses);
-StepFunction findReturnImpulses(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindReturnImpulses)(index);
-}
-HWY_EXPORT(FindReturnToEye);
-StepFunction findReturnToEye(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindReturnToEye)(index);
-}
+WHIT_EXPORT_KERNEL(AddReflections)
+WHIT_EXPORT_KERNEL(AddGlossyReflections)
+WHIT_EXPORT_KERNEL(AddRefractions)
+WHIT_EXPORT_KERNEL(AddIndirect)
+WHIT_EXPORT_KERNEL(ReturnImpulses)
+WHIT_EXPORT_KERNEL(ReturnToEye)
 }  // namespace whit::simd
 #endif

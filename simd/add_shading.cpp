@@ -31,9 +31,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindAddShading);
-StepFunction findAddShading(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindAddShading)(index);
-}
+WHIT_EXPORT_KERNEL(AddShading)
 }  // namespace whit::simd
 #endif

@@ -345,9 +345,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindDecideShadows);
-StepFunction findDecideShadows(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindDecideShadows)(index);
-}
+WHIT_EXPORT_KERNEL(DecideShadows)
 }  // namespace whit::simd
 #endif

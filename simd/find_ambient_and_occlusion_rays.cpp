@@ -71,9 +71,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindFindAmbientAndOcclusionRays);
-StepFunction findFindAmbientAndOcclusionRays(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindFindAmbientAndOcclusionRays)(index);
-}
+WHIT_EXPORT_KERNEL(FindAmbientAndOcclusionRays)
 }  // namespace whit::simd
 #endif

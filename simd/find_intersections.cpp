@@ -68,14 +68,11 @@ HWY_INLINE Tints FindTints(const V3& color, VU flags) {
           Select3(emission, color, white)};
 }
 
-// No maps wait there yet.
-template <uint32_t kBits>
+// Marks the slot's map queues as empty.
 HWY_INLINE void ClearSlot(size_t slot, BlockTextures& block) {
-  if constexpr ((kBits & kTextured) != 0) {
-    block.diffuse.level.any[slot] = block.specular.level.any[slot] = false;
-    block.emission.level.any[slot] = false;
+  for (MapQueue* queue : {&block.diffuse, &block.specular, &block.emission, &block.normal}) {
+    queue->level.any[slot] = false;
   }
-  if constexpr ((kBits & kNormalMapped) != 0) block.normal.level.any[slot] = false;
 }
 
 HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF valid,
@@ -99,7 +96,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const HitColumns& hits = job.hits;
   const SurfelColumns& surfels = job.surfels;
   const VF one = hn::Set(d, 1.0f);
-  ClearSlot<kBits>(slot, block);
+  ClearSlot(slot, block);
   const auto [valid, triangle] = LoadHits(hits, i);
   if (job.absorption) Absorb(tables, rays, hits, valid, i);
   if (hn::AllFalse(d, valid)) {
@@ -112,8 +109,8 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
-  const VU others = job.flush ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
-  if (job.flush) {
+  const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
+  if (job.coplanar) {
     const auto shared = hn::Ne(hn::And(others, hn::Set(du, kSharesPlace)), hn::Zero(du));
     s.inDoubt = hn::Or(s.inDoubt, hn::RebindMask(d, shared));
   }
@@ -130,10 +127,10 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   }
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = TurnToViewer(entering);
-  if constexpr ((kBits & kTextured) != 0) {
+  if (job.textures) {
     QueueMap(job, diffuseMap, valid, at, slot, block.diffuse);
   }
-  if constexpr ((kBits & kNormalMapped) != 0) {
+  if (job.normalMaps) {
     QueueNormal(job, material.Emission().normalMap, t.uv, valid, s, flip, at, slot, block);
   }
   const VF distance = hn::Load(d, hits.t + i);
@@ -149,7 +146,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
   if (job.emissionFactors) {
     Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
-    if constexpr ((kBits & kTextured) != 0) {
+    if (job.textures) {
       QueueMap(job, lobe.emissionMap, valid, at, slot, block.emission);
     }
   }
@@ -158,7 +155,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   hn::Store(materialOrMiss, du, surfels.material + i);
   if (job.glossy) {
     const auto [specular, specularMap] = material.Specular();
-    if constexpr ((kBits & kTextured) != 0) {
+    if (job.textures) {
       QueueMap(job, specularMap, valid, at, slot, block.specular);
     }
     const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
@@ -172,11 +169,10 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
 }
 
 // What the vector at i has queued.
-template <uint32_t kBits>
 HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, size_t slot,
                               size_t i) {
   const SurfelColumns& surfels = job.surfels;
-  if constexpr ((kBits & kTextured) != 0) {
+  if (job.textures) {
     if (job.emissionFactors && HWY_UNLIKELY(job.radianceMaps)) {
       ApplyRadianceMaps(job, block.emission, slot, i);
     } else if (job.emissionFactors) {
@@ -189,7 +185,7 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
                  i);
     }
   }
-  if constexpr ((kBits & kNormalMapped) != 0) ApplyNormalMap(job, block, slot, i);
+  if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
 }
 
 template <uint32_t kBits>
@@ -219,12 +215,10 @@ void InterpolateSurfels(Chunk& c) noexcept {
     PrefetchTriangles<kBits>(job.tables, job.hits, begin, end);
     for (size_t i = begin; i < end; i += lanes) {
       flags = hn::Or(flags, InterpolateVector<kBits>(job, i, i - begin, block));
-      if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
-        if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs<kBits>(job, i, i - begin, block);
-      }
+      if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs<kBits>(job, i, i - begin, block);
     }
-    if constexpr ((kBits & (kTextured | kNormalMapped)) != 0) {
-      for (size_t i = begin; i < end; i += lanes) ApplyTextures<kBits>(job, block, i - begin, i);
+    if (job.textures || job.normalMaps) {
+      for (size_t i = begin; i < end; i += lanes) ApplyTextures(job, block, i - begin, i);
     }
   }
   HWY_ALIGN uint32_t perLane[16];
@@ -403,21 +397,9 @@ HWY_AFTER_NAMESPACE();
 namespace whit::simd {
 HWY_EXPORT(FindPacketKernels);
 PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernels)(); }
-HWY_EXPORT(FindInterpolateSurfels);
-StepFunction findInterpolateSurfels(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindInterpolateSurfels)(index);
-}
-HWY_EXPORT(FindLookUpRoughness);
-StepFunction findLookUpRoughness(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLookUpRoughness)(index);
-}
-HWY_EXPORT(FindLookUpCoverage);
-StepFunction findLookUpCoverage(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLookUpCoverage)(index);
-}
-HWY_EXPORT(FindLiftShadowOrigins);
-StepFunction findLiftShadowOrigins(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindLiftShadowOrigins)(index);
-}
+WHIT_EXPORT_KERNEL(InterpolateSurfels)
+WHIT_EXPORT_KERNEL(LookUpRoughness)
+WHIT_EXPORT_KERNEL(LookUpCoverage)
+WHIT_EXPORT_KERNEL(LiftShadowOrigins)
 }  // namespace whit::simd
 #endif

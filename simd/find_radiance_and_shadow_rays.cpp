@@ -150,9 +150,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindFindRadianceAndShadowRays);
-StepFunction findFindRadianceAndShadowRays(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindFindRadianceAndShadowRays)(index);
-}
+WHIT_EXPORT_KERNEL(FindRadianceAndShadowRays)
 }  // namespace whit::simd
 #endif

@@ -57,9 +57,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindGenerateRays);
-StepFunction findGenerateRays(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindGenerateRays)(index);
-}
+WHIT_EXPORT_KERNEL(GenerateRays)
 }  // namespace whit::simd
 #endif

@@ -66,6 +66,11 @@ struct Kernel {
   constexpr std::uint32_t bits() const { return choices.bits(); }
 };
 
+// Defines find##Name() below by Find##Name() of the chosen target; after HWY_ONCE, once for each.
+#define WHIT_EXPORT_KERNEL(Name) \
+  HWY_EXPORT(Find##Name);        \
+  StepFunction find##Name(std::size_t index) { return HWY_DYNAMIC_DISPATCH(Find##Name)(index); }
+
 // Of the chosen target; `index` as in Kernel::variant.
 StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);
@@ -98,12 +103,8 @@ inline constexpr Kernel kUnpackHits{
 // Surfels from hits, and the kMaterial flags of them all. Absorption in the medium that a ray came
 // through is multiplied into its weight and throughput.
 inline constexpr Kernel kInterpolateSurfels{
-    "interpolateSurfels",
-    Stage::findIntersections,
-    findInterpolateSurfels,
-    {Part::rays, Part::hits},
-    {Part::surfels, Part::rays},
-    EffectSet().with(Effect::smoothNormals).with(Effect::textures).with(Effect::normalMaps)};
+    "interpolateSurfels",     Stage::findIntersections,    findInterpolateSurfels,
+    {Part::rays, Part::hits}, {Part::surfels, Part::rays}, EffectSet().with(Effect::smoothNormals)};
 
 // The width of lobes whose roughness is in a map.
 inline constexpr Kernel kLookUpRoughness{

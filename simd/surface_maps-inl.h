@@ -17,10 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// What variants of interpolateSurfels are compiled for.
+// The choice that variants of interpolateSurfels are compiled for.
 constexpr uint32_t kSmooth = EffectSet::bit(Effect::smoothNormals);
-constexpr uint32_t kTextured = EffectSet::bit(Effect::textures);
-constexpr uint32_t kNormalMapped = EffectSet::bit(Effect::normalMaps);
 
 // A chunk as interpolateSurfels sees it: what lies in the chunk itself would be read again after
 // each store to its columns.
@@ -31,8 +29,8 @@ struct SurfelJob {
   RayColumns rays;
   HitColumns hits;
   SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, flush, glossy, instances, radianceMaps, secondUvs,
-      spheres, transmission, vertexColors;
+  bool absorption, cones, emissionFactors, coplanar, glossy, instances, normalMaps, radianceMaps,
+      secondUvs, spheres, textures, transmission, vertexColors;
 };
 
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
@@ -45,12 +43,14 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::absorption),
           c.has(Feature::cones),
           c.has(Feature::emissionFactors),
-          c.has(Feature::flush),
+          c.has(Feature::coplanar),
           c.has(Feature::glossy),
           c.has(Feature::instances),
+          c.has(Feature::normalMaps),
           c.tables().radianceMaps,
           c.has(Feature::secondUvs),
           c.has(Feature::spheres),
+          c.has(Feature::textures),
           c.has(Feature::transmission),
           c.has(Feature::vertexColors)};
 }
@@ -315,17 +315,15 @@ HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, Blo
   const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
   const MapHits map{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
   const MaterialLanes material(tables, t.material, valid);
-  if constexpr ((kBits & kNormalMapped) != 0) {
+  if (job.normalMaps) {
     const VI normalMap = material.Emission().normalMap;
     if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
       const VF flip = TurnToViewer(hn::Lt(cosine, hn::Zero(d)));
       QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
     }
   }
-  if constexpr ((kBits & kTextured) != 0) {
-    if (job.emissionFactors) {
-      QueueEmissionByOwnUvs(job, map, material.Lobe().emissionMap, slot, block);
-    }
+  if (job.textures && job.emissionFactors) {
+    QueueEmissionByOwnUvs(job, map, material.Lobe().emissionMap, slot, block);
   }
 }
 

@@ -66,9 +66,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindWriteEmittedAndReflectiveAmbient);
-StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index) {
-  return HWY_DYNAMIC_DISPATCH(FindWriteEmittedAndReflectiveAmbient)(index);
-}
+WHIT_EXPORT_KERNEL(WriteEmittedAndReflectiveAmbient)
 }  // namespace whit::simd
 #endif

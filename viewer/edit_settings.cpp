@@ -1,4 +1,6 @@
 // Edits as settings of the scene.
+#include <set>
+
 #include "io/scene/describe_scene.h"
 #include "io/scene/scene_view.h"
 #include "viewer/traced_frame.h"
@@ -7,64 +9,25 @@ namespace whit::view {
 
 namespace {
 
-template <typename Item>
-class Differences {
- public:
-  Differences(const Item& read, const Item& edited, std::vector<std::string>& settings)
-      : read_(read), edited_(edited), settings_(settings) {}
-
-  template <typename Field>
-  bool changed(Field Item::*field) const {
-    return !(read_.*field == edited_.*field);
-  }
-  template <typename Field>
-  void add(const char* name, Field Item::*field) {
-    if (changed(field)) say(name, describe(edited_.*field));
-  }
-  void say(const char* name, const Json& value) {
-    settings_.push_back(edited_.pointer + "/" + name + "=" + value.dump());
-  }
-
- private:
-  const Item& read_;
-  const Item& edited_;
-  std::vector<std::string>& settings_;
-};
-
-// Whoever sets one member leaves others of the same material to follow: these are set as well.
-void addMaterial(const Material& read, const Material& edited, std::vector<std::string>& settings) {
-  Differences<Material> d(read, edited, settings);
-  d.add("diffuse", &Material::diffuse);
-  d.add("specular", &Material::specular);
-  if (!read.hasGlossy() && edited.hasGlossy() && edited.specularMap == kNoTexture) {
-    d.say("specularMap", nullptr);  // which a model may have that has no use for it
-  }
-  d.add("roughness", &Material::roughness);
-  d.add("emission", &Material::emission);
-  d.add("mirror", &Material::mirror);
-  if (d.changed(&Material::mirror)) {
-    d.say("mirrorGrazing", describe(edited.mirrorGrazing));
-  } else {
-    d.add("mirrorGrazing", &Material::mirrorGrazing);
-  }
-  d.add("transmission", &Material::transmission);
-  if (d.changed(&Material::transmission)) d.say("castsShadow", read.castsShadow);
-  if (d.changed(&Material::mirror) || d.changed(&Material::mirrorGrazing) ||
-      d.changed(&Material::transmission)) {
-    d.say("glossyReflection", edited.glossyReflection);
-  }
-  d.add("ior", &Material::ior);
-  d.add("absorption", &Material::absorption);
+// A member whose default follows from one that is set has to be set as well.
+template <typename Noun>
+void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& settings) {
+  std::set<std::string_view> decided;
+  forEachMemberInFiles(read, [&](const auto& member) {
+    const auto& value = edited.*member.field;
+    const bool changed = !(read.*member.field == value);
+    if (changed) decided.insert(member.rules.decides.begin(), member.rules.decides.end());
+    if (!changed && !decided.contains(member.name)) return;
+    settings.push_back(edited.pointer + "/" + member.name + "=" + describe(value).dump());
+  });
 }
 
-void addLight(const Light& read, const Light& edited, std::vector<std::string>& settings) {
-  const bool directional = edited.kind == Light::Kind::directional;
-  Differences<Light> d(read, edited, settings);
-  d.add("position", &Light::position);
-  d.add(directional ? "irradiance" : "intensity", &Light::intensity);
-  d.add("direction", &Light::direction);
-  d.add("innerConeAngle", &Light::innerConeAngle);
-  d.add("outerConeAngle", &Light::outerConeAngle);
+void addMaterial(const Material& read, const Material& edited, std::vector<std::string>& settings) {
+  addMembers(read, edited, settings);
+  // A model may have a specular map although the material is not glossy, which readers leave out.
+  if (!read.hasGlossy() && edited.hasGlossy() && edited.specularMap == kNoTexture) {
+    settings.push_back(edited.pointer + "/specularMap=null");
+  }
 }
 
 // `whole`: also what has not changed.
@@ -89,7 +52,7 @@ ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene) {
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited) {
   std::vector<std::string> settings;
   for (std::size_t i = 0; i < read.lights.size(); ++i) {
-    addLight(read.lights[i], edited.lights[i], settings);
+    addMembers(read.lights[i], edited.lights[i], settings);
   }
   for (std::size_t i = 0; i < read.materials.size(); ++i) {
     addMaterial(read.materials[i], edited.materials[i], settings);

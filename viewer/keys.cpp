@@ -63,7 +63,7 @@ int keyNamed(const std::string& name) {
     if (name == "F" + std::to_string(i)) return GLFW_KEY_F1 + i - 1;
     known.push_back("F" + std::to_string(i));
   }
-  throwUsage("there is no key '" + name + "'; nearest: '" + nearestName(name, known) + "'");
+  throwUsage("there is no key '" + name + "'" + didYouMean(name, known));
 }
 
 std::span<const KeyHelp> keyHelp() { return kHelp; }

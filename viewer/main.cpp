@@ -65,21 +65,13 @@ const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced 
                          "whit"};
 
 void showManual(const cli::OptionList& list) {
-  std::fputs(cli::manOpening(kPage).c_str(), stdout);
-  std::fputs(cli::manTerms("OPTIONS", {{"--help", "the options of every day"},
-                                       {"--help-all", "all options"},
-                                       {"--version", "the version"},
-                                       {"--man", "this page"},
-                                       {"--completion SHELL",
-                                        "what bash, zsh or fish completes command lines by"}})
-                 .c_str(),
-             stdout);
-  std::puts(".PP");
-  std::fputs(cli::manOptions(kUsage, kSummary, list).c_str(), stdout);
-  std::vector<std::pair<std::string, std::string>> keys;
-  for (const KeyHelp& key : keyHelp()) keys.emplace_back(key.keys, key.text);
-  std::fputs(cli::manTerms("KEYS", keys).c_str(), stdout);
-  std::fputs(cli::manClosing(kPage).c_str(), stdout);
+  cli::printManual(kPage, [&] {
+    std::puts(".PP");
+    std::fputs(cli::manOptions(kUsage, kSummary, list).c_str(), stdout);
+    cli::Terms keys;
+    for (const KeyHelp& key : keyHelp()) keys.emplace_back(key.keys, key.text);
+    std::fputs(cli::manSection("keys", keys).c_str(), stdout);
+  });
 }
 
 int run(const std::vector<std::string>& words) {
@@ -95,10 +87,7 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   if (words.size() == 2 && words[0] == "--completion") {
-    const cli::Shell shell = cli::shellNamed(words[1]);
-    std::fputs(cli::completionOpening(shell, kPage.name, {}).c_str(), stdout);
-    std::fputs(cli::completionOptions(shell, kPage.name, "", list).c_str(), stdout);
-    std::fputs(cli::completionClosing(shell, kPage.name).c_str(), stdout);
+    std::fputs(cli::completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
   if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;

@@ -9,8 +9,7 @@
 
 #include "cli/app/frame_summary.h"
 #include "core/formatted.h"
-#include "scene/light.h"
-#include "scene/material.h"
+#include "scene/members.h"
 #include "viewer/color_scale.h"
 #include "viewer/keys.h"
 #include "viewer/label.h"
@@ -21,7 +20,7 @@ namespace whit::view {
 namespace {
 
 constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
-constexpr float kLargestIntensity = 1e6f, kLargestRadiance = 1e4f;
+constexpr float kLargestIntensity = 1e6f;
 
 bool drawColor(const char* label, Rgb& color) {
   if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
@@ -38,11 +37,11 @@ bool drawDirection(Vec3f& direction) {
 }
 
 bool drawCone(Light& light) {
-  constexpr float kLeastOuter = 0.5f, kLargestOuter = 90;
-  bool changed = ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeastOuter, kLargestOuter,
-                                    "%.1f", kClamp);
-  changed |=
-      ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargestOuter, "%.1f", kClamp);
+  constexpr auto kLeast = static_cast<float>(kLeastConeAngle);
+  constexpr auto kLargest = static_cast<float>(kLargestConeAngle);
+  bool changed =
+      ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeast, kLargest, "%.1f", kClamp);
+  changed |= ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargest, "%.1f", kClamp);
   light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
   return changed;
 }
@@ -61,19 +60,32 @@ bool drawLight(Light& light) {
          changed;
 }
 
-bool drawMaterial(Material& m) {
-  constexpr float kLeastIor = 1, kLargestIor = 3, kLargestAbsorption = 100;
-  bool changed = drawColor("diffuse", m.diffuse);
-  changed |= drawColor("specular", m.specular);
-  if (m.hasGlossy()) changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1, "%.3f", kClamp);
-  changed |= drawColor("mirror", m.mirror);
-  changed |= drawColor("mirror, grazing", m.mirrorGrazing);
-  changed |= drawColor("transmission", m.transmission);
-  if (m.hasTransmission()) {
-    changed |= ImGui::SliderFloat("ior", &m.ior, kLeastIor, kLargestIor, "%.3f", kClamp);
-    changed |= drawBright("absorption", "absorption per unit", kLargestAbsorption, m.absorption);
+template <typename Noun, typename Value>
+bool drawMember(const Member<Noun, Value>& member, Value& value) {
+  const auto low = static_cast<float>(member.rules.low);
+  const auto high = static_cast<float>(std::min(member.rules.high, member.rules.usual));
+  if constexpr (std::is_same_v<Value, bool>) {
+    return ImGui::Checkbox(member.name, &value);
+  } else if constexpr (std::is_same_v<Value, int>) {
+    return ImGui::SliderInt(member.name, &value, static_cast<int>(low), static_cast<int>(high),
+                            "%d", kClamp);
+  } else if constexpr (std::is_same_v<Value, float>) {
+    return ImGui::SliderFloat(member.name, &value, low, high, "%.3f", kClamp);
+  } else if (member.rules.high <= 1) {
+    return drawColor(member.name, value);
+  } else {
+    return drawBright(member.name, (std::string(member.name) + ", largest channel").c_str(), high,
+                      value);
   }
-  changed |= drawBright("emission", "radiance", kLargestRadiance, m.emission);
+}
+
+template <typename Noun>
+bool drawMembers(Noun& noun) {
+  bool changed = false;
+  forEachMemberInFiles(noun, [&](const auto& member) {
+    if (member.rules.baked || (member.rules.matters && !member.rules.matters(noun))) return;
+    changed |= drawMember(member, noun.*member.field);
+  });
   return changed;
 }
 
@@ -379,7 +391,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     ImGui::TextDisabled("lights");
     edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
     ImGui::TextDisabled("materials");
-    edited |= drawItems(scene.materials, "material", settings.rays.material, drawMaterial);
+    edited |= drawItems(scene.materials, "material", settings.rays.material, drawMembers<Material>);
     ImGui::TextDisabled("surroundings");
     edited |= drawSurroundings(ownSky, settings.openSky, scene);
   });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include "cli/app/interrupt.h"
@@ -99,18 +98,6 @@ void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   }
 }
 
-// What a reader would refuse of it is known before anything is written.
-void check(const Json& root, const std::string& file) {
-  JsonDocument document{file, root, {}};
-  if (root.contains("parameters")) {
-    document.parameters = root["parameters"].get<std::map<std::string, double>>();
-  }
-  JsonObject object{JsonValue(document)};
-  SceneDescription nothing;
-  readCameras(object, {}, nothing);
-  readLights(object, {}, nothing);
-}
-
 }  // namespace
 
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
@@ -123,7 +110,6 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli
   SavedScene saved;
   saved.file = freeFile(scene.scene.name);
   saved.leavesFolder = movePaths(root, path.parent_path(), ".");
-  check(root, saved.file);
   const cli::WriteScope scope;
   writeTextFile(saved.file, root.dump(2) + "\n");
   return saved;

@@ -14,8 +14,8 @@ struct SavedScene {
 
 // Writes NAME-edited.json into the current folder, or with the first number that is free: the file
 // of the scene called `name` with its settings and edits, all else as it was, or for a model a
-// scene that holds it; seen by `camera` first. `load` is as the scene was read with. Throws Error,
-// nothing being written then: io, or badScene for what a scene file cannot say.
+// scene that holds it; seen by `camera` first. `load` is as the scene was read with. Throws
+// Error(io), and nothing is written then.
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
                      const ShadingEdit& edit, const Camera& camera);
 

@@ -104,8 +104,7 @@ ScriptCommand panelCommand(const Words& words) {
   if (words.size() != 2) expected("panel NAME");
   const std::vector<std::string> tabs(kPanelTabs.begin(), kPanelTabs.end());
   if (std::find(tabs.begin(), tabs.end(), words[1]) == tabs.end()) {
-    throwUsage("the panel has no tab '" + words[1] + "'; nearest: '" + nearestName(words[1], tabs) +
-               "'");
+    throwUsage("the panel has no tab '" + words[1] + "'" + didYouMean(words[1], tabs));
   }
   return {[tab = words[1]](int, Input&, ScriptStep& step) { step.tab = tab; }};
 }

@@ -15,6 +15,7 @@
 #include "io/scene/describe_scene.h"
 #include "io/scene/json_text.h"
 #include "io/scene/scene_settings.h"
+#include "scene/members.h"
 
 namespace whit::view {
 
@@ -33,8 +34,7 @@ std::string quoted(const std::string& word) {
 
 void sayNoCamera(RenderOptions& options) {
   options.camera.clear();
-  options.eye.reset(), options.at.reset(), options.up.reset();
-  options.fov.reset(), options.ortho.reset();
+  forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
 }
 
 // As one of the scene's cameras, or as the first with what is different.
@@ -48,14 +48,9 @@ void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
     return;
   }
   const Camera& first = scene.cameras.front();
-  if (camera.eye != first.eye) options.eye = camera.eye;
-  if (camera.at != first.at) options.at = camera.at;
-  if (camera.up != first.up) options.up = camera.up;
-  if (camera.fov != first.fov) options.fov = camera.fov;
-  // Also where it is 0.
-  if (camera.orthographicHeight != first.orthographicHeight) {
-    options.ortho = camera.orthographicHeight;
-  }
+  forEachCameraOption([&](auto option, auto member) {
+    if (camera.*member != first.*member) options.*option = camera.*member;
+  });
 }
 
 std::string freeName(const std::string& scene) {

@@ -15,7 +15,6 @@ struct RunFacts {
   int cores = 1;
   std::uint32_t seed = 1;
   bool full = false;
-  std::string hardCases;  // a <table> of what `whit stress` found; empty: it did not run
 };
 
 // One row a point. Errors come in groups: total_ (against the truth), same_samples_, sampling_,

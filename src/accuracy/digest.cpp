@@ -11,6 +11,7 @@
 
 #include "core/formatted.h"
 #include "core/options.h"
+#include "scene/members.h"
 
 namespace whit::accuracy {
 
@@ -87,10 +88,6 @@ void add(Digester& d, const std::optional<T>& value) {
 void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
 
 // The bindings below name every member: one that is added does not compile before it is here.
-void add(Digester& d, const Camera& camera) {
-  const auto& [name, eye, at, up, fov, orthographicHeight] = camera;
-  add(d, eye), add(d, at), add(d, up), add(d, fov), add(d, orthographicHeight);
-}
 void add(Digester& d, const Medium& medium) {
   const auto& [ior, absorption, priority] = medium;
   add(d, ior), add(d, absorption), add(d, priority);
@@ -100,11 +97,9 @@ void add(Digester& d, const InstanceRecord& instance) {
   add(d, geometry), add(d, toWorld);
 }
 
-// A material, a light, ambient light.
-template <typename T>
-requires requires(const T& value) { contentsOf(value); }
-void add(Digester& d, const T& value) {
-  std::apply([&](const auto&... contents) { (add(d, contents), ...); }, contentsOf(value));
+template <typename Noun>
+requires(std::tuple_size_v<decltype(kMembers<Noun>)> > 0) void add(Digester& d, const Noun& noun) {
+  forEachMember<Noun>([&](const auto& member) { add(d, noun.*member.field); });
 }
 
 void add(Digester& d, const Texture& texture);
@@ -131,9 +126,7 @@ void add(Digester& d, const Geometry& geometry) {
   addTable(d, position), addTable(d, index);
   add(d, classBegin), add(d, firstTriangle), add(d, firstSphere), add(d, spheres);
 }
-void add(Digester& d, const Sky& sky) {
-  const auto& [name, kind, zenith, horizon, ground, image, scale, rotation] = sky;
-  add(d, kind), add(d, zenith), add(d, horizon), add(d, ground), add(d, scale), add(d, rotation);
+void add(Digester& d, const EnvironmentImage& image) {
   const auto& [width, height, r, g, b] = image;
   add(d, width), add(d, height);
   addTable(d, r), addTable(d, g), addTable(d, b);
@@ -145,13 +138,13 @@ std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
                materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
-               instancedSpheres, items, flush, motion, effects, reasons] = scene;
+               instancedSpheres, items, coplanar, motion, effects, reasons] = scene;
   Digester d;
-  addTable(d, lights), add(d, sky), add(d, ambient);
+  addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);
-  addTable(d, flush.ranks());  // all else of it follows from the tables
+  addTable(d, coplanar.ranks());  // everything else in it follows from the tables
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

@@ -97,8 +97,7 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
   for (const Knob& knob : allKnobs()) known.push_back(knob.name);
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throwUsage("--knobs: there is no knob '" + name + "'; nearest: '" + nearestName(name, known) +
-               "'");
+    throwUsage("--knobs: there is no knob '" + name + "'" + didYouMean(name, known));
   }
   std::vector<Knob> chosen;
   for (const Knob& knob : allKnobs()) {

@@ -10,6 +10,7 @@
 #include "inspect/metrics.h"
 #include "io/image/image_file.h"
 #include "render/renderer.h"
+#include "scene/members.h"
 
 namespace whit::accuracy {
 
@@ -68,8 +69,7 @@ std::string ReferenceCache::digest(const RenderOptions& options) const {
   // The camera counts as it is, whether it was named or described; the size as it turns out.
   RenderOptions settled = options;
   settled.camera.clear();
-  settled.eye.reset(), settled.at.reset(), settled.up.reset(), settled.fov.reset();
-  settled.ortho.reset();
+  forEachCameraOption([&](auto option, auto /*member*/) { (settled.*option).reset(); });
   const Film film = makeFilm(scene_, options);
   settled.size = ImageSize{film.image.width, film.image.height};
   settled.crop = film.image.window;

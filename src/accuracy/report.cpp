@@ -31,20 +31,6 @@ std::string machineList(const std::vector<SceneSweep>& sweeps, const RunFacts& f
   return html + "</dl>\n";
 }
 
-std::string hardCases(const RunFacts& facts) {
-  std::string html = "<h2 id=\"hard\">Hard cases</h2>\n";
-  if (facts.hardCases.empty()) {
-    return html +
-           "<p><code>whit accuracy --full</code> tells here how the hard cases fare on this "
-           "machine; <code>whit stress</code> runs them alone.</p>\n";
-  }
-  return html +
-         "<p>The catalogue of <code>whit stress</code>: of each case the worst value over "
-         "all kernels and packet widths of this machine, beside its bound.</p>\n"
-         "<div class=\"scroll cases\">" +
-         facts.hardCases + "</div>\n";
-}
-
 const char* const kIntroduction =
     "<p>Each scene is rendered with one knob of accuracy changed at a time and with the presets of "
     "<code>--quality</code>. Time is that of a frame, beside frames of the baseline. Error is the "
@@ -97,7 +83,7 @@ std::string reportHtml(const std::vector<SceneSweep>& sweeps, const RunFacts& fa
     html += formatted("<a href=\"#s%zu\">%s</a>", i, escaped(sweeps[i].scene).c_str());
   html += "</nav>\n";
   for (std::size_t i = 0; i < sweeps.size(); ++i) html += sceneSection(sweeps[i], i);
-  html += hardCases(facts) + machineList(sweeps, facts);
+  html += machineList(sweeps, facts);
   return html + "</main><script>" + kReportScript + "</script></body></html>\n";
 }
 

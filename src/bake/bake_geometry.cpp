@@ -24,13 +24,13 @@ struct Source {
   std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, as numberOf() has it
   TriangleClassification classified;
 
-  // Of a triangle, in the order in which they were written.
+  // The number of a triangle in the order of the file.
   std::uint32_t numberOf(std::size_t triangle) const {
     const std::vector<std::uint32_t>& order = mesh->order;
     return place.firstTriangle +
            (order.empty() ? static_cast<std::uint32_t>(triangle) : order[triangle]);
   }
-  // Whether triangles of both come among each other.
+  // True if the triangles of both are interleaved.
   bool mingles(const Source& other) const {
     return !mesh->order.empty() && !other.mesh->order.empty() && place.rank == other.place.rank &&
            place.instance == other.place.instance;
@@ -101,7 +101,7 @@ class Baker {
   std::vector<std::vector<PlacedSphere>> spheres_;  // likewise
   std::vector<Box> boxes_;                          // one a geometry, in its own space
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
-  bool isSearched_ = false;  // for flush triangles
+  bool isSearched_ = false;  // for coplanar triangles
 };
 
 void Baker::findWhatMoves() {
@@ -241,7 +241,7 @@ std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
   return numbers;
 }
 
-// What Embree would not take, or what has no inside, is left out.
+// Drops spheres that Embree would not take, or that have no inside.
 void Baker::placeSpheres(const Source& source, std::size_t g) {
   const Mesh& mesh = *source.mesh;
   std::uint64_t dropped = 0;
@@ -262,8 +262,8 @@ void Baker::placeSpheres(const Source& source, std::size_t g) {
                 dropped);
 }
 
-// Of triangles in the same place the last in the scene stays, which is the one that would be met.
-// Not of glass: two faces there are two boundaries; nor of what bends: they may part.
+// Among coincident triangles we keep the last one, because Embree would report that one. Glass
+// keeps all: two faces are two boundaries. So do meshes that bend: the triangles may part.
 void Baker::dropCoincident(std::size_t g) {
   const std::vector<Vec3f>& position = scene_.geometries[g].position;
   struct Place {
@@ -373,7 +373,7 @@ void Baker::emit(std::size_t g) {
   }
 }
 
-// What other tables say of a sphere's number is never looked at, but may be read.
+// Entries of other tables at a sphere's number are never used, but may be read.
 void Baker::emitSpheres(std::size_t g) {
   Geometry& geometry = scene_.geometries[g];
   geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());

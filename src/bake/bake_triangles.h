@@ -1,5 +1,5 @@
-// What bakeGeometry() makes the tables of a Scene of: each triangle's entries in them, its class,
-// and whether it is dropped. Internal to finalize().
+// Entries of a triangle in the tables of a Scene, its class, and whether it is dropped. Internal to
+// finalize().
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace whit {
 
-// What the tables depend on of a material.
+// Properties of a material that the tables depend on.
 struct MaterialUse {
   std::uint8_t triangleClass = 0;
   bool repeatU = false, repeatV = false;  // textured, and every texture repeats along that axis
@@ -63,7 +63,7 @@ struct TriangleClassification {
   bool has(std::size_t triangle, std::size_t wanted) const {
     return (classes.empty() ? only : classes[triangle]) == wanted;
   }
-  // Of a mesh of so many triangles.
+  // `triangles` is the number of triangles of the mesh.
   void drop(std::size_t triangle, std::size_t triangles) {
     if (classes.empty()) classes.assign(triangles, only);
     --count[classes[triangle]];

@@ -10,8 +10,8 @@ struct Dropped {
 
 bool isUsable(const Vec3f& p) { return isFinite(p) && maxComponent(abs(p)) <= kLargestCoordinate; }
 
-// Whether the triangle is to be dropped, which is then counted. One that bends may have an area at
-// another time.
+// Returns whether the triangle is to be dropped, and counts it. A triangle that bends may have an
+// area at another time.
 bool drop(const std::array<std::uint32_t, 3>& corners, const Vec3f* position, std::size_t vertices,
           std::size_t triangle, bool bends, Dropped& dropped) {
   const auto& [i, j, k] = corners;

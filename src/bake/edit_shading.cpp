@@ -5,12 +5,13 @@
 
 #include "bake/finalize_steps.h"
 #include "core/error.h"
+#include "scene/members.h"
 
 namespace whit {
 
 namespace {
 
-// Whether exchanging one for the other can neither bring nor take away an effect or a medium.
+// Exchanging one for the other neither adds nor removes an effect or a medium.
 bool sameKind(const Material& a, const Material& b) {
   const bool sameMedium = !a.boundsMedium() || (a.ior == b.ior && a.absorption == b.absorption &&
                                                 a.priority == b.priority);
@@ -18,26 +19,17 @@ bool sameKind(const Material& a, const Material& b) {
 }
 
 bool sameKindOfLight(const Light& a, const Light& b) {
-  return a.kind == b.kind && isBlack(a.intensity) == isBlack(b.intensity);
+  return a.kind == b.kind && hasExtent(a) == hasExtent(b) &&
+         isBlack(a.intensity) == isBlack(b.intensity);
 }
 
 void keepBaked(const Material& from, Material& to) {
-  to.diffuseMap = from.diffuseMap;
-  to.specularMap = from.specularMap;
-  to.roughnessMap = from.roughnessMap;
-  to.emissionMap = from.emissionMap;
-  to.normalMap = from.normalMap;
-  to.emissionBySecondUvs = from.emissionBySecondUvs;
-  to.normalBySecondUvs = from.normalBySecondUvs;
-  to.alphaMap = from.alphaMap;
-  to.alphaCutoff = from.alphaCutoff;
-  to.coverage = from.coverage;
-  to.coverageMap = from.coverageMap;
-  to.doubleSided = from.doubleSided;
-  to.castsShadow = from.castsShadow;
+  forEachMember<Material>([&](const auto& member) {
+    if (member.rules.baked) to.*member.field = from.*member.field;
+  });
 }
 
-// As Scene::finalize() does: throws, or repairs what has an obvious nearest value.
+// Validates like Scene::finalize(): throws, or repairs to the nearest sensible value.
 void checkAndMend(const Scene& scene, std::vector<Material>& materials,
                   std::vector<Light>& lights) {
   SceneDescription d;
@@ -45,8 +37,7 @@ void checkAndMend(const Scene& scene, std::vector<Material>& materials,
   d.lights = lights;
   d.materials = materials;
   for (Material& m : d.materials) {  // maps were judged with the textures that they name
-    m.diffuseMap = m.specularMap = m.roughnessMap = kNoTexture;
-    m.emissionMap = m.normalMap = m.alphaMap = m.coverageMap = kNoTexture;
+    forEachMap([&](const auto& member) { m.*member.field = kNoTexture; });
   }
   Warnings warnings(false);
   validate(d, warnings);

@@ -1,4 +1,4 @@
-// Changing what surfaces, lights and surroundings are like in a scene that is already baked.
+// Edits materials, lights, sky and ambient light of a scene that is already baked.
 #pragma once
 
 #include <vector>

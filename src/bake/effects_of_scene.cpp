@@ -103,7 +103,7 @@ class Gatherer {
         "no mesh uses a material " + what);
   }
 
-  // What is counted.
+  // The noun for counts.
   std::string surface() const { return scene_.instancedSpheres > 0 ? "surface" : "triangle"; }
 
   void geometry();
@@ -121,7 +121,7 @@ void Gatherer::geometry() {
   set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
       "no vertex has a color");
   set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
-      counted(scene_.instancedSpheres, "sphere"), "nothing is a sphere but by its triangles");
+      counted(scene_.instancedSpheres, "sphere"), "no analytic spheres");
   const std::size_t instances =
       scene_.motion.ofGeometry ? scene_.motion.instances.size() : scene_.instances.size();
   set(Effect::instances, instances > 0,

@@ -9,7 +9,7 @@ namespace whit {
 
 namespace {
 
-// Of the eye's coordinates: four units in the last place of the largest at the most.
+// Rounding of the eye's coordinates: at most four units in the last place of the largest.
 double roundingOf(const Vec3d& eye) {
   const Vec3d size = abs(eye);
   return 0x1p-22 * (size.x + size.y + size.z);

@@ -6,7 +6,7 @@
 
 namespace whit {
 
-// Whether the eye lies in the triangle's plane as far as the eye's coordinates can tell.
+// True if the eye lies in the triangle's plane, up to the rounding of the eye's coordinates.
 bool liesInPlane(const Vec3d& eye, const Corners& corners);
 
 // The same for a surface of the scene, by its number: a triangle's plane, or a sphere.

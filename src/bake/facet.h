@@ -6,8 +6,8 @@
 
 namespace whit {
 
-// How far off a point of a surface may be, for each unit of the magnitudes that it is added up
-// from: rays that start there are offset by no more (Surfel::offset).
+// Upper bound on the error of a surface point, for each unit of the magnitudes that it is added up
+// from. Rays that start there are offset by no more (Surfel::offset).
 inline constexpr double kErrorOfMagnitude = 32 * 0x1p-24;
 
 // Sum over the axes of the magnitudes that the point, carried by the map if there is one, is added
@@ -18,15 +18,15 @@ struct Facet {
   Corners corners;
   Vec3d normal;  // unit; zero for a triangle without area
   // Its share of how far two triangles in one plane may be apart, and of how much two that overlap
-  // must have in common. Both are kErrorOfMagnitude times the largest magnitude of a corner, other
-  // than where an object is searched for what may be flush in any of its instances.
+  // must have in common. Both are kErrorOfMagnitude times the largest magnitude of a corner, except
+  // in the search of a geometry for all of its instances at once.
   double error = 0, least = 0;
 };
 
 void setCorners(const TriangleRecord& triangle, const Affine* toWorld, Facet& facet);
 
 bool lieInOnePlane(const Facet& a, const Facet& b);
-// Of two that lie in one plane.
+// Both tests expect facets that lie in one plane.
 bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);
 

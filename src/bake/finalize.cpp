@@ -81,8 +81,11 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   if (scene.motion.ofGeometry) {
     scene.motion.order = std::move(order);
   } else {
-    scene.flush = findFlushTriangles(scene, usableThreads());
-    scene.flush.rankBy(scene, order);
+    bool complete = true;
+    scene.coplanar = findCoplanarTriangles(scene, usableThreads(), complete);
+    warnings.add("search for coplanar faces cut short: too many triangles or overlapping instances",
+                 scene.name, complete ? 0 : 1);
+    scene.coplanar.rankBy(scene, order);
   }
   moveScene(scene, 0, deformVertices);
   if (scene.cameras.empty()) {
@@ -91,6 +94,14 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   }
   if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds, deformVertices);
   return scene;
+}
+
+ItemNumbers::Run ItemNumbers::find(std::uint32_t triangle) const {
+  const auto isBehind = [](std::uint32_t t, const Run& run) { return t < run.first; };
+  Run run = *(std::upper_bound(runs_.begin(), runs_.end(), triangle, isBehind) - 1);
+  run.number += triangle - run.first;
+  run.first = triangle;
+  return run;
 }
 
 Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
@@ -103,7 +114,8 @@ Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instanc
 std::uint64_t Scene::memoryBytes() const {
   std::uint64_t bytes = bytesOf(triangles) + bytesOf(normals) + bytesOf(colors) +
                         bytesOf(secondUvs) + bytesOf(instances) + bytesOf(sky.image.r) +
-                        bytesOf(sky.image.g) + bytesOf(sky.image.b) + flush.bytes() + items.bytes();
+                        bytesOf(sky.image.g) + bytesOf(sky.image.b) + coplanar.bytes() +
+                        items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += bytesOf(t.texels);
   return bytes;

@@ -15,7 +15,7 @@ void validate(SceneDescription& description, Warnings& warnings);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
 // fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes
-// that are not searched for flush triangles the order comes back empty.
+// that are not searched for coplanar triangles the order comes back empty.
 SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
                         Progress* progress);
 
@@ -27,16 +27,16 @@ void settleSides(SceneDescription& description);
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);
 
-// What the material calls for where a triangle uses it.
+// Effects that the material calls for where a triangle uses it.
 EffectSet effectsOf(const Material& material);
 
 // The number of triangles that use each material, instances not multiplied out.
 std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene);
 
-// Whether some corner's normal differs from its triangle's by more than rounding.
+// True if the normal of some corner differs from its triangle's by more than rounding.
 bool hasSmoothNormals(const Scene& scene);
 
-// Whether some corner's color is not white.
+// True if the color of some corner is not white.
 bool hasVertexColors(const Scene& scene);
 
 }  // namespace whit

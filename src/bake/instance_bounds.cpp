@@ -21,7 +21,7 @@ void addInstance(const InstanceRecord& instance, const std::vector<Box>& boxes, 
   }
 }
 
-// Of everything that rays start from: surfaces and eyes.
+// The largest coordinate of everything that rays start from: surfaces and eyes.
 float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   Box all = boxes[0];
   for (const InstanceRecord& instance : scene.instances) addInstance(instance, boxes, all);

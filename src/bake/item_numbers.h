@@ -29,11 +29,11 @@ class ItemNumbers {
     }
     runs_.push_back({triangle, item, number});
   }
-  // Of a triangle (or sphere): its item, and its number there.
+  // The item of a triangle (or sphere), and its number there.
   Run find(std::uint32_t triangle) const;
   std::uint64_t bytes() const { return runs_.size() * sizeof(Run); }
 
-  // Of the items 0, 1, ...: no more than kNamedItems.
+  // Names of the items 0, 1, ...: at most kNamedItems.
   std::vector<std::string> names;
   std::uint64_t count = 0;  // of items
 

@@ -9,7 +9,7 @@
 
 namespace whit {
 
-// Of the largest texture: from 2^16 texels a side to one.
+// Levels of the largest texture: from 2^16 texels a side to one.
 inline constexpr int kMipLevels = 17;
 inline constexpr float kLargestArea = 0x1p32f;  // in texels
 
@@ -21,10 +21,10 @@ Texture halved(const Texture& texture);
 class MipMaps {
  public:
   MipMaps() = default;
-  // Of those `wanted`; one flag a texture. The textures must outlive this. Shared among `threads`.
-  // Throws Error(limit) where the system has no room for so many.
+  // Maps of the textures `wanted`; one flag a texture. The textures must outlive this. Shared among
+  // `threads`. Throws Error(limit) where the system has no room for so many.
   MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads = 1);
-  // Of those that materials use as colors, reflectances and normal maps.
+  // Maps of the textures that materials use as colors, reflectances and normal maps.
   explicit MipMaps(const Scene& scene, int threads = 1);
 
   // 0 is the texture itself, and so is its only level if it is not wanted; what follows the single

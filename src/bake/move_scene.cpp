@@ -140,7 +140,7 @@ void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
   }
   Warnings expected;  // that some are flattened at times
   boundInstances(scene, motion.boxes, expected);
-  updateFlushTriangles(scene, motion.still, motion.order, usableThreads());
+  updateCoplanarTriangles(scene, motion.still, motion.order, usableThreads());
 }
 
 }  // namespace whit

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/flush_triangles.h"
+#include "bake/coplanar_triangles.h"
 #include "bake/item_numbers.h"
 #include "bake/scene_order.h"
 #include "core/box.h"
@@ -27,7 +27,7 @@ namespace whit {
 inline constexpr int kTriangleClasses = 4;
 inline constexpr std::uint32_t kNoShadowBit = 1, kMaskedBit = 2;
 
-// What shading reads of a triangle, one cache line: corners, texture coordinates, material.
+// Shading data of a triangle, one cache line: corners, texture coordinates, material.
 struct alignas(64) TriangleRecord {
   float position[9];
   float uv[6];
@@ -89,7 +89,7 @@ struct BentVertices {
   std::shared_ptr<const Deformation> deformation;
 };
 
-// What moveScene() starts from.
+// Input of moveScene().
 struct BakedMotion {
   SceneMotion given;
   // Instances move, meshes bend, or cameras may go to where instances are too small to be traced.
@@ -99,7 +99,7 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
-  StillFlush still;
+  StillCoplanar still;
 
   bool ofLights() const { return !given.lights.empty(); }
   bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }
@@ -135,7 +135,7 @@ class Scene {
   // Geometry 0 is the world (may be empty), the others are instanced.
   std::vector<Geometry> geometries;
   std::vector<InstanceRecord> instances;
-  // Those of all geometries, one after the other; from firstSphere on they are spheres
+  // Triangles of all geometries, one after the other; from firstSphere on they are spheres
   // (scene/sphere.h), in the same order.
   HugeVector<TriangleRecord> triangles;
   std::uint32_t firstSphere = 0;
@@ -147,12 +147,12 @@ class Scene {
 
   // Bounds of everything, instances (each by its object's box) included; zero without triangles.
   Vec3f lower, upper;
-  // As seen, instances multiplied out.
+  // Counts with instances multiplied out.
   std::uint64_t instancedTriangles = 0, instancedSpheres = 0;
 
   ItemNumbers items;
-  FlushTriangles flush;  // that share their place with others
-  BakedMotion motion;    // see scene/move_scene.h
+  CoplanarTriangles coplanar;  // triangles that overlap others in their plane
+  BakedMotion motion;          // see scene/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bake/flush_triangles.h"
+#include "bake/coplanar_triangles.h"
 
 namespace whit {
 

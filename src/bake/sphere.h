@@ -14,7 +14,7 @@
 
 namespace whit {
 
-// What the 64 bytes of a TriangleRecord are where it is a sphere.
+// Layout of the 64 bytes of a TriangleRecord that is a sphere.
 struct alignas(64) SphereRecord {
   float axes[9];  // images of the unit vectors, one after the other
   float center[3];

@@ -46,7 +46,7 @@ void giveLengths(const Affine& map, NormalRecord& record) {
   }
 }
 
-// Of the mesh's triangle, to the six numbers `to`.
+// Copies the texture coordinates of a triangle to the six numbers `to`.
 void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& corners,
              const MaterialUse& use, float* to, std::uint64_t& repaired) {
   if (uvs.empty()) return;

@@ -3,7 +3,9 @@
 #include <set>
 
 #include "bake/finalize_steps.h"
+#include "core/formatted.h"
 #include "core/options.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -27,22 +29,31 @@ void checkSize(const SceneDescription& d) {
                 "expected 1 to " + std::to_string(kImageSideLimit) + " pixels a side");
 }
 
-void checkCamera(const Camera& c, const std::string& where) {
-  if (!(c.orthographicHeight >= 0 && std::isfinite(c.orthographicHeight))) {
-    throwBadScene(where, "expected a finite height of an orthographic camera, or 0");
-  }
-  if (!isFinite(c.eye) || !isFinite(c.at) || !isFinite(c.up) || !std::isfinite(c.fov)) {
-    throwBadScene(where, "expected finite eye, at, up and fov");
-  }
+template <typename Noun>
+void checkMembers(const Noun& noun, const std::string& where) {
+  forEachMember<Noun>([&](const auto& member) {
+    const auto& value = noun.*member.field;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, Vec3f>) {
+      if (!isFinite(value)) throwBadScene(where, std::string("expected a finite ") + member.name);
+      if (member.rules.kind == MemberKind::color && !isRadiance(value)) {
+        throwBadScene(where, std::string("expected channels of 0 or more in ") + member.name);
+      }
+    } else if constexpr (!std::is_enum_v<Value>) {
+      const double low = member.rules.low, high = member.rules.high;
+      if (value >= low && value <= high) return;
+      throwBadScene(where, formatted("expected %s to be from %g to %g", member.name, low, high));
+    }
+  });
 }
 
 void checkCameras(const SceneDescription& d) {
   for (std::size_t i = 0; i < d.cameras.size(); ++i) {
-    checkCamera(d.cameras[i], place(d.name, "camera", i, d.cameras[i].name));
+    checkMembers(d.cameras[i], place(d.name, "camera", i, d.cameras[i].name));
   }
   for (std::size_t i = 0; i < d.cameraPath.size(); ++i) {
     const std::string where = place(d.name, "keyframe", i, "");
-    checkCamera(d.cameraPath[i].camera, where);
+    checkMembers(d.cameraPath[i].camera, where);
     const float time = d.cameraPath[i].time;
     if (!std::isfinite(time)) throwBadScene(where, "expected a finite time");
     if (i > 0 && !(time > d.cameraPath[i - 1].time)) {
@@ -51,31 +62,16 @@ void checkCameras(const SceneDescription& d) {
   }
 }
 
-void checkDirection(const Light& light, const std::string& where) {
-  if (light.kind == Light::Kind::point) return;
-  if (!isFinite(light.direction) || !(maxComponent(abs(light.direction)) > 0)) {
-    throwBadScene(where, "expected a direction of finite numbers that are not all 0");
-  }
-  if (light.kind == Light::Kind::directional) return;
-  const float inner = light.innerConeAngle, outer = light.outerConeAngle;
-  if (!(inner >= 0 && inner < outer && outer <= 90)) {
-    throwBadScene(where, "expected cone angles with 0 <= inner < outer <= 90 degrees");
-  }
-}
-
 void checkLights(const SceneDescription& d) {
   for (std::size_t i = 0; i < d.lights.size(); ++i) {
     const Light& light = d.lights[i];
     const std::string where = place(d.name, "light", i, light.name);
-    if (!isFinite(light.position)) throwBadScene(where, "expected a finite position");
-    if (!isRadiance(light.intensity)) {
-      throwBadScene(where, "expected a finite intensity, 0 or more a channel");
+    checkMembers(light, where);
+    if (hasDirection(light) && !(maxComponent(abs(light.direction)) > 0)) {
+      throwBadScene(where, "expected a direction that is not 0");
     }
-    checkDirection(light, where);
-    // Its square is divided by.
-    const float square = light.radius * light.radius;
-    if (!(light.radius > 0) || !std::isnormal(square)) {
-      throwBadScene(where, "expected a radius between 1e-18 and 1e18");
+    if (hasCone(light) && !(light.innerConeAngle < light.outerConeAngle)) {
+      throwBadScene(where, "expected cone angles with inner < outer");
     }
   }
 }
@@ -104,14 +100,9 @@ void checkEnvironment(EnvironmentImage& image, const std::string& where, Warning
 void checkSky(SceneDescription& d, Warnings& warnings) {
   const std::string prefix = d.name.empty() ? "" : d.name + ": ";
   Sky& sky = d.sky;
-  if (!isRadiance(sky.zenith) || !isRadiance(sky.horizon) || !isRadiance(sky.ground) ||
-      !std::isfinite(sky.scale) || sky.scale < 0 || !std::isfinite(sky.rotation)) {
-    throwBadScene(prefix + "sky", "expected finite values, none but the rotation below 0");
-  }
+  checkMembers(sky, prefix + "sky");
   if (sky.kind == Sky::Kind::image) checkEnvironment(sky.image, prefix + "sky image", warnings);
-  if (!isRadiance(d.ambient.up) || !isRadiance(d.ambient.down)) {
-    throwBadScene(prefix + "ambient", "expected finite values, 0 or more a channel");
-  }
+  checkMembers(d.ambient, prefix + "ambient");
 }
 
 void checkTextures(const SceneDescription& d) {
@@ -128,22 +119,23 @@ void checkTextures(const SceneDescription& d) {
   if (total > kTexelLimit) throwLimit(d.name + ": more than 2^31 - 1 texels in all textures");
 }
 
-void checkMap(const SceneDescription& d, const std::string& where, const char* slot,
-              std::int32_t index, TexelFormat format, bool orRadiance = false) {
+void checkMap(const SceneDescription& d, const std::string& where, const char* name,
+              std::int32_t index, TextureUse use) {
   if (index == kNoTexture) return;
   if (index < 0 || static_cast<std::size_t>(index) >= d.textures.size()) {
-    throwBadScene(where, std::string(slot) + " is texture " + std::to_string(index) +
+    throwBadScene(where, std::string(name) + " is texture " + std::to_string(index) +
                              ", expected below " + std::to_string(d.textures.size()));
   }
+  const TexelFormat format = formatOf(use);
   const TexelFormat is = d.textures[static_cast<std::size_t>(index)].format;
-  if (is != format && !(orRadiance && is == TexelFormat::radiance)) {
-    throwBadScene(where, std::string(slot) + " expected a texture of " +
+  if (is != format && !(use == TextureUse::emission && is == TexelFormat::radiance)) {
+    throwBadScene(where, std::string(name) + " expected a texture of " +
                              (format == TexelFormat::color ? "color" : "data"));
   }
 }
 
-// Model files abound in materials that are slightly off; the nearest value that makes sense will
-// do. False: nothing was to be repaired.
+// Materials of model files are often slightly wrong, so the nearest sensible value replaces a bad
+// one. Returns whether anything was repaired.
 bool repairChannels(Rgb& c) {
   bool repaired = false;
   for (int i = 0; i < 3; ++i) {
@@ -165,24 +157,23 @@ void checkMaterials(SceneDescription& d, Warnings& warnings) {
   for (std::size_t i = 0; i < d.materials.size(); ++i) {
     Material& m = d.materials[i];
     const std::string where = place(d.name, "material", i, m.name);
-    checkMap(d, where, "diffuseMap", m.diffuseMap, TexelFormat::color);
-    checkMap(d, where, "specularMap", m.specularMap, TexelFormat::color);
-    checkMap(d, where, "roughnessMap", m.roughnessMap, TexelFormat::data);
-    checkMap(d, where, "emissionMap", m.emissionMap, TexelFormat::color, true);
-    checkMap(d, where, "normalMap", m.normalMap, TexelFormat::data);
-    checkMap(d, where, "alphaMap", m.alphaMap, TexelFormat::data);
-    checkMap(d, where, "coverageMap", m.coverageMap, TexelFormat::data);
     if (m.hasTransmission() && !(m.ior > 0 && std::isfinite(m.ior))) {
       throwBadScene(where, "expected an ior above 0");
     }
     std::uint64_t repaired = 0;
-    for (Rgb* c : {&m.diffuse, &m.specular, &m.emission, &m.mirror, &m.mirrorGrazing,
-                   &m.transmission, &m.absorption}) {
-      repaired += repairChannels(*c);
-    }
-    repaired += repairFactor(m.roughness, fallback.roughness);
-    repaired += repairFactor(m.coverage, fallback.coverage);
-    if (m.alphaMap != kNoTexture) repaired += repairFactor(m.alphaCutoff, fallback.alphaCutoff);
+    forEachMember<Material>([&](const auto& member) {
+      using Value = typename std::remove_cvref_t<decltype(member)>::Type;
+      Value& value = m.*member.field;
+      if constexpr (std::is_same_v<Value, Rgb>) {
+        repaired += repairChannels(value);
+      } else if constexpr (std::is_same_v<Value, float>) {
+        if (member.rules.high == 1) repaired += repairFactor(value, fallback.*member.field);
+      } else if constexpr (std::is_same_v<Value, std::int32_t>) {
+        if (member.rules.kind == MemberKind::map) {
+          checkMap(d, where, member.name, value, member.rules.use);
+        }
+      }
+    });
     warnings.add("material value out of range repaired", where, repaired);
   }
 }

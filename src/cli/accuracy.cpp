@@ -21,7 +21,6 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/machine_facts.h"
-#include "cli/stress_report.h"
 #include "core/error.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
@@ -78,8 +77,7 @@ OptionList listOptions(AccuracyJob& job) {
   list.flag("quick",
             "256x256 pixels, up to 64 reference samples, what fits into a minute (the default)",
             job.quick);
-  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs, hard cases",
-            job.full);
+  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
              job.check);
@@ -186,13 +184,6 @@ void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep
   }
 }
 
-// The hard cases come after everything that is timed.
-void runHardCases(const AccuracyJob& job, accuracy::RunFacts& facts) {
-  if (!job.full) return;
-  auto progress = makeProgressBar(job.common);
-  facts.hardCases = stressHtmlTable(runCatalogue({}, progress.get()));
-}
-
 // The exit status.
 int checkAgainst(const AccuracyJob& job, const std::string& csv) {
   const auto before = accuracy::parseCsv(readText(job.check), job.check);
@@ -213,12 +204,11 @@ int accuracyCommand(const Words& words) {
   settleOptions(job.common);
   checkJob(job);
   if (!job.check.empty()) accuracy::parseCsv(readText(job.check), job.check);  // before the work
-  accuracy::RunFacts facts = factsOf(job);
+  const accuracy::RunFacts facts = factsOf(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
   const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
-  runHardCases(job, facts);
   writeResults(job, sweeps, facts, csv);
   return job.check.empty() ? 0 : checkAgainst(job, csv);
 }

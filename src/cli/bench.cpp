@@ -18,15 +18,16 @@ namespace {
 
 constexpr const char* kBenchUsage = "whit bench SCENE... [options]";
 constexpr const char* kBenchSummary =
-    "Renders frames and says where their time goes. With --widths and the --ab options the frames\n"
-    "of all runs take turns, so that whatever else the machine does hits all of them alike.";
+    "Measures the time of frames by stage and by kind of ray. The frames of the runs of --widths "
+    "and "
+    "of the --ab options take turns, so that other load of the machine affects all of them alike.";
 constexpr int kWidths[] = {1, 4, 8, 16};
 
 struct BenchJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   int frames = 0;  // 0: not given
-  bool floor = false, widths = false, abEffects = false, abVerdicts = false;
+  bool floor = false, widths = false, abEffects = false, abShadowCache = false;
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
@@ -34,15 +35,15 @@ struct BenchJob {
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
-    // After the frame that fills queues, those that verdicts of shadow know nothing of.
-    if (abVerdicts) turns.warmUp = 1 + VerdictSchedule::kTurns;
+    // After the frame that fills queues, those with an empty shadow cache.
+    if (abShadowCache) turns.warmUp = 1 + VerdictSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;
   }
-  bool comparesRuns() const { return widths || abEffects || abVerdicts; }
+  bool comparesRuns() const { return widths || abEffects || abShadowCache; }
   RunPairs pairs() const {
-    if (abVerdicts) return RunPairs::verdicts;
+    if (abShadowCache) return RunPairs::shadowCache;
     return abEffects ? RunPairs::effects : RunPairs::none;
   }
 };
@@ -50,17 +51,14 @@ struct BenchJob {
 OptionList listOptions(BenchJob& job) {
   OptionList list;
   list.group("Measuring");
-  list.value({"frames", "N", 1, 1e6}, "frames that count (20 after 3 to warm up; reference: 1)",
+  list.value({"frames", "N", 1, 1e6}, "measured frames (20 after 3 to warm up; reference: 1)",
              job.frames);
-  list.flag("floor", "also what Embree alone needs for the same rays", job.floor);
+  list.flag("floor", "also measure Embree alone on the same rays", job.floor);
   list.flag("widths", "packets of 1, 4, 8 and 16 as separate runs", job.widths);
   list.flag("ab-effects", "kernels with the scene's effects and with every effect as two runs",
             job.abEffects);
-  list.flag("ab-verdicts",
-            "all shadow rays traced, and those left out that are proved from frame to frame, as "
-            "two runs",
-            job.abVerdicts);
-  list.value({"json", "FILE"}, "all runs for machines; - is standard output", job.json);
+  list.flag("ab-shadow-cache", "without and with the shadow cache as two runs", job.abShadowCache);
+  list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
                 std::numeric_limits<std::size_t>::max(), job.scenes);
@@ -84,26 +82,27 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
       options.effects = choice;
       add(options);
     }
-  } else if (job.abVerdicts) {
+  } else if (job.abShadowCache) {
     for (const Verdicts verdicts : {Verdicts::off, job.common.render.verdicts}) {
       options.verdicts = verdicts;
       add(options);
     }
-    runs.back()->proveShadows();
+    runs.back()->useShadowCache();
   } else {
     add(options);
-    if (options.verdicts == Verdicts::audit) runs.back()->proveShadows();
+    if (options.verdicts == Verdicts::audit) runs.back()->useShadowCache();
   }
 }
 
-void checkVerdictTurns(const BenchJob& job, const Farm& farm) {
-  if (job.reference()) throwUsage("--ab-verdicts is for packets, not --mode reference");
-  if (farm.ranks() > 1) throwUsage("--ab-verdicts is for one process, not for mpirun");
+void checkShadowCacheTurns(const BenchJob& job, const Farm& farm) {
+  if (job.reference()) throwUsage("--ab-shadow-cache is for packets, not --mode reference");
+  if (farm.ranks() > 1) throwUsage("--ab-shadow-cache is for one process, not for mpirun");
   if (job.widths || job.abEffects) {
-    throwUsage("--ab-verdicts, --ab-effects and --widths are runs of their own: give one of them");
+    throwUsage(
+        "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
   }
   if (job.common.render.verdicts == Verdicts::off) {
-    throwUsage("--ab-verdicts runs without verdicts as well: leave out --verdicts off");
+    throwUsage("--ab-shadow-cache runs without the cache as well: leave out --shadow-cache off");
   }
 }
 
@@ -116,7 +115,7 @@ void checkJob(const BenchJob& job, const Farm& farm) {
   if (job.widths && job.common.given.contains("packet")) {
     throwUsage("--widths runs every packet width: leave out --packet");
   }
-  if (job.abVerdicts) checkVerdictTurns(job, farm);
+  if (job.abShadowCache) checkShadowCacheTurns(job, farm);
   if (!job.abEffects) return;
   if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
   if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");

@@ -27,7 +27,7 @@ FrameStats BenchRun::frame() {
 
 void BenchRun::warmUp() {
   const bool shared = farm_ && farm_->ranks() > 1;
-  const bool proves = proves_ && begun_ && !shared && options_.mode != Mode::reference;
+  const bool proves = cachesShadows_ && begun_ && !shared && options_.mode != Mode::reference;
   if (proves && coldMs_.empty()) {
     renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
                            options_.verdicts == Verdicts::audit ? 1 : VerdictSchedule::kTurns);
@@ -37,15 +37,15 @@ void BenchRun::warmUp() {
   begun_ = true;
 }
 
-void BenchRun::fillVerdicts() {
-  VerdictUse& use = summary_.verdicts.emplace();
+void BenchRun::fillShadowCache() {
+  ShadowCacheUse& use = summary_.shadowCache.emplace();
   use.coldMs = quantile(coldMs_, 0.5);
   use.fillMs = renderer_.fillVerdicts().ms;
   use.bytes = renderer_.verdictBytes();
 }
 
 void BenchRun::measure(bool floor) {
-  if (!coldMs_.empty() && !summary_.verdicts) fillVerdicts();
+  if (!coldMs_.empty() && !summary_.shadowCache) fillShadowCache();
   summary_.frames.push_back(frame());
   summary_.imageHash = accuracy::digestOf(film_.image);
   if (farm_ && farm_->ranks() > 1) summary_.shares.push_back(farm_->lastFrame());

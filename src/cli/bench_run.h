@@ -1,5 +1,5 @@
-// Runs that are measured against each other: their frames take turns, so that whatever else the
-// machine does hits all of them alike.
+// Runs that are measured against each other: their frames take turns, so that other load of the
+// machine affects all of them alike.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,15 @@ class BenchRun {
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
            const RenderOptions& options, Progress* progress, Farm* farm = nullptr);
 
-  // From the second frame of warming up on shadows have verdicts: frames that know none yet, and
-  // from the first that is measured on frames that know all that these have asked for. Not in
-  // reference mode, nor in frames that several processes share.
-  void proveShadows() { proves_ = true; }
+  // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
+  // without it, and filled before the measured ones. Not in reference mode, nor in frames that
+  // several processes share.
+  void useShadowCache() { cachesShadows_ = true; }
 
   void warmUp();
   void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
   const RunSummary& summary() const { return summary_; }
-  // Of the scene and of what the renderer has allocated, in 10^6 bytes. Complete after a frame.
+  // Memory of the scene and the renderer in 10^6 bytes; complete after a frame.
   double memoryMb() const;
   // The last frame, and the options that made it.
   const Film& film() const { return film_; }
@@ -34,7 +34,7 @@ class BenchRun {
 
  private:
   FrameStats frame();
-  void fillVerdicts();
+  void fillShadowCache();
 
   std::shared_ptr<const OpenScene> open_;
   Farm* farm_;
@@ -43,7 +43,7 @@ class BenchRun {
   Camera camera_;
   Film film_;
   std::uint64_t maxMemoryBytes_;
-  bool proves_ = false, begun_ = false;
+  bool cachesShadows_ = false, begun_ = false;
   std::vector<double> coldMs_;
   RunSummary summary_;
 };

@@ -16,7 +16,6 @@ int mergeCommand(const Words& words);
 int effectsCommand(const Words& words);
 int explainCommand(const Words& words);
 int accuracyCommand(const Words& words);
-int stressCommand(const Words& words);
 int scenesCommand(const Words& words);
 int turntableCommand(const Words& words);
 
@@ -26,17 +25,16 @@ struct Command {
 };
 
 inline constexpr Command kCommands[] = {
-    {"render", "one image, or the frames of a scene's camera path", renderCommand},
-    {"turntable", "a film of a model that turns", turntableCommand},
-    {"bench", "how long a frame takes, by stage and by kind of ray", benchCommand},
+    {"render", "one image, or the frames of a film", renderCommand},
+    {"turntable", "a film of a model on a turntable", turntableCommand},
+    {"bench", "time of a frame by stage and by kind of ray", benchCommand},
     {"compare", "packets against the scalar reference, or two images", compareCommand},
-    {"info", "what a scene holds, which effects it calls for, which kernels run", infoCommand},
-    {"scenes", "the shipped scenes, a line each", scenesCommand},
-    {"explain", "the tree of rays of one pixel", explainCommand},
-    {"effects", "what each effect adds to a frame, one after the other", effectsCommand},
-    {"accuracy", "what each step of accuracy costs in time", accuracyCommand},
-    {"stress", "the catalogue of hard cases on this machine", stressCommand},
-    {"merge", "crops of one image, put together", mergeCommand},
+    {"info", "contents of a scene, its effects and the kernels that run", infoCommand},
+    {"scenes", "list of the shipped scenes", scenesCommand},
+    {"explain", "tree of the rays of one pixel", explainCommand},
+    {"effects", "cost of each effect of a scene", effectsCommand},
+    {"accuracy", "report on accuracy against time", accuracyCommand},
+    {"merge", "one image from its crops", mergeCommand},
 };
 
 }  // namespace whit::cli

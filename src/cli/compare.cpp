@@ -25,10 +25,10 @@ constexpr const char* kCompareUsage =
     "whit compare SCENE [options]\n"
     "       whit compare A B [options]";
 constexpr const char* kCompareSummary =
-    "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two: without\n"
-    "--tolerance at most 5 % of the pixels may be off by 2 codes or more, and 2 % of the energy.\n"
-    "Or compares the image files A and B, of which B counts as the reference. Channels that both\n"
-    "have are compared as well.";
+    "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two. Without "
+    "--tolerance up to 5 % of the pixels may differ by 2 codes or more, and the energy by 2 %. Or "
+    "compares the image files A and B, where B is the reference. Channels that both have are "
+    "compared as well.";
 
 struct CompareJob {
   CommonOptions common;
@@ -48,11 +48,11 @@ struct Compared {
 OptionList listOptions(CompareJob& job) {
   OptionList list;
   list.group("Comparing");
-  list.flag("stages", "also each vector stage against its scalar twin", job.stages);
+  list.flag("stages", "also each vector stage with its scalar reference", job.stages);
   list.value({"tolerance", "X", 0}, "largest RMSE that passes; else the exit status is 1",
              job.tolerance);
   list.value({"heatmap", "FILE"}, "PNG of the differences, in 8-bit steps", job.heatmap);
-  list.value({"json", "FILE"}, "the numbers for machines; - is standard output", job.json);
+  list.value({"json", "FILE"}, "the numbers as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE, or A B", "a scene, or two image files", 1, 2, job.subjects);
   return list;
@@ -105,7 +105,7 @@ Compared compareModes(const CompareJob& job) {
   return result;
 }
 
-// Those that both have, values of one kind. Sizes are the same.
+// Compares the channels that both images have with values of one kind. Sizes are the same.
 std::vector<ChannelDifference> compareChannels(const Compared& compared) {
   std::vector<ChannelDifference> differences;
   for (const ImageLayer& a : compared.layersA) {
@@ -195,7 +195,7 @@ bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   return codes && energy;
 }
 
-// What the numbers come to, for people. A code is a step of 8-bit sRGB.
+// Sums up the comparison for people. A code is a step of 8-bit sRGB.
 std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
   const ImageDifference& d = c.difference;
   std::string text;

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "bake/leave_out.h"
 #include "cli/app/image_output.h"
 #include "cli/app/interrupt.h"
 #include "cli/app/progress_bar.h"
@@ -13,6 +12,7 @@
 #include "core/formatted.h"
 #include "io/atomic_file.h"
 #include "io/load_scene.h"
+#include "make/leave_out.h"
 
 namespace whit::cli {
 

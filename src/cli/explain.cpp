@@ -25,9 +25,8 @@ namespace {
 
 constexpr const char* kExplainUsage = "whit explain SCENE --pixel x,y [options]";
 constexpr const char* kExplainSummary =
-    "Follows the rays of one pixel: what each meets, what it adds and where it ends, in packets "
-    "and\n"
-    "in the scalar reference.";
+    "Prints the tree of rays of one pixel: what each ray hits, what it adds and where it ends, in "
+    "packets and in the scalar reference.";
 constexpr ImageSize kDiagramSize{960, 600};
 
 struct ExplainJob {
@@ -46,8 +45,8 @@ OptionList listOptions(ExplainJob& job) {
              job.least);
   list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene", job.svg);
   list.value({"seen-from", "x,y,z"},
-             "where that picture is taken from (default: from aside and above)", job.seenFrom);
-  list.value({"json", "FILE"}, "the whole trees for machines; - is standard output", job.json);
+             "position of the camera of that picture (default: aside and above)", job.seenFrom);
+  list.value({"json", "FILE"}, "the whole trees as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
   return list;
@@ -71,7 +70,7 @@ PixelPlace readPixel(const std::string& text, const Image& image) {
   return place;
 }
 
-// What was found, and of which scene.
+// The rays of a pixel, and their scene.
 struct Explained {
   const Scene& scene;
   const RenderOptions& options;

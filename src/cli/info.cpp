@@ -30,15 +30,15 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
-  const VerdictOutlook verdicts = verdictOutlook(s, renderer.options());
+  const ShadowCacheOutlook verdicts = shadowCacheOutlook(s, renderer.options());
   if (verdicts.lights > 0) {
     std::printf(
-        "  %-12sshadows of %zu light%s can be proved, on %zu parts of triangles, which pays "
-        "from %.3g samples of pixels on\n",
-        "verdicts", verdicts.lights, verdicts.lights == 1 ? "" : "s", verdicts.parts,
+        "  %-12sshadow cache for %zu light%s, %zu pieces of triangles; used in films and pictures "
+        "of more than %.3g pixel samples\n",
+        "shadows", verdicts.lights, verdicts.lights == 1 ? "" : "s", verdicts.parts,
         verdicts.samples);
   } else {
-    std::printf("  %-12snone: %s\n", "verdicts", verdicts.because.c_str());
+    std::printf("  %-12sno shadow cache: %s\n", "shadows", verdicts.because.c_str());
   }
   std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");
@@ -98,12 +98,13 @@ int infoCommand(const Words& words) {
   std::string json;
   bool kernels = false;
   OptionList list;
-  list.flag("kernels", "every compiled variant of every kernel; needs no scene", kernels);
-  list.value({"json", "FILE"}, "the same for machines; - is standard output", json);
+  list.flag("kernels", "list every compiled variant of every kernel, without a scene", kernels);
+  list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 0, 1, scenes);
   if (parseOptions("whit info SCENE [options], or whit info --kernels",
-                   "What the scene holds, which effects it calls for and why, which kernels run.",
+                   "Lists the contents of a scene, its effects and why they are on, and the "
+                   "kernels that run.",
                    list, words) == Parsed::helpShown) {
     return 0;
   }

@@ -73,16 +73,16 @@ void addFrames(const RunSummary& run, Json& json) {
   }
   const auto [lit, dark] = frame.meter.shadows;
   const std::uint64_t traced = frame.of(RayKind::shadow).rays;
-  // All of them, so that frames with and without verdicts have the same rays.
+  // The sum is the same with and without the shadow cache.
   json["rays"]["shadow"] = traced + lit + dark;
-  if (run.verdicts) {
-    const double cold = run.verdicts->coldMs;
-    json["verdicts"] = {{"lit", lit},
-                        {"dark", dark},
-                        {"traced", traced},
-                        {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
-                        {"fill_ms", run.verdicts->fillMs},
-                        {"bytes", run.verdicts->bytes}};
+  if (run.shadowCache) {
+    const double cold = run.shadowCache->coldMs;
+    json["shadow_cache"] = {{"lit", lit},
+                            {"dark", dark},
+                            {"traced", traced},
+                            {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
+                            {"fill_ms", run.shadowCache->fillMs},
+                            {"bytes", run.shadowCache->bytes}};
   }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
@@ -138,7 +138,7 @@ Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
   Json json{{"schema", kSchema}, {"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
-  const char* const name = pairs == RunPairs::verdicts ? "warm_over_off" : "all_over_auto";
+  const char* const name = pairs == RunPairs::shadowCache ? "warm_over_off" : "all_over_auto";
   for (std::size_t i = 0; pairs != RunPairs::none && i + 1 < runs.size(); i += 2) {
     const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
     json[name].push_back({{"scene", runs[i].scene},
@@ -200,8 +200,8 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
-  const VerdictOutlook verdicts = verdictOutlook(scene, options);
-  json["verdicts"] = {
+  const ShadowCacheOutlook verdicts = shadowCacheOutlook(scene, options);
+  json["shadow_cache"] = {
       {"lights", verdicts.lights}, {"parts", verdicts.parts}, {"samples", verdicts.samples}};
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) {

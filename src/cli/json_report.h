@@ -23,11 +23,11 @@ Json machineJson(const Machine& machine);
 // `rays` and what follows are those of the median frame; a run of no frames, whose images were all
 // there, has none of what is measured on frames.
 Json runJson(const RunSummary& run);
-// Of runs that come in pairs adds the second of each over the first: `all_over_auto`, of effects,
-// or `warm_over_off`, of verdicts.
+// For runs that come in pairs adds the ratio of the second over the first: `all_over_auto` for
+// effects, `warm_over_off` for the shadow cache.
 Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs = RunPairs::none);
 
-// Of one channel that both pictures have.
+// The comparison of a channel that both pictures have.
 struct ChannelDifference {
   std::string name;  // "depth.Z"
   bool countsThings = false;

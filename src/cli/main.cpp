@@ -1,5 +1,7 @@
 // whit: the command line program.
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "cli/app/completion.h"
 #include "cli/app/man_page.h"
@@ -15,8 +17,8 @@ namespace {
 
 const ManPage kPage{
     "whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
-    "Renders scenes with Embree packets and SIMD kernels, measures where the time "
-    "goes, and checks itself against a scalar reference in double precision. "
+    "Renders scenes with Embree packets and SIMD kernels, measures the time of each stage, and "
+    "checks itself against a scalar reference in double precision. "
     "SCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of "
     "a shipped scene (atrium). Standard output carries results, standard error everything for "
     "people. Files appear under their name only when complete.",
@@ -36,30 +38,47 @@ void showHelp() {
 }
 
 void showManual() {
-  std::fputs(manOpening(kPage).c_str(), stdout);
-  std::fputs(manTerms("OPTIONS",
-                      {{"--help", "what there is; of a command: its options of every day"},
-                       {"--help-all", "of a command: all its options"},
-                       {"--version", "the version"},
-                       {"--man", "this page, for man -l"},
-                       {"--completion SHELL", "what bash, zsh or fish completes command lines by"}})
-                 .c_str(),
-             stdout);
-  std::puts(".SH COMMANDS");
-  for (const Command& command : kCommands) {
-    std::printf(".SS %s\n", command.name);
-    command.run({"--man"});
-  }
-  std::fputs(manClosing(kPage).c_str(), stdout);
+  printManual(kPage, [] {
+    std::puts(".SH COMMANDS");
+    for (const Command& command : kCommands) {
+      std::printf(".SS %s\n", command.name);
+      command.run({"--man"});
+    }
+  });
 }
 
-void showCompletion(const std::string& shell) {
-  const Shell named = shellNamed(shell);
-  std::vector<CommandSummary> commands;
-  for (const Command& c : kCommands) commands.push_back({c.name, c.summary});
-  std::fputs(completionOpening(named, kPage.name, commands).c_str(), stdout);
-  for (const Command& c : kCommands) c.run({"--completion", shell, kPage.name, c.name});
-  std::fputs(completionClosing(named, kPage.name).c_str(), stdout);
+const Command* commandNamed(const std::string& name) {
+  const auto found = std::find_if(std::begin(kCommands), std::end(kCommands),
+                                  [&](const Command& command) { return name == command.name; });
+  return found == std::end(kCommands) ? nullptr : found;
+}
+
+int complete(const Words& words) {
+  if (words.size() > 2) {
+    const Command* const command = commandNamed(words[1]);
+    Words rest{"--complete"};
+    rest.insert(rest.end(), words.begin() + 2, words.end());
+    return command ? command->run(rest) : 0;
+  }
+  const std::string word = words.size() == 2 ? words[1] : "";
+  std::string lines;
+  for (const Command& c : kCommands) lines += completionLine(word, c.name, c.summary);
+  for (const std::string option : {"--help", "--version", "--man", "--completion"}) {
+    if (!word.empty()) lines += completionLine(word, option);
+  }
+  std::fputs(lines.c_str(), stdout);
+  return 0;
+}
+
+[[noreturn]] void throwNoCommand(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  if (word.starts_with('-')) names = {"--help", "--version", "--man", "--completion"};
+  const bool isFile = word.find_first_of("./") != std::string::npos && word[0] != '-';
+  const std::string meant =
+      isFile ? "; did you mean 'whit render " + word + "'?" : didYouMean(word, names);
+  throwUsage("'" + word + "' is not a command" +
+             (meant.empty() ? "; whit --help lists the commands" : meant));
 }
 
 int run(const Words& words) {
@@ -67,6 +86,7 @@ int run(const Words& words) {
     showHelp();
     return static_cast<int>(ExitStatus::usage);
   }
+  if (words[0] == "help" && words.size() == 2) return run({words[1], "--help"});
   if (words[0] == "--help" || words[0] == "--help-all" || words[0] == "-h" || words[0] == "help") {
     showHelp();
     return 0;
@@ -81,17 +101,15 @@ int run(const Words& words) {
   }
   if (words[0] == "--completion") {
     if (words.size() != 2) throwUsage("--completion: expected bash, zsh or fish after it");
-    showCompletion(words[1]);
+    std::fputs(completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
-  std::vector<std::string> names;
-  for (const Command& command : kCommands) {
-    if (words[0] == command.name) return command.run(Words(words.begin() + 1, words.end()));
-    names.emplace_back(command.name);
+  if (words[0] == "--complete") return complete(words);
+  if (const Command* const command = commandNamed(words[0])) {
+    return command->run(Words(words.begin() + 1, words.end()));
   }
-  if (words[0][0] == '-') names = {"--help", "--version", "--man", "--completion"};
-  throwUsage("there is no command '" + words[0] + "'; nearest: '" + nearestName(words[0], names) +
-             "' (whit --help lists them)");
+  if (words[0] == "stress") throwUsage("whit stress is the program whit-verify now");
+  throwNoCommand(words[0]);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ int mergeCommand(const Words& words) {
   listReportOptions(list, common);
   list.operands("OUT.exr PART.exr...", "the image to write, and the crops it is made of", 2,
                 std::numeric_limits<std::size_t>::max(), files);
-  if (parseOptions(
-          "whit merge OUT.exr PART.exr... [options]",
-          "Puts crops of one image together. They must cover it; of crops that overlap\n"
-          "the later one counts. Channels are put together as well: each crop must have all.",
-          list, words) == Parsed::helpShown) {
+  if (parseOptions("whit merge OUT.exr PART.exr... [options]",
+                   "Merges crops of one image, with their channels, which all crops must have. The "
+                   "crops must "
+                   "cover the image; where they overlap the later one counts.",
+                   list, words) == Parsed::helpShown) {
     return 0;
   }
   requireWritable(files[0], {".exr"});

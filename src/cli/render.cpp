@@ -1,8 +1,11 @@
-// whit render: one image, or the frames of a scene that moves.
+// whit render and whit turntable: one image, or the frames of a scene or a camera that moves.
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,19 +15,20 @@
 #include "accuracy/digest.h"
 #include "bake/move_scene.h"
 #include "cli/app/background_writer.h"
+#include "cli/app/film_pipe.h"
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "cli/stage_table.h"
-#include "cli/whole_image.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/image/image_file.h"
 #include "io/paths.h"
+#include "make/turntable.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/verdict_schedule.h"
@@ -34,12 +38,22 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png [options]";
+constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png|FILM.mp4 [options]";
 constexpr const char* kRenderSummary =
-    "Renders one image, or with --frames those of the scene's animation and camera path. To "
-    "standard\n"
-    "output (-o -) frames follow each other, as ffmpeg -f image2pipe reads them. An EXR has all\n"
-    "of --channels, a PNG whose name says so (out.depth.png) is one of them, of 16 bits.";
+    "Renders one image, or with --frames those of the scene's animation and camera path, as images "
+    "or, where ffmpeg is installed, as a film. On standard output (-o -) frames follow each other "
+    "as "
+    "PNG files, which ffmpeg -f image2pipe reads. An EXR has all of --channels; a PNG named after "
+    "one (out.depth.png) has that channel in 16 bits.";
+constexpr const char* kTurntableUsage = "whit turntable SCENE -o FILM.mp4|FRAMES####.png [options]";
+constexpr const char* kTurntableSummary =
+    "Renders a model on a turntable: supplies a view and light, moves the camera once around the "
+    "model and leaves the light where it is. In a scene file the camera goes around the point that "
+    "it looks at. ffmpeg makes the film; where it is not installed, the frames are written as PNG "
+    "files and the command that makes a film of them is printed.";
+
+constexpr const char* kFilm = ".mp4";
+bool isFilm(const std::string& output) { return extensionOf(output) == kFilm; }
 
 struct RenderJob {
   CommonOptions common;
@@ -48,9 +62,17 @@ struct RenderJob {
   double fps = 24;
   bool resume = false;
   ExrStorage exr = ExrStorage::zip;
+  bool onTurntable = false;
+  double turns = 1;
+  std::optional<Turntable> turntable;  // once the scene is open
+  int turntableFrames = 96;            // of all turns together
+  std::string filmCommand;  // what makes the film that was asked for, where there is no ffmpeg
 
   bool toStandardOutput() const {
     return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
+  }
+  bool makesFilm() const {
+    return !filmCommand.empty() || std::any_of(outputs.begin(), outputs.end(), isFilm);
   }
 };
 
@@ -58,23 +80,31 @@ OptionList listOptions(RenderJob& job) {
   OptionList list;
   list.group("Output");
   list.many({"output", "FILE"},
-            "image to write, .exr (linear) or .png; - is a PNG to standard output; may be repeated",
+            "image to write, .exr (linear) or .png, or a film of all frames, .mp4; - writes a PNG "
+            "to standard output; may be repeated",
             job.outputs)
       .shortName = "o";
-  list.value({"frames", "A..B"},
-             "frames of the animation and the camera path; FILE has #### for the number",
-             job.frames);
-  list.value({"fps", "N", 0.001, 1e6}, "frames a second", job.fps);
-  list.flag(
-      "resume",
-      "leave out images that are there, whole and made with the same options of the same contents "
-      "of the scene",
-      job.resume);
+  if (job.onTurntable) {
+    list.value({"turns", "X", -1000, 1000}, "turns of the camera; below 0: the other way around",
+               job.turns);
+    list.value({"frames", "N", 1, 1e6}, "frames of all turns together", job.turntableFrames);
+    list.value({"range", "A..B"}, "frames that are rendered, counted from 0 (default: all)",
+               job.frames);
+  } else {
+    list.value({"frames", "A..B"},
+               "frames of the animation and the camera path; FILE has #### for the number",
+               job.frames);
+  }
+  list.value({"fps", "N", 0.001, 1e6}, "frames per second", job.fps);
+  list.flag("resume",
+            "keep images that are complete and were made with the same options of the same scene",
+            job.resume);
   list.value(kExrOption,
-             "how an EXR keeps its pixels: floats, compressed or as they are; half floats, "
-             "compressed; half floats with OpenEXR's lossy DWAA",
+             "pixels of an EXR: floats, compressed or not; half floats, compressed; or half floats "
+             "with OpenEXR's lossy DWAA compression",
              job.exr);
-  list.value({"json", "FILE"}, "what was done and what it cost; - is standard output", job.json);
+  list.value({"json", "FILE"}, "settings, times and counts as JSON; - is standard output",
+             job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
   return list;
@@ -92,7 +122,7 @@ void checkStandardOutput(const RenderJob& job) {
   if (isatty(STDOUT_FILENO)) throwUsage("-o -: standard output is a terminal: send it elsewhere");
 }
 
-// Channels are asked for to be written, and each PNG of one can be.
+// Throws if no output has a place for --channels.
 void checkChannels(const RenderJob& job) {
   const ChannelSet kept = job.common.render.channels;
   if (kept.empty()) return;
@@ -114,14 +144,31 @@ void checkChannels(const RenderJob& job) {
   }
 }
 
+void checkFilm(const RenderJob& job) {
+  if (!job.makesFilm()) return;
+  if (std::count_if(job.outputs.begin(), job.outputs.end(), isFilm) > 1) {
+    throwUsage("-o: one film at a time");
+  }
+  if (job.frames.empty()) throwUsage("a film needs --frames A..B");
+  if (job.resume) throwUsage("--resume keeps images, and a film is made as a whole");
+  if (job.common.render.crop) throwUsage("--crop: a film shows the whole picture");
+  const auto& size = job.common.render.size;
+  if (size && (size->width % 2 != 0 || size->height % 2 != 0)) {
+    throwUsage("--size: the sides of a film are even numbers of pixels");
+  }
+}
+
 void checkJob(const RenderJob& job, const Farm& farm) {
-  if (job.outputs.empty()) throwUsage("expected an image to write: -o OUT.exr or -o OUT.png");
+  if (job.outputs.empty()) {
+    throwUsage("expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
+  }
   checkShared(farm, job.common);
   checkChannels(job);
+  checkFilm(job);
   if (farm.leads()) {
     checkStandardOutput(job);
     for (const std::string& output : job.outputs) {
-      if (output != kStandardOutput) requireWritable(output, {".exr", ".png"});
+      if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
     }
     requireJsonWritable(job.json);
   }
@@ -130,14 +177,33 @@ void checkJob(const RenderJob& job, const Farm& farm) {
     return;
   }
   parseFrameRange(job.frames);
-  for (const std::string& output : job.outputs) frameName(output, 0);
-  if (job.common.load.instant.seconds) {
+  for (const std::string& output : job.outputs) {
+    if (!isFilm(output)) frameName(output, 0);
+  }
+  if (job.common.load.instant.seconds && !job.onTurntable) {
     throwUsage("--time is one instant, --frames are many: give one");
   }
 }
 
+// Without ffmpeg the frames of a film are written as PNG files.
+void replaceFilm(RenderJob& job, bool tell) {
+  for (std::string& output : job.outputs) {
+    if (!isFilm(output) || findProgram("ffmpeg")) continue;
+    const std::string film = output, stem = film.substr(0, film.size() - std::strlen(kFilm));
+    std::string pattern;  // as printf() and ffmpeg number files
+    for (const char c : stem) pattern += c == '%' ? "%%" : std::string(1, c);
+    job.filmCommand = filmCommand(pattern + "-%04d.png", job.fps, film);
+    output = stem + "-####.png";
+    if (!tell) continue;
+    std::fprintf(stderr,
+                 "whit: ffmpeg is not in $PATH: PNG files are written instead of %s; with ffmpeg "
+                 "installed, this makes the film:\n",
+                 printable(film).c_str());
+  }
+}
+
 void checkFilmed(const RenderJob& job, const Scene& scene) {
-  if (job.frames.empty()) return;
+  if (job.frames.empty() || job.onTurntable) return;
   if (scene.cameraPath.empty() && scene.animations.empty()) {
     throwUsage("--frames: nothing moves in scene '" + scene.name +
                "', it has no camera path and no animation");
@@ -145,6 +211,32 @@ void checkFilmed(const RenderJob& job, const Scene& scene) {
   if (job.common.given.contains("camera") && !scene.cameraPath.empty()) {
     throwUsage("--camera names a still viewpoint, --frames follows the scene's path: give one");
   }
+}
+
+// Opens the scene and, of a turntable, places the camera.
+std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
+  RenderOptions& options = job.common.render;
+  const auto look = [&](const SceneDescription& scene) {
+    ImageSize size = options.size.value_or(ImageSize{scene.width, scene.height});
+    if (job.makesFilm()) {
+      size = {std::max(size.width & ~1, 2), std::max(size.height & ~1, 2)};
+      options.size = size;
+    }
+    const bool viewed = !options.camera.empty() || options.eye || options.at;
+    if (!job.onTurntable || !scene.isModel || viewed) return;
+    ModelView view = viewOf(scene);
+    view.camera.fov = options.fov.value_or(view.camera.fov);
+    job.turntable = aroundModel(scene, view, size.width, size.height);
+    Camera& camera = job.turntable->camera;
+    camera.up = options.up.value_or(camera.up);
+    camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
+  };
+  auto open = openScene(job.scenes[0], job.common, progress, look);
+  checkFilmed(job, open->scene);
+  if (job.onTurntable && !job.turntable) {
+    job.turntable = aroundTarget(chooseCamera(open->scene, options));
+  }
+  return open;
 }
 
 // Two films where frames follow each other and both find room: one is written while the other is
@@ -174,6 +266,7 @@ class ImageWriter {
         options_(optionsFor(open.scene, job.common)),
         films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
+    camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
     if (farm.ranks() == 1) {
       std::size_t frames = 1;
       if (!job.frames.empty()) {
@@ -185,31 +278,42 @@ class ImageWriter {
                                                memoryLeft(open.scene, *renderer_, most)});
     }
     // One for all frames, whichever of them are asked for.
-    settleExposure(*renderer_, camera(), options_);
+    settleExposure(*renderer_, camera_, options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
     aboutChannels_ = describeChannels(open.scene, options_.channels);
+    const auto film = std::find_if(job.outputs.begin(), job.outputs.end(), isFilm);
+    if (film == job.outputs.end() || !farm.leads()) return;
+    const Image& image = films_[0].image;
+    pipe_.emplace(findProgram("ffmpeg").value_or("ffmpeg"), *film, image.width, image.height,
+                  job.fps);
+    written_.push_back(*film);
   }
 
-  // Frames to come are those of another instant. Where cameras alone move, that is for nothing.
-  void updateScene(double seconds) {
+  // Moves the camera of a turntable, or else the scene, to where frame `frame` shows it.
+  void moveTo(int frame) {
+    if (job_.turntable) {
+      camera_ = turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
+      return;
+    }
     const Stopwatch stopwatch;
-    moveScene(open_->scene, seconds, simd::deformVertices);
-    if (!scene().motion.ofGeometry && !scene().motion.ofLights()) return;
+    Scene& scene = open_->scene;
+    moveScene(scene, frame / job_.fps, simd::deformVertices);
+    camera_ = chooseCamera(scene, options_);
+    if (!scene.motion.ofGeometry && !scene.motion.ofLights()) return;
     renderer_->sceneMoved();
     run_.updateMs.push_back(stopwatch.ms());
     if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
-  // The scene as its camera sees it. With --resume, nothing is traced when all files are there. The
-  // files are there after finish().
+  // Renders a frame and starts writing it; the files are complete after finish(). With --resume
+  // nothing is traced if all files are complete.
   void write(const std::vector<std::string>& files, Progress* progress,
              const ImageMetadata& more = {}) {
     const Stopwatch stopwatch;
-    const Camera camera = this->camera();
     Film& film = films_[film_];
-    ImageMetadata metadata = describeImage(open_->scene, camera, *renderer_, film, options_);
+    ImageMetadata metadata = describeImage(open_->scene, camera_, *renderer_, film, options_);
     addSettings(open_->settings, open_->sky, metadata);
     metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
@@ -218,23 +322,22 @@ class ImageWriter {
       ++run_.kept;
       return;
     }
-    prepareAudit(camera, film);
-    if (schedule_) schedule_->prepare(camera, film);
-    run_.frames.push_back(renderShared(farm_, *renderer_, options_, camera, film, progress));
+    prepareAudit(film);
+    if (schedule_) schedule_->prepare(camera_, film);
+    run_.frames.push_back(renderShared(farm_, *renderer_, options_, camera_, film, progress));
     if (!farm_.leads()) return;
     if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
-    lookForVerdicts();
+    fillShadowCache();
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
-
-  const Scene& scene() const { return open_->scene; }
 
   void finish() {
     const Stopwatch stopwatch;
     writer_.finish();
+    if (pipe_) pipe_->finish();
     run_.tracedAndWrittenMs += stopwatch.ms();
     for (const BackgroundWriter::Times& times : writer_.times()) {
       run_.writingMs.push_back(times.spentMs);
@@ -248,29 +351,27 @@ class ImageWriter {
   const std::vector<std::string>& written() const { return written_; }
 
  private:
-  Camera camera() const { return chooseCamera(scene(), options_); }
-
-  // Of an audit: the first frame asks for verdicts of shadow, and those after it have them.
-  void prepareAudit(const Camera& camera, Film& film) {
+  // --shadow-cache audit: an extra first frame requests what the cache then holds.
+  void prepareAudit(Film& film) {
     if (options_.verdicts != Verdicts::audit || options_.mode == Mode::reference) return;
-    if (run_.verdicts || farm_.ranks() > 1) return;
+    if (run_.shadowCache || farm_.ranks() > 1) return;
     const std::uint64_t most = job_.common.load.maxMemoryBytes;
     renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
     if (!renderer_->decidesShadows()) return;
-    run_.verdicts.emplace();
-    renderer_->render(camera, film);
-    lookForVerdicts();
+    run_.shadowCache.emplace();
+    renderer_->render(camera_, film);
+    fillShadowCache();
   }
 
-  void lookForVerdicts() {
-    if (options_.verdicts == Verdicts::audit && run_.verdicts) {
-      run_.verdicts->fillMs += renderer_->fillVerdicts().ms;
+  void fillShadowCache() {
+    if (options_.verdicts == Verdicts::audit && run_.shadowCache) {
+      run_.shadowCache->fillMs += renderer_->fillVerdicts().ms;
     } else if (schedule_ && schedule_->used()) {
       schedule_->frameDone();
-      if (!run_.verdicts) run_.verdicts.emplace();
-      run_.verdicts->fillMs = schedule_->fillMs();
+      if (!run_.shadowCache) run_.shadowCache.emplace();
+      run_.shadowCache->fillMs = schedule_->fillMs();
     }
-    if (run_.verdicts) run_.verdicts->bytes = renderer_->verdictBytes();
+    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->verdictBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -284,7 +385,7 @@ class ImageWriter {
     });
   }
 
-  // Of the output of this number.
+  // `output` is an index of job_.outputs.
   ImageFormat formatOf(std::size_t output) const {
     return {job_.exr, renderer_->machine().threads,
             channelNamedBy(job_.outputs[output], options_.channels), aboutChannels_};
@@ -294,10 +395,15 @@ class ImageWriter {
                     ImageMetadata metadata) {
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
       for (std::size_t i = 0; i < files.size(); ++i) {
-        writeImage(files[i], film, options_, metadata, formatOf(i));
+        if (isFilm(files[i])) {
+          DisplayImage made;
+          pipe_->add(displayOf(film, options_, made).rgba);
+        } else {
+          writeImage(files[i], film, options_, metadata, formatOf(i));
+        }
       }
     });
-    written_.insert(written_.end(), files.begin(), files.end());
+    std::copy_if(files.begin(), files.end(), std::back_inserter(written_), std::not_fn(isFilm));
     if (films_.size() == 1) writer_.finish();
     film_ = (film_ + 1) % films_.size();  // the one before has been written
   }
@@ -305,6 +411,7 @@ class ImageWriter {
   const RenderJob& job_;
   Farm& farm_;
   OpenScene* open_;
+  Camera camera_;
   RenderOptions options_;  // with an automatic exposure settled
   std::optional<Renderer> renderer_;
   std::optional<VerdictSchedule> schedule_;
@@ -314,6 +421,7 @@ class ImageWriter {
   std::string sceneDigest_;
   ImageMetadata aboutChannels_;
   std::vector<std::string> written_;
+  std::optional<FilmPipe> pipe_;
   BackgroundWriter writer_;  // last: what it writes must outlive it
 };
 
@@ -347,9 +455,11 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
   if (progress) path.emplace(*progress, range);
   for (int frame = range.first; frame <= range.last; ++frame) {
     std::vector<std::string> files;
-    for (const std::string& output : job.outputs) files.push_back(frameName(output, frame));
+    for (const std::string& output : job.outputs) {
+      files.push_back(isFilm(output) ? output : frameName(output, frame));
+    }
     if (path) path->begin(frame, writer.kept());
-    writer.updateScene(frame / job.fps);
+    writer.moveTo(frame);
     writer.write(files, path ? &*path : nullptr, {{"frame", std::to_string(frame)}});
   }
 }
@@ -363,19 +473,28 @@ void tellWritten(const ImageWriter& writer, double seconds) {
   std::fprintf(stderr, "wrote %s%s, %.1f s\n", what.c_str(), kept.c_str(), seconds);
 }
 
-int render(const Words& words, Farm& farm) {
+void writeReport(const RenderJob& job, const ImageWriter& writer) {
+  Json json = runJson(writer.run());
+  json["files"] = writer.written();
+  json["kept"] = writer.kept();
+  json["machine"] = machineJson(writer.run().machine);
+  if (!job.frames.empty()) json["film_fps"] = job.fps;
+  if (job.onTurntable) json["turns"] = job.turns;
+  if (!job.filmCommand.empty()) json["command"] = job.filmCommand;
+  writeJson(job.json, json);
+}
+
+int render(RenderJob& job, Farm& farm) {
   const Stopwatch stopwatch;
-  RenderJob job;
-  if (parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
   settleOptions(job.common);
   quietUnlessLeading(farm, job.common);
   checkJob(job, farm);
+  replaceFilm(job, farm.leads());
 
   auto progress = makeProgressBar(job.common);
-  job.common.load.instant.plays = job.common.load.instant.alongPath = !job.frames.empty();
-  const auto open = openScene(job.scenes[0], job.common, progress.get());
-  checkFilmed(job, open->scene);
+  job.common.load.instant.plays = job.common.load.instant.alongPath =
+      !job.frames.empty() && !job.onTurntable;
+  const auto open = openFor(job, progress.get());
   ImageWriter writer(job, *open, farm, progress.get());
   if (job.frames.empty()) {
     writer.write(job.outputs, progress.get());
@@ -393,20 +512,32 @@ int render(const Words& words, Farm& farm) {
     }
   }
   if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
-  if (!job.json.empty()) {
-    Json json = runJson(writer.run());
-    json["files"] = writer.written();
-    json["kept"] = writer.kept();
-    json["machine"] = machineJson(writer.run().machine);
-    writeJson(job.json, json);
+  if (!job.filmCommand.empty() && job.json != kStandardOutput && !job.toStandardOutput()) {
+    std::printf("%s\n", job.filmCommand.c_str());
   }
+  if (!job.json.empty()) writeReport(job, writer);
   return 0;
 }
 
 }  // namespace
 
 int renderCommand(const Words& words) {
-  return Farm::run([&](Farm& farm) { return render(words, farm); });
+  return Farm::run([&](Farm& farm) {
+    RenderJob job;
+    const auto parsed = parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words);
+    return parsed == Parsed::helpShown ? 0 : render(job, farm);
+  });
+}
+
+int turntableCommand(const Words& words) {
+  return Farm::run([&](Farm& farm) {
+    RenderJob job;
+    job.onTurntable = true;
+    const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
+    if (parsed == Parsed::helpShown) return 0;
+    if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
+    return render(job, farm);
+  });
 }
 
 }  // namespace whit::cli

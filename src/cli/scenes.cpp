@@ -1,4 +1,4 @@
-// whit scenes: what there is to render without a file of one's own.
+// whit scenes: the list of the shipped scenes.
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
@@ -35,8 +35,7 @@ std::string firstClause(const std::string& text) {
 
 int scenesCommand(const Words& words) {
   const OptionList list;
-  if (parseOptions("whit scenes", "The shipped scenes, a line each.", list, words) ==
-      Parsed::helpShown) {
+  if (parseOptions("whit scenes", "Lists the shipped scenes.", list, words) == Parsed::helpShown) {
     return 0;
   }
   for (const std::filesystem::path& scene : shippedScenes()) {

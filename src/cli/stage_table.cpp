@@ -45,18 +45,18 @@ void appendFrames(std::string& text, const RunSummary& run) {
   text += formatted("; load %.0f ms, build %.0f ms\n", run.loadMs, run.buildMs);
 }
 
-void appendVerdicts(std::string& text, const RunSummary& run) {
-  if (!run.verdicts) return;
+void appendShadowCache(std::string& text, const RunSummary& run) {
+  if (!run.shadowCache) return;
   const FrameStats& frame = medianFrame(run);
   const auto [lit, dark] = frame.meter.shadows;
   const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
-  text += formatted("  warm: verdicts for %.1f %% of the shadow rays; ",
+  text += formatted("  shadow cache: %.1f %% of the shadow rays; ",
                     rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
-  if (run.verdicts->coldMs > 0) {
-    text += formatted("cold, with none known, a frame took %.2f ms, ", run.verdicts->coldMs);
+  if (run.shadowCache->coldMs > 0) {
+    text += formatted("with an empty one a frame took %.2f ms, ", run.shadowCache->coldMs);
   }
-  text += formatted("tables filled in %.0f ms, %.1f MB\n", run.verdicts->fillMs,
-                    static_cast<double>(run.verdicts->bytes) / 1e6);
+  text += formatted("filled in %.0f ms, %.1f MB\n", run.shadowCache->fillMs,
+                    static_cast<double>(run.shadowCache->bytes) / 1e6);
 }
 
 void appendStages(std::string& text, const FrameStats& frame) {
@@ -105,7 +105,7 @@ void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
        {std::pair{"shadow, lit", decided.lit}, std::pair{"shadow, dark", decided.dark}}) {
     if (decided.lit + decided.dark == 0) continue;
     text += formatted("  %-14s%12llu%10s%16s\n", name, static_cast<unsigned long long>(rays), "-",
-                      "proved");
+                      "cached");
   }
   text +=
       formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
@@ -118,7 +118,7 @@ std::string stageTable(const RunSummary& run) {
   std::string text;
   appendSettings(text, run);
   appendFrames(text, run);
-  appendVerdicts(text, run);
+  appendShadowCache(text, run);
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
@@ -145,14 +145,14 @@ std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary&
   };
   std::string text = formatted("%s, %s, medians of %zu turns\n", first.scene.c_str(),
                                pairs == RunPairs::effects ? "every effect over the scene's"
-                                                          : "warm over all shadow rays traced",
+                                                          : "with over without shadow cache",
                                first.frames.size());
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
   text +=
       row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(second), outsideEmbreeMs(first));
-  if (second.verdicts && base > 0) {
-    const double cold = second.verdicts->coldMs;
-    text += row("cold, with no verdict known", cold / base, cold, base);
+  if (second.shadowCache && base > 0) {
+    const double cold = second.shadowCache->coldMs;
+    text += row("with an empty shadow cache", cold / base, cold, base);
   }
   return text;
 }

@@ -1,9 +1,7 @@
 #include "core/channels.h"
 
 #include <algorithm>
-#include <sstream>
 
-#include "core/error.h"
 #include "core/nearest_name.h"
 
 namespace whit {
@@ -27,19 +25,8 @@ void copyPixels(const std::vector<Value>& from, std::size_t first, std::size_t c
 
 ChannelSet parseChannels(const std::string& commaSeparated) {
   ChannelSet set;
-  std::istringstream in(commaSeparated);
-  for (std::string word; std::getline(in, word, ',');) {
-    if (word.empty()) continue;
-    const auto found = std::find_if(kChannels.begin(), kChannels.end(),
-                                    [&](const ChannelInfo& c) { return c.name == word; });
-    if (found == kChannels.end()) {
-      std::vector<std::string> names;
-      names.reserve(kChannels.size());
-      for (const ChannelInfo& c : kChannels) names.emplace_back(c.name);
-      throwUsage("no channel is called '" + word + "'; nearest: '" + nearestName(word, names) +
-                 "'");
-    }
-    set = set.with(static_cast<Channel>(found - kChannels.begin()));
+  for (const std::size_t i : indicesOf(commaSeparated, namesIn(kChannels), "channel")) {
+    set = set.with(static_cast<Channel>(i));
   }
   return set;
 }

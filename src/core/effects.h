@@ -1,5 +1,5 @@
 // The effects the renderer knows, one bit each. A scene calls for some of them; a frame's plan
-// leaves out the rest. Adding one: a line here, the rule in scene/effects_of_scene.cpp that turns
+// leaves out the rest. Adding one: a line here, the rule in bake/effects_of_scene.cpp that turns
 // it on, and the `if constexpr` of the kernel that computes it.
 #pragma once
 
@@ -11,31 +11,31 @@
 namespace whit {
 
 // name, what it stands for
-#define WHIT_EFFECTS(X)                                            \
-  X(textures, "color textures")                                    \
-  X(normalMaps, "tangent-space normal maps")                       \
-  X(alphaMasks, "holes cut by alpha masks")                        \
-  X(coverage, "surfaces that are there in part")                   \
-  X(smoothNormals, "interpolated vertex normals")                  \
-  X(glossy, "glossy lobe")                                         \
-  X(glossyReflection, "sampled reflections of rough surfaces")     \
-  X(emission, "emitting surfaces")                                 \
-  X(emissionMaps, "textures of emission")                          \
-  X(vertexColors, "vertex colors")                                 \
-  X(sky, "sky that is not black")                                  \
-  X(skyImage, "sky from an image")                                 \
-  X(ambient, "ambient light")                                      \
-  X(ambientOcclusion, "ambient light that things nearby hold off") \
-  X(lights, "point, spot or directional lights")                   \
-  X(spotLights, "cones of spot lights")                            \
-  X(directionalLights, "directional lights")                       \
-  X(shadows, "shadows of lights")                                  \
-  X(softShadows, "penumbras of lights with a radius")              \
-  X(mirror, "reflected impulses")                                  \
-  X(transmission, "refracted impulses")                            \
-  X(indirect, "light from one diffuse surface to the next")        \
-  X(absorption, "absorption inside dielectrics")                   \
-  X(spheres, "exact spheres")                                      \
+#define WHIT_EFFECTS(X)                             \
+  X(textures, "color textures")                     \
+  X(normalMaps, "tangent-space normal maps")        \
+  X(alphaMasks, "alpha masks")                      \
+  X(coverage, "partial coverage, alpha blending")   \
+  X(smoothNormals, "interpolated vertex normals")   \
+  X(glossy, "glossy highlights of lights")          \
+  X(glossyReflection, "sampled glossy reflections") \
+  X(emission, "emissive surfaces")                  \
+  X(emissionMaps, "emission textures")              \
+  X(vertexColors, "vertex colors")                  \
+  X(sky, "environment light")                       \
+  X(skyImage, "environment map")                    \
+  X(ambient, "ambient light")                       \
+  X(ambientOcclusion, "ambient occlusion")          \
+  X(lights, "point, spot and directional lights")   \
+  X(spotLights, "cones of spot lights")             \
+  X(directionalLights, "directional lights")        \
+  X(shadows, "shadows")                             \
+  X(softShadows, "soft shadows of area lights")     \
+  X(mirror, "mirror reflection")                    \
+  X(transmission, "refraction")                     \
+  X(indirect, "indirect diffuse lighting")          \
+  X(absorption, "absorption in dielectrics")        \
+  X(spheres, "exact spheres")                       \
   X(instances, "instanced geometry")
 
 enum class Effect : std::uint32_t {

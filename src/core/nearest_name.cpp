@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
+
+#include "core/error.h"
 
 namespace whit {
 
@@ -25,18 +28,35 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-  const auto closer = [&](const std::string& a, const std::string& b) {
-    return editDistance(word, a) < editDistance(word, b);
-  };
-  const auto best = std::min_element(names.begin(), names.end(), closer);
-  return best == names.end() ? std::string() : *best;
+  std::string nearest;
+  std::size_t least = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
+  for (const std::string& name : names) {
+    const std::size_t edits = editDistance(word, name);
+    if (edits >= least) continue;
+    least = edits;
+    nearest = name;
+  }
+  return nearest;
 }
 
-std::string nearName(const std::string& word, const std::vector<std::string>& names) {
-  constexpr std::size_t kMostEdits = 2;
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
-  const std::size_t edits = editDistance(word, nearest);
-  return edits <= kMostEdits && edits < word.size() ? nearest : std::string();
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
+                                   const std::vector<std::string>& names, const std::string& kind) {
+  std::vector<std::size_t> indices;
+  std::istringstream in(commaSeparated);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word.empty()) continue;
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names));
+    }
+    indices.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return indices;
 }
 
 }  // namespace whit

@@ -1,14 +1,32 @@
-// Suggestions for misspelt names: the nearest of those there are.
+// Lists of names, and suggestions for misspelt ones.
 #pragma once
 
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
 namespace whit {
 
-// The name at the smallest edit distance from `word`; empty when there are no names.
+// The name at the smallest edit distance from `word`, if that is at most 2, or a third of the word,
+// and less than the whole word; otherwise empty.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
-// The same if it can be meant: at most two letters off, and not in all of them. Empty otherwise.
-std::string nearName(const std::string& word, const std::vector<std::string>& names);
+
+// "; did you mean 'NAME'?" for the end of a message; empty if no name is near.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
+
+// The indices in `names` of the names in the text, which are separated by commas. Throws
+// Error(usage) for an unknown one: "no KIND is called ...".
+std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
+                                   const std::vector<std::string>& names, const std::string& kind);
+
+// The names of a table whose rows have a member `name`.
+template <typename Table>
+std::vector<std::string> namesIn(const Table& table) {
+  std::vector<std::string> names;
+  names.reserve(std::size(table));
+  for (const auto& row : table) names.emplace_back(row.name);
+  return names;
+}
 
 }  // namespace whit

@@ -11,8 +11,7 @@ namespace whit {
 
 namespace {
 
-// Whether the options' values, in their order, are all that RenderOptions is made of: they make
-// one, and nothing more goes into it.
+// True if the values of the options, in their order, initialize a RenderOptions completely.
 struct AreAllMembers {
   template <typename... Fields>
   constexpr auto operator()(const Option<Fields>&...) const {
@@ -38,7 +37,8 @@ void visitOption(Options& options, const std::string& name, Visitor&& visit) {
     visit(spec, field);
   });
   if (found) return;
-  throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
+  refuseFormerName(name);
+  throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
 }
 
 // Calls visit(spec, a's, b's) for each option.
@@ -50,6 +50,15 @@ void forEachPair(A& a, B& b, Visitor&& visit) {
 }
 
 }  // namespace
+
+void refuseFormerName(const std::string& name) {
+  for (const auto& [former, present] :
+       {std::pair{"verdicts", "shadow-cache"}, std::pair{"ab-verdicts", "ab-shadow-cache"}}) {
+    if (name == former) {
+      throwUsage("--" + name + " is now called --" + present);
+    }
+  }
+}
 
 void setOption(RenderOptions& options, const std::string& name, const std::string& text) {
   visitOption(options, name,

@@ -1,4 +1,4 @@
-// Questions to the table of options in core/options.h, and presets of what it holds.
+// Access to the table of options in core/options.h by name, and presets of its values.
 #pragma once
 
 #include <set>
@@ -10,8 +10,10 @@
 
 namespace whit {
 
-// The option of this name, set to what the text says or as text. Throws Error(usage): for a name
-// that there is not it names the nearest one.
+// Set or format the option of this name. They throw Error(usage), which for an unknown name
+// suggests a near one. Throws Error(usage) if the name is a former one of an option, with the
+// present one.
+void refuseFormerName(const std::string& name);
 void setOption(RenderOptions& options, const std::string& name, const std::string& text);
 std::string optionText(const RenderOptions& options, const std::string& name);
 
@@ -19,20 +21,20 @@ std::string optionText(const RenderOptions& options, const std::string& name);
 // table.
 std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options);
 
-// What a renderer with options `a` has to make anew for frames with options `b`.
+// The rebuild that a renderer with options `a` needs for frames with options `b`.
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b);
-// The options that need no more than `most` made anew.
+// Copies the options that need no larger rebuild than `most`.
 void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
 
-// Sets what options.quality stands for, leaving alone the options named in `given` (as in
-// forEachOption): what the user says counts for more than a preset.
+// Applies the preset options.quality to all options but those named in `given`, which the user has
+// set.
 void applyQuality(RenderOptions& options, const std::set<std::string>& given);
-// What a preset changes of the defaults, as on the command line; empty for those themselves.
+// The options in which a preset differs from the defaults, as on the command line.
 struct QualityPreset {
   std::string name, options;
 };
 std::vector<QualityPreset> qualityPresets();
-// Likewise what is better for a model without a scene file: nobody has looked at its picture.
+// Applies the defaults for models without a scene file, likewise.
 void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given);
 
 }  // namespace whit

@@ -1,6 +1,7 @@
 #include "core/option_values.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "core/error.h"
@@ -33,6 +34,16 @@ bool readNumber(const std::string& text, T& value) {
   return error == std::errc() && stop == end && std::isfinite(static_cast<double>(value));
 }
 
+// Exactly as many numbers as `values` holds.
+template <typename T, std::size_t kCount>
+bool readNumbers(const std::string& text, char separator, std::array<T, kCount>& values) {
+  const std::vector<std::string> parts = split(text, separator);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (parts.size() != kCount || !readNumber(parts[i], values[i])) return false;
+  }
+  return true;
+}
+
 template <typename T>
 std::string shortest(T value) {
   char buffer[64];
@@ -58,10 +69,6 @@ void parseNumber(const OptionSpec& spec, const std::string& text, const std::str
   value = parsed;
 }
 
-std::string joined(const Vec3f& v) {
-  return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z);
-}
-
 }  // namespace
 
 std::vector<std::string> choicesOf(const OptionSpec& spec) {
@@ -73,9 +80,8 @@ int parseChoice(const OptionSpec& spec, const std::string& text) {
   const std::vector<std::string> choices = choicesOf(spec);
   const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end()) {
-    throwBadValue(
-        spec, text,
-        "one of " + std::string(spec.words) + " (nearest: " + nearestName(text, choices) + ")");
+    throwUsage("--" + std::string(spec.name) + ": expected one of " + std::string(spec.words) +
+               ", got '" + text + "'" + didYouMean(text, choices));
   }
   return static_cast<int>(found - choices.begin());
 }
@@ -122,38 +128,33 @@ void parseValue(const OptionSpec& spec, const std::string& text, Exposure& value
 }
 
 void parseValue(const OptionSpec& spec, const std::string& text, ImageSize& value) {
-  const std::vector<std::string> parts = split(text, 'x');
-  ImageSize size;
-  const auto inRange = [](int side) { return side >= 1 && side <= kImageSideLimit; };
-  if (parts.size() != 2 || !readNumber(parts[0], size.width) ||
-      !readNumber(parts[1], size.height) || !inRange(size.width) || !inRange(size.height)) {
+  std::array<int, 2> side{};
+  const auto inRange = [](int s) { return s >= 1 && s <= kImageSideLimit; };
+  if (!readNumbers(text, 'x', side) || !inRange(side[0]) || !inRange(side[1])) {
     throwBadValue(spec, text,
                   "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(kImageSideLimit) +
                       ", as 1280x720");
   }
-  value = size;
+  value = {side[0], side[1]};
 }
 
 void parseValue(const OptionSpec& spec, const std::string& text, Crop& value) {
-  const std::vector<std::string> parts = split(text, ',');
-  Crop crop;
-  if (parts.size() != 4 || !readNumber(parts[0], crop.x0) || !readNumber(parts[1], crop.y0) ||
-      !readNumber(parts[2], crop.x1) || !readNumber(parts[3], crop.y1) || crop.x0 < 0 ||
-      crop.y0 < 0 || crop.x1 <= crop.x0 || crop.y1 <= crop.y0 || crop.x1 > kImageSideLimit ||
-      crop.y1 > kImageSideLimit) {
+  std::array<int, 4> c{};
+  const auto inOrder = [](int first, int end) {
+    return first >= 0 && end > first && end <= kImageSideLimit;
+  };
+  if (!readNumbers(text, ',', c) || !inOrder(c[0], c[2]) || !inOrder(c[1], c[3])) {
     throwBadValue(spec, text, "x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1");
   }
-  value = crop;
+  value = {c[0], c[1], c[2], c[3]};
 }
 
 void parseValue(const OptionSpec& spec, const std::string& text, Vec3f& value) {
-  const std::vector<std::string> parts = split(text, ',');
-  Vec3f v;
-  if (parts.size() != 3 || !readNumber(parts[0], v.x) || !readNumber(parts[1], v.y) ||
-      !readNumber(parts[2], v.z)) {
+  std::array<float, 3> v{};
+  if (!readNumbers(text, ',', v)) {
     throwBadValue(spec, text, "three numbers x,y,z without blanks, as 0,1.5,-2");
   }
-  value = v;
+  value = {v[0], v[1], v[2]};
 }
 
 void parseValue(const OptionSpec&, const std::string& text, EffectSet& value) {
@@ -181,7 +182,9 @@ std::string formatValue(const OptionSpec&, const Crop& c) {
   return std::to_string(c.x0) + "," + std::to_string(c.y0) + "," + std::to_string(c.x1) + "," +
          std::to_string(c.y1);
 }
-std::string formatValue(const OptionSpec&, const Vec3f& value) { return joined(value); }
+std::string formatValue(const OptionSpec&, const Vec3f& v) {
+  return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z);
+}
 
 std::string formatValue(const OptionSpec&, const ChannelSet& value) { return namesOf(value); }
 

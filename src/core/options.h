@@ -5,40 +5,98 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/channels.h"
 #include "core/effects.h"
-#include "core/option_spec.h"
 #include "core/shading_choices.h"
 #include "core/vec3.h"
 
 namespace whit {
 
+// What a renderer has to rebuild when an option changes; each level includes those before it.
+enum class Rebuild {
+  nothing,  // the option is read by each frame, or does not concern the renderer
+  frame,    // the plan of the following frames
+  tables,   // the shading tables, if the plan needs others
+  workers,  // threads, their tiles and queues
+  acceleration,
+  scene,  // it is loaded again, by the caller of the renderer
+};
+
+// The kind of error of an inexact value: rounding; rays and terms that are left out or approximated
+// within Whitted's model; too few samples per pixel; or light transport that the model leaves out.
+enum class Cause { arithmetic, algorithm, sampling, transport };
+
+// An option has an effect in scenes that use one of these effects.
+struct Need {
+  EffectSet oneOf;
+  std::string_view without;  // said of a scene that uses none of them
+};
+
+// An option that trades accuracy for time, as `whit accuracy` sweeps it. Values are written as on
+// the command line; lists of them are separated by blanks.
+struct KnobSpec {
+  Cause cause = Cause::algorithm;
+  std::string_view exact = {};
+  std::string_view values = {};   // the sweep
+  std::string_view crossed = {};  // values in the combinations of a full sweep
+  // Values between others, or that make the same picture by construction: a quick sweep measures
+  // them last, if there is time.
+  std::string_view spare = {};
+  // Options that the inexact values need to have an effect, as on the command line.
+  std::string_view alongside = {};
+  // With the exact value, branching rays would never end: scenes with such rays skip it.
+  bool endless = false;
+  std::array<Need, 2> needs = {};  // all of them
+};
+
+// The tab of the viewer's panel that has a control for it.
+enum class Tab { none, knobs, picture };
+
+// Everything about an option but its value. Words with '|' between them are the only ones that are
+// accepted; for an enumeration they stand in the order of its enumerators. A flag has no words.
+struct OptionSpec {
+  std::string_view name = {}, words = {};
+  double low = std::numeric_limits<double>::lowest();
+  double high = std::numeric_limits<double>::max();
+  std::string_view help = {};
+  Rebuild rebuilds = Rebuild::frame;
+  // False for options that share out the work: the picture does not depend on them by design.
+  bool changesPicture = true;
+  Tab tab = Tab::knobs;
+  // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
+  // other values against it, and not at all if this is empty.
+  std::string_view cheapest = {};
+  bool everyday = false;  // in --help; the other options are in --help-all only
+  std::optional<KnobSpec> knob = {};
+};
+
 enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
-// How the picture is kept before exposure and encoding.
+// The precision of pixels before exposure and encoding.
 enum class FilmPrecision { single, half, eightBit };
-// sRGB codes: rounded exactly, or looked up at the nearest of 4096 equal steps of linear light.
+// sRGB codes are rounded exactly, or looked up at the nearest of 4096 equal steps of linear light.
 enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
-// Of shadows, proved beforehand (verdicts/verdict_tables.h): where that pays; never; or traced all
-// the same, and the frame fails where one is wrong.
+// The shadow cache (shadow_cache/verdict_tables.h): used where it saves time; never; or checked
+// against traced rays, where the frame fails if one differs.
 enum class Verdicts { automatic, off, audit };
 
-// What several options need.
+// Needs that several options share.
 inline constexpr Need kNeedsImpulses{EffectSet().with(Effect::mirror).with(Effect::transmission),
                                      "nothing in the scene reflects or refracts"};
 inline constexpr Need kNeedsVertexNormals{EffectSet().with(Effect::smoothNormals),
                                           "all surfaces are flat"};
 
-// Of 8-bit output, in EV. An automatic one follows from the view (render/auto_exposure.h); until
-// then it is 0.
+// Exposure of 8-bit output in EV. An automatic one is computed from the view by
+// render/auto_exposure.h and is 0 until then.
 struct Exposure {
   float ev = 0;
   bool automatic = false;
@@ -57,7 +115,7 @@ struct Crop {
 inline constexpr int kDepthLimit = 64;
 inline constexpr int kSphereSegmentsLimit = 4096;
 
-// In the order of their entries below.
+// The members stand in the order of their entries below.
 struct RenderOptions {
   std::optional<ImageSize> size;
   std::string camera;
@@ -68,13 +126,12 @@ struct RenderOptions {
   bool adaptive = false;
   int contrast = 8;  // neighbors that differ by more in some 8-bit code show an edge
   int depth = kDepthLimit;
-  int glossy = 0;    // samples of a rough surface's lobe; 0: it reflects lights only
-  int indirect = 0;  // samples of what a diffuse surface reflects of the scene; 0: lights only
+  int glossy = 0;    // rays that sample a rough surface's lobe; 0: it reflects lights only
+  int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
   float cutoff = 1.0e-4f;
-  float roulette =
-      0;  // throughput below which impulses survive by chance; 0: all that are worth it
+  float roulette = 0;      // Russian roulette below this throughput; 0: off
   int lightSamples = 1;    // points of a light with a radius; 1: its center
-  int ambientSamples = 0;  // rays that look for what occludes ambient light; 0: nothing does
+  int ambientSamples = 0;  // ambient occlusion rays; 0: off
   ShadingChoices shading;
   int threads = 0;  // 0: what affinity and cgroup quota allow
   int packet = 0;   // 0: the widest the CPU runs natively
@@ -84,7 +141,7 @@ struct RenderOptions {
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
   Verdicts verdicts = Verdicts::automatic;
-  int sphereSegments = 0;  // of the triangles in place of each sphere; 0: it is exact
+  int sphereSegments = 0;  // triangles around each sphere that replace it; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
   EffectSet disable;
@@ -102,8 +159,9 @@ struct RenderOptions {
 
 inline constexpr int kSppLimit = 4096;
 inline constexpr int kImageSideLimit = 65536;
+inline constexpr double kLeastFov = 0.001, kLargestFov = 179.9;  // degrees
 
-// What is known of an option, and its value.
+// An option and its value.
 template <typename Field>
 struct Option {
   OptionSpec spec;
@@ -125,59 +183,60 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "one of the scene's cameras (default: the first)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.camera},
-      Option{{.name = "eye", .words = "x,y,z", .help = "viewpoint",
+      Option{{.name = "eye", .words = "x,y,z", .help = "position of the camera",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.eye},
-      Option{{.name = "at", .words = "x,y,z", .help = "point looked at",
+      Option{{.name = "at", .words = "x,y,z", .help = "point that the camera looks at",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.at},
       Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image",
               .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.up},
-      Option{{.name = "fov", .words = "DEG", .low = 0.001, .high = 179,
-              .help = "vertical field of view",
+      Option{{.name = "fov", .words = "DEG", .low = kLeastFov, .high = kLargestFov,
+              .help = "vertical field of view in degrees",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.fov},
       Option{{.name = "ortho", .words = "HEIGHT", .low = 0, .high = 1e18,
-              .help = "parallel rays; height of the picture in the scene (0: perspective)",
+              .help = "orthographic camera: height of its view in the scene (0: perspective)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.ortho},
       Option{{.name = "crop", .words = "x0,y0,x1,y1",
-              .help = "pixels traced; the EXR's data window",
+              .help = "pixels that are rendered; they become the EXR's data window",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.crop},
       Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
-              .help = "samples per pixel",
+              .help = "samples per pixel, for anti-aliasing",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
                                .values = "1 2 4 8 16", .crossed = "1 4 16", .spare = "2"}},
              o.spp},
-      // More samples than the 16 that are swept everywhere: they make up for the pixels that get
-      // few.
+      // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
-              .help = "--spp samples only where neighbors differ in surface or contrast, elsewhere "
-                      "one",
+              .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
+                      "one elsewhere",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
                                .alongside = "--spp 24"}},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
-              .help = "8-bit codes by which neighbors may differ before --adaptive acts",
+              .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
+                      "samples them",
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "8", .values = "8 4 16 24",
                                .alongside = "--adaptive on --spp 24"}},
              o.contrast},
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
-              .help = "deepest impulse",
+              .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
+                      "called impulses",
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
                                .values = "0 1 2 3 4 8 16 32 64", .crossed = "4 8 64",
                                .spare = "1 3 16 32", .needs = {kNeedsImpulses}}},
              o.depth},
-      // Its exact value is of each sample of the reference, which has many of a pixel.
+      // The exact value is that of each of the many samples per pixel of the reference.
       Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
-              .help = "rays that sample the reflection of a rough surface, one where it is seen by "
-                      "such a ray or by an impulse; 0: rough surfaces reflect lights only",
+              .help = "glossy reflections: sampled rays per hit on a rough surface, one per hit "
+                      "after a bounce; 0: rough surfaces reflect lights only",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true,
@@ -187,9 +246,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "no glossy lobe in the scene reflects it"}}}},
              o.glossy},
       Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
-              .help = "rays that sample the light which a diffuse surface gets from others, from "
-                      "emission and sky, one where it is seen by such a ray or by an impulse, in "
-                      "place of the ambient light; 0: it reflects lights and ambient light only",
+              .help = "indirect diffuse lighting, as by a path tracer: sampled rays per hit on a "
+                      "diffuse surface, one per hit after a bounce, in place of the ambient light; "
+                      "0: direct and ambient light only",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true,
@@ -198,7 +257,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "no diffuse surface reflects the scene"}}}},
              o.indirect},
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
-              .help = "smallest contribution of an impulse that is still traced",
+              .help = "contribution to the pixel below which reflected and refracted rays are not "
+                      "traced",
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
@@ -206,16 +266,16 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .needs = {kNeedsImpulses}}},
              o.cutoff},
       Option{{.name = "roulette", .words = "X", .low = 0, .high = 1,
-              .help = "contribution below which an impulse is traced by chance only, and then counts "
-                      "for more, so that the mean is right; in place of --cutoff; 0: never",
+              .help = "Russian roulette: rays that contribute less are traced by chance and "
+                      "weighted to keep the mean; replaces --cutoff; 0: off",
               .rebuilds = Rebuild::tables,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "0", .values = "0 0.01 0.1 0.5",
                                .spare = "0.01 0.1 0.5",
                                .needs = {kNeedsImpulses}}},
              o.roulette},
       Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
-              .help = "points of a light with a radius that a surface is lit from, each with its "
-                      "shadow ray; 1: its center",
+              .help = "soft shadows of area lights: shadow rays per hit and light with a radius; "
+                      "1: to its center only",
               .rebuilds = Rebuild::tables,
               .cheapest = "1",
               .everyday = true,
@@ -224,8 +284,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "no light has a radius and a shadow"}}}},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
-              .help = "rays from a surface that look for what occludes its ambient light, where the "
-                      "scene says how far they reach; 0: nothing does",
+              .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
+                      "off",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true,
@@ -235,8 +295,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "the ambient light has no radius of occlusion"}}}},
              o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
-              .help = "smallest contribution of a light to the pixel that is still added, and its "
-                      "shadow traced",
+              .help = "contribution to the pixel below which a light is skipped, with its shadow "
+                      "ray",
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
@@ -244,7 +304,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "the scene has no light"}}}},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
-              .help = "reflectance of dielectrics: Fresnel's equations, or Schlick's polynomial",
+              .help = "reflectance of dielectrics: Fresnel's equations or Schlick's approximation",
               .cheapest = "schlick",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
                                .values = "exact schlick",
@@ -252,7 +312,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "nothing in the scene is transparent"}}}},
              o.shading.fresnel},
       Option{{.name = "texture-filter", .words = "nearest|bilinear|trilinear",
-              .help = "how textures are looked up, trilinear: in mip maps; alpha masks: bilinear",
+              .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
+                      "bilinear",
               .rebuilds = Rebuild::tables,
               .cheapest = "nearest",
               .everyday = true,
@@ -263,8 +324,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "the scene has no texture"}}}},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
-              .help = "start of rays off their surface: by its error bound, 1e-3, or 256 ulps and "
-                      "more",
+              .help = "offset of ray origins from the surface, against self-intersection: the "
+                      "error bound of the point, 1e-3, or 256 ulps and more",
               .cheapest = "fixed",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
                                .values = "bound fixed wachter-binder",
@@ -273,8 +334,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               kNeedsImpulses.without}}}},
              o.shading.offset},
       Option{{.name = "terminator", .words = "on|off",
-              .help = "shadow rays from above the facets of smooth surfaces: no staircase where the "
-                      "light ends",
+              .help = "avoid shadow-terminator artifacts on smooth-shaded meshes: shadow rays "
+                      "start above the facets, Hanika 2021",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
                                .spare = "on",
@@ -283,8 +344,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "nothing in the scene casts a shadow"}}}},
              o.shading.terminator},
       Option{{.name = "bend", .words = "on|off",
-              .help = "impulses that normal maps send to the wrong side of their surface are turned "
-                      "back",
+              .help = "turn back reflected and refracted rays that a normal map sends to the "
+                      "wrong side of the surface",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
                                .spare = "off",
@@ -293,7 +354,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                          kNeedsImpulses}}},
              o.shading.bend},
       Option{{.name = "reciprocal", .words = "exact|refined|approximate",
-              .help = "1/sqrt of the kernels' normalizations: divided, or estimated with or without "
+              .help = "1/sqrt of normalizations in kernels: exact, or an estimate with or without "
                       "a Newton step",
               .cheapest = "approximate",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
@@ -301,7 +362,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .spare = "refined approximate"}},
              o.shading.reciprocal},
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
-              .help = "workers (default: what affinity and cgroup quota allow)",
+              .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
               .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
              o.threads},
       Option{{.name = "packet", .words = "auto|1|4|8|16",
@@ -311,7 +372,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .spare = "1 4 8 16"}},
              o.packet},
       Option{{.name = "simd", .words = "auto|avx3|avx2|sse4|sse2|neon|scalar",
-              .help = "kernel target, and the Embree ISA with it",
+              .help = "SIMD target of the kernels and of Embree",
               .rebuilds = Rebuild::acceleration, .tab = Tab::none},
              o.simd},
       Option{{.name = "mode", .words = "packets|reference",
@@ -322,7 +383,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .values = "packets reference", .spare = "reference"}},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
-              .help = "stages run over a tile at a time, or over the whole frame",
+              .help = "run each stage over one tile at a time, or over the whole frame",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.batch},
       Option{{.name = "robust", .words = "on|off", .help = "Embree's watertight traversal",
@@ -331,28 +392,28 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .crossed = "on off"}},
              o.robust},
       Option{{.name = "retry", .words = "on|off",
-              .help = "robust rays that find nothing in a closed scene are traced once more",
+              .help = "trace rays of --robust that miss in a closed scene once more",
               .rebuilds = Rebuild::acceleration,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
                                .spare = "off"}},
              o.retry},
       Option{{.name = "bvh", .words = "low|medium|high",
-              .help = "Embree's build quality; high, for spatial splits, is ignored by Embree when "
-                      "robust",
+              .help = "Embree's build quality; high adds spatial splits, which Embree ignores "
+                      "when robust",
               .rebuilds = Rebuild::acceleration,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
                                .values = "low medium high", .spare = "low high"}},
              o.bvh},
-      Option{{.name = "verdicts", .words = "auto|off|audit",
-              .help = "shadows proved beforehand, whose rays are not traced: auto: in films and "
-                      "pictures of so many samples that it pays, while the viewer rests, and in "
-                      "bench --ab-verdicts; audit: in bench and render, but traced all the same, "
-                      "and a wrong one ends the run",
+      Option{{.name = "shadow-cache", .words = "auto|off|audit",
+              .help = "cache of visibility that is proved for pieces of triangles, whose shadow rays "
+                      "are then not traced; auto: in films and pictures of many samples, in the "
+                      "viewer and in bench --ab-shadow-cache; audit: bench and render also trace "
+                      "the rays that the cache answers, and end where one differs",
               .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
              o.verdicts},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
-              .help = "triangles in place of the scene's exact spheres, so many around each and "
-                      "half as many from pole to pole, 4 or more; 0: they are exact",
+              .help = "triangles in place of exact spheres: N around and half as many from pole "
+                      "to pole, at least 4; 0: exact",
               .rebuilds = Rebuild::scene, .tab = Tab::none,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 16 48 192 384",
@@ -360,23 +421,23 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                               "the scene has no exact sphere"}}}},
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
-              .help = "kernels for what the scene calls for, or every effect",
+              .help = "kernels for the effects that the scene uses, or for every effect",
               .rebuilds = Rebuild::tables,
               .cheapest = "auto",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
                                .spare = "all"}},
              o.effects},
       Option{{.name = "quality", .words = "draft|standard|fine|reference",
-              .help = "presets of the other options",
+              .help = "preset of other options, see below",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.quality},
       Option{{.name = "disable", .words = "a,b",
-              .help = "effects left out (the names that whit info prints)",
+              .help = "effects to leave out, by the names that whit info prints",
               .rebuilds = Rebuild::tables, .tab = Tab::none},
              o.disable},
       Option{{.name = "exposure", .words = "EV|auto", .low = -64, .high = 64,
-              .help = "exposure of 8-bit output; auto: what the view calls for (default: 0, of "
-                      "models without a scene file auto)",
+              .help = "exposure of 8-bit output in stops; auto: measured in the view (default: 0, "
+                      "of models without a scene file auto)",
               .tab = Tab::picture, .everyday = true},
              o.exposure},
       Option{{.name = "tonemap", .words = "none|filmic|reinhard",
@@ -384,12 +445,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .tab = Tab::picture, .everyday = true},
              o.toneCurve},
       Option{{.name = "film", .words = "float|half|8bit",
-              .help = "numbers that the picture is kept in before exposure; 8bit: sRGB codes",
+              .help = "precision of pixels before exposure; 8bit: sRGB codes",
               .cheapest = "float",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "float",
                                .values = "float half 8bit", .spare = "half 8bit"}},
              o.film},
-      Option{{.name = "srgb", .words = "exact|table", .help = "how 8-bit codes are found",
+      Option{{.name = "srgb", .words = "exact|table", .help = "8-bit sRGB encoding: exactly "
+                      "rounded, or by a table",
               .cheapest = "table",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
                                .values = "exact table", .spare = "table"}},
@@ -399,13 +461,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.tile},
       Option{{.name = "queue", .words = "N", .low = 0, .high = 1 << 24,
-              .help = "rays a queue holds before the deeper one is drained (0: one tile)",
+              .help = "rays in a queue before the next depth is traced (0: one tile)",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.queue},
       Option{{.name = "channels", .words = "a,b",
-              .help = "kept beside the picture, of the surface that the sample nearest to each "
-                      "pixel's center meets first: depth, position, normal, albedo, uv, object, "
-                      "material, triangle, rays",
+              .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
+                      "the pixel's center: depth, position, normal, albedo, uv, object, material, "
+                      "triangle, rays",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},
@@ -422,11 +484,11 @@ void forEachOption(Options& o, Visitor&& visit) {
   withOptions(o, [&](const auto&... option) { (visit(option.spec, option.field), ...); });
 }
 
-// Effects that a scene's contents alone do not turn on: an option has to ask for them as well.
+// Effects that a scene does not switch on by itself: an option must ask for them as well.
 struct AskedFor {
   Effect effect;
   bool asked;
-  std::string_view otherwise;  // what is said where it is not
+  std::string_view otherwise;  // said if it does not
 };
 inline std::array<AskedFor, 4> effectsAskedFor(const RenderOptions& o) {
   return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
@@ -434,7 +496,7 @@ inline std::array<AskedFor, 4> effectsAskedFor(const RenderOptions& o) {
            {Effect::indirect, o.indirect > 0, "but --indirect is 0"},
            {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"}}};
 }
-// Those that the options do not ask for.
+// The effects above that the options do not ask for.
 inline EffectSet notAskedFor(const RenderOptions& o) {
   EffectSet set;
   for (const AskedFor& a : effectsAskedFor(o)) {

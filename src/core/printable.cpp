@@ -6,7 +6,7 @@ namespace whit {
 
 namespace {
 
-// Of the character at `at`; 0: none that is to be printed as it is.
+// The length in bytes of the character at `at`; 0 if it must not be printed as it is.
 std::size_t printableBytes(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(at);

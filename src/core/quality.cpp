@@ -1,19 +1,12 @@
 // Presets of the options that trade time for accuracy.
 #include "core/option_table.h"
-#include "core/option_values.h"
 
 namespace whit {
 
 namespace {
 
-struct Preset {
-  Quality quality;
-  int spp, depth;
-  float cutoff, lightCutoff;
-  Mode mode;
-};
+constexpr std::array kPresetOptions{"spp", "depth", "cutoff", "light-cutoff", "mode"};
 
-const RenderOptions kDefaults;
 // Points of the fronts that `whit accuracy` finds. Rays and mean FLIP against depth 64 and a cutoff
 // of 1e-5 in double precision at equal samples, 128x128:
 //
@@ -27,40 +20,37 @@ const RenderOptions kDefaults;
 // standard no more than one pixel in a thousand of whitted, mirrors, atrium and sponza-mirror is
 // two codes off; three times as much leaves six times as many. Without a cutoff, rays that branch
 // at every dielectric would double to the depth's limit.
-const Preset kPresets[] = {
-    {Quality::draft, 1, kDefaults.depth, 4.0e-3f, 1.0e-3f, Mode::packets},
-    {Quality::standard, kDefaults.spp, kDefaults.depth, kDefaults.cutoff,
-     kDefaults.shading.lightCutoff, kDefaults.mode},
-    {Quality::fine, 4, kDefaults.depth, kDefaults.cutoff, 1.0e-4f, Mode::packets},
-    {Quality::reference, 16, kDepthLimit, 1.0e-5f, 0, Mode::reference},
+// The rows stand in the order of Quality.
+constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
+    {"1", "64", "4e-3", "1e-3", "packets"},
+    {"1", "64", "1e-4", "0", "packets"},
+    {"4", "64", "1e-4", "1e-4", "packets"},
+    {"16", "64", "1e-5", "0", "reference"},
 };
 
 }  // namespace
 
 void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
-  for (const Preset& preset : kPresets) {
-    if (preset.quality != options.quality) continue;
-    if (!given.contains("spp")) options.spp = preset.spp;
-    if (!given.contains("depth")) options.depth = preset.depth;
-    if (!given.contains("cutoff")) options.cutoff = preset.cutoff;
-    if (!given.contains("light-cutoff")) options.shading.lightCutoff = preset.lightCutoff;
-    if (!given.contains("mode")) options.mode = preset.mode;
+  const auto& preset = kPresets[static_cast<std::size_t>(options.quality)];
+  for (std::size_t i = 0; i < preset.size(); ++i) {
+    if (!given.contains(kPresetOptions[i])) setOption(options, kPresetOptions[i], preset[i]);
   }
 }
 
 std::vector<QualityPreset> qualityPresets() {
+  const RenderOptions defaults;
   std::vector<QualityPreset> all;
-  for (const Preset& preset : kPresets) {
+  for (std::size_t i = 0; i < std::size(kPresets); ++i) {
     RenderOptions options;
-    options.quality = preset.quality;
+    options.quality = static_cast<Quality>(i);
     applyQuality(options, {});
-    QualityPreset said{optionText(options, "quality"), ""};
-    forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
-      const std::string name(spec.name), value = formatValue(spec, field);
-      if (name == "quality" || value == optionText(kDefaults, name)) return;
-      said.options += (said.options.empty() ? "--" : " --") + name + " " + value;
-    });
-    all.push_back(std::move(said));
+    QualityPreset preset{optionText(options, "quality"), ""};
+    for (const char* name : kPresetOptions) {
+      const std::string value = optionText(options, name);
+      if (value == optionText(defaults, name)) continue;
+      preset.options += (preset.options.empty() ? "--" : " --") + std::string(name) + " " + value;
+    }
+    all.push_back(std::move(preset));
   }
   return all;
 }

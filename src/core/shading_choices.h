@@ -9,7 +9,7 @@ namespace whit {
 // rendering"). Where reflection is total, both are 1.
 enum class FresnelModel { exact, schlick };
 
-// Of colors, reflectances and normal maps; alpha masks are always bilinear. Trilinear: between the
+// Filter of colors and normal maps; alpha masks are always bilinear. Trilinear: between the
 // two mip levels whose texels come closest to the pixel's footprint, which follows from a cone
 // about the ray (Akenine-Moeller et al. 2019, "Texture level of detail strategies for real-time ray
 // tracing", Ray Tracing Gems, chapter 20). Mirrors and glass hand the cone's spread on as it is,

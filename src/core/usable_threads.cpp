@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What one group grants itself; 0 for no limit.
+// The quota of one group in processors; 0 for no limit.
 double quotaOfGroup(const fs::path& group) {
   double period = 0;
   std::string quota;

@@ -95,4 +95,10 @@ struct Vec2f {
   bool operator==(const Vec2f&) const = default;
 };
 
+// How bright a color looks (Rec. 709).
+inline double luminance(const Rgb& c) {
+  return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
+         0.0722 * static_cast<double>(c.z);
+}
+
 }  // namespace whit

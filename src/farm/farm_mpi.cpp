@@ -90,7 +90,7 @@ struct Farm::Parts {
   int rank = 0, ranks = 1;
   int left = 0;  // ranks that have nothing more to do
 
-  // What the leader is told that is not a block.
+  // Handles the messages to the leader that are not blocks.
   void heed(const Letter& letter) {
     if (letter.kind == FarmMessage::failed) throwFailed(letter);
     left += letter.kind == FarmMessage::left;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bake/finalize_steps.h"
 #include "core/formatted.h"
 #include "core/pixel.h"
 #include "inspect/metrics.h"
@@ -21,20 +22,6 @@ constexpr EffectColor kEffectColors[] = {
     {Effect::alphaMasks, {0.05f, 0.35f, 0.05f}}, {Effect::glossy, {0.45f, 0.4f, 0.0f}},
     {Effect::emission, {0.7f, 0.25f, 0.0f}},     {Effect::mirror, {0.0f, 0.2f, 0.65f}},
     {Effect::transmission, {0.0f, 0.5f, 0.35f}}, {Effect::sky, {0.08f, 0.1f, 0.15f}}};
-
-EffectSet effectsOf(const Material& m) {
-  EffectSet e;
-  if (m.diffuseMap != kNoTexture || m.specularMap != kNoTexture || m.emissionMap != kNoTexture)
-    e = e.with(Effect::textures);
-  if (m.normalMap != kNoTexture) e = e.with(Effect::normalMaps);
-  if (m.alphaMap != kNoTexture) e = e.with(Effect::alphaMasks);
-  if (m.hasGlossy()) e = e.with(Effect::glossy);
-  if (maxComponent(m.emission) > 0) e = e.with(Effect::emission);
-  if (m.hasMirror() || (m.boundsMedium() && m.ior != 1)) e = e.with(Effect::mirror);
-  if (m.passesLight()) e = e.with(Effect::transmission);
-  if (m.isPartlyThere()) e = e.with(Effect::coverage);
-  return e;
-}
 
 Rgb colorOf(EffectSet effects) {
   Rgb sum{0, 0, 0};

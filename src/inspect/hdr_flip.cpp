@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/luminance.h"
 #include "core/quantile.h"
+#include "core/vec3.h"
 #include "inspect/metrics.h"
 
 namespace whit {

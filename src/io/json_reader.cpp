@@ -65,9 +65,9 @@ double JsonValue::expression(const std::string& text) const {
     std::vector<std::string> names;
     for (const auto& [known, value] : document_->parameters) names.push_back(known);
     const std::string nearest = nearestName(name, names);
-    fail("a number or a parameter" + (nearest.empty()
-                                          ? "; the scene has no parameters"
-                                          : " (is " + inQuotes("$" + nearest) + " meant?)"));
+    std::string more = names.empty() ? "; the scene has no parameters" : "";
+    if (!nearest.empty()) more = " (is " + inQuotes("$" + nearest) + " meant?)";
+    fail("a number or a parameter" + more);
   }
   if (sign == text.size()) return parameter->second;
   char* rest = nullptr;
@@ -170,7 +170,7 @@ JsonValue JsonObject::need(const std::string& key) {
   for (const auto& [name, member] : value_.members()) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) others.push_back(name);
   }
-  const std::string meant = nearName(key, others);
+  const std::string meant = nearestName(key, others);
   throwBadScene(value_.where(), "expected a member " + inQuotes(key) +
                                     (meant.empty() ? "" : ", there is " + inQuotes(meant)));
 }
@@ -178,16 +178,6 @@ JsonValue JsonObject::need(const std::string& key) {
 float JsonObject::number(const std::string& key, double fallback, double low, double high) {
   const auto value = find(key);
   return static_cast<float>(value ? value->number(low, high) : fallback);
-}
-
-Vec3f JsonObject::vector(const std::string& key, const Vec3f& fallback) {
-  const auto value = find(key);
-  return value ? Vec3f(value->vector()) : fallback;
-}
-
-Rgb JsonObject::color(const std::string& key, const Rgb& fallback, double high) {
-  const auto value = find(key);
-  return value ? value->color(high) : fallback;
 }
 
 void JsonObject::finish() const {

@@ -2,19 +2,19 @@
 // its keys were asked for, so that errors name the place and misspelt keys do not go unnoticed.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "core/vec3.h"
 #include "io/scene/json_text.h"
+#include "scene/members.h"
 
 namespace whit {
-
-// Numbers in a scene stay below what Embree takes for a coordinate.
-inline constexpr double kLargestNumber = 1e18;
 
 // What all values of one file share. Numbers may be written "$name", "$name*0.5" or "$name/2", with
 // a parameter's name.
@@ -76,8 +76,6 @@ class JsonObject {
 
   float number(const std::string& key, double fallback, double low = -kLargestNumber,
                double high = kLargestNumber);
-  Vec3f vector(const std::string& key, const Vec3f& fallback);
-  Rgb color(const std::string& key, const Rgb& fallback, double high = kLargestNumber);
 
   // Fails at a key that was never asked for, naming the nearest that was.
   void finish() const;
@@ -86,5 +84,48 @@ class JsonObject {
   JsonValue value_;
   std::vector<std::string> known_;
 };
+
+// Finds the entry that `name` names; an error suggests the nearest. `kind` has an article: "a
+// material".
+template <typename Entries>
+typename Entries::const_iterator findNamed(const Entries& entries, const JsonValue& name,
+                                           const std::string& kind) {
+  const auto found = entries.find(name.text());
+  if (found != entries.end()) return found;
+  std::vector<std::string> names;
+  names.reserve(entries.size());
+  for (const auto& [known, entry] : entries) names.push_back(known);
+  const std::string nearest = nearestName(name.text(), names);
+  name.fail("the name of " + kind +
+            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+}
+
+template <typename Noun, typename Value>
+void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value& value) {
+  const MemberRules<Noun>& rules = member.rules;
+  if constexpr (std::is_same_v<Value, bool>) {
+    value = json.flag();
+  } else if constexpr (std::is_integral_v<Value>) {
+    value = json.integer(static_cast<int>(rules.low), static_cast<int>(rules.high));
+  } else if constexpr (std::is_same_v<Value, Vec3f>) {
+    value = rules.kind == MemberKind::color ? json.color(rules.high) : Vec3f(json.vector());
+  } else if constexpr (std::is_same_v<Value, Light::Kind>) {
+    const std::string word = json.word({kLightKindNames.begin(), kLightKindNames.end()});
+    const auto* const found = std::find(kLightKindNames.begin(), kLightKindNames.end(), word);
+    value = static_cast<Value>(found - kLightKindNames.begin());
+  } else {
+    value = static_cast<Value>(json.number(rules.low, rules.high));
+  }
+}
+
+// Reads the members that the object gives, except maps; the others keep their values.
+template <typename Noun>
+void readMembers(JsonObject& object, Noun& noun) {
+  forEachMemberInFiles(noun, [&](const auto& member) {
+    const std::optional<JsonValue> json =
+        member.rules.required ? object.need(member.name) : object.find(member.name);
+    if (json) readMember(*json, member, noun.*member.field);
+  });
+}
 
 }  // namespace whit

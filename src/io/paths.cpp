@@ -147,10 +147,11 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate;
   }
-  const std::string nearest = nearestName(file, shippedNames(folders));
-  throwUsage("no scene is called \"" + file + "\"" +
-             (nearest.empty() ? std::string(" (no scenes found; is $WHIT_SCENES set?)")
-                              : "; did you mean \"" + nearest + "\"?"));
+  const std::vector<std::string> names = shippedNames(folders);
+  const std::string nearest = nearestName(file, names);
+  std::string more = names.empty() ? " (no scenes found; is $WHIT_SCENES set?)" : "";
+  if (!nearest.empty()) more = "; did you mean \"" + nearest + "\"?";
+  throwUsage("no scene is called \"" + file + "\"" + more);
 }
 
 std::vector<fs::path> shippedScenes() {

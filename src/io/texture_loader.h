@@ -20,16 +20,6 @@
 
 namespace whit {
 
-// What an image is used for.
-enum class TextureUse {
-  color,
-  emission,  // a color that is not held to 1
-  data,
-  bump,        // a height map becomes a normal map, a normal map stays what it is
-  mask,        // alpha, if any texel is not opaque; else the first channel
-  colorAlpha,  // alpha, if any texel is not opaque; else no texture at all
-};
-
 struct TextureSource {
   std::string path;
   std::string where;  // who named it

@@ -1,4 +1,4 @@
-// What comes out of the library: api::Error, and what a callback of the caller's throws.
+// Turns exceptions into api::Error, except those that a callback of the caller throws.
 #pragma once
 
 #include <exception>
@@ -27,7 +27,7 @@ class CallbackProgress : public whit::Progress {
     if (!stopped_) stopped_ = !goesOn(phase, fraction);
     if (stopped_) throw Stopped();
   }
-  // What the caller is told of that.
+  // Throws the callback's own exception, or else an Error of status 130.
   [[noreturn]] void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
     constexpr int kInterrupted = 130;
@@ -66,7 +66,7 @@ decltype(auto) guarded(Body&& body) {
   }
 }
 
-// Likewise of long work: `body` is given what to tell, or null.
+// The same for long work: `body` is given the progress to report to, or null.
 template <typename Body>
 decltype(auto) guarded(const Progress& callback, Body&& body) {
   CallbackProgress progress(callback);

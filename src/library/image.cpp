@@ -4,7 +4,7 @@
 #include "io/image/image_layers.h"
 #include "io/paths.h"
 #include "library/guarded.h"
-#include "library/image_data.h"
+#include "library/private_data.h"
 
 namespace whit::api {
 

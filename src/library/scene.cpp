@@ -4,7 +4,7 @@
 
 #include "core/version.h"
 #include "library/guarded.h"
-#include "library/scene_data.h"
+#include "library/private_data.h"
 
 namespace whit::api {
 

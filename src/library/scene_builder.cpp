@@ -3,7 +3,7 @@
 #include "io/scene/json_text.h"
 #include "io/scene/scene_settings.h"
 #include "library/guarded.h"
-#include "library/scene_data.h"
+#include "library/private_data.h"
 
 namespace whit::api {
 
@@ -28,39 +28,35 @@ Json describe(const Light& light) {
 }
 
 Json describe(const Camera& camera) {
-  Json json{{"eye", camera.eye}, {"at", camera.at}, {"up", camera.up}, {"fov", camera.fov}};
-  if (camera.orthographicHeight != 0) json["orthographicHeight"] = camera.orthographicHeight;
-  return json;
+  return {{"eye", camera.eye},
+          {"at", camera.at},
+          {"up", camera.up},
+          {"fov", camera.fov},
+          {"orthographicHeight", camera.orthographicHeight}};
 }
 
-// Members that decide on others are written only where they are given.
+// Writes only members that are given, because others may follow from them.
 Json describe(const Material& m) {
-  Json json{{"diffuse", m.diffuse},
-            {"specular", m.specular},
-            {"emission", m.emission},
-            {"roughness", m.roughness},
-            {"ior", m.ior}};
-  const auto addGiven = [&](const char* name, const auto& value) {
-    if (value) json[name] = *value;
+  Json json;
+  const auto add = [&]<typename T>(const char* name, const T& value) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      if (!value.empty()) json[name] = value;
+    } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vector>) {
+      json[name] = value;
+    } else if (value) {
+      json[name] = *value;
+    }
   };
-  addGiven("mirror", m.mirror);
-  addGiven("mirrorGrazing", m.mirrorGrazing);
-  addGiven("transmission", m.transmission);
-  addGiven("absorption", m.absorption);
-  addGiven("thin", m.thin);
-  addGiven("glossyReflection", m.glossyReflection);
-  addGiven("castsShadow", m.castsShadow);
-  if (m.coverage != 1) json["coverage"] = m.coverage;
-  const auto addMap = [&](const char* name, const std::string& map) {
-    if (!map.empty()) json[name] = map;
-  };
-  addMap("diffuseMap", m.diffuseMap);
-  addMap("specularMap", m.specularMap);
-  addMap("roughnessMap", m.roughnessMap);
-  addMap("emissionMap", m.emissionMap);
-  addMap("normalMap", m.normalMap);
-  addMap("alphaMap", m.alphaMap);
-  addMap("coverageMap", m.coverageMap);
+  add("diffuse", m.diffuse), add("diffuseMap", m.diffuseMap);
+  add("specular", m.specular), add("specularMap", m.specularMap);
+  add("roughness", m.roughness), add("roughnessMap", m.roughnessMap);
+  add("emission", m.emission), add("emissionMap", m.emissionMap);
+  add("normalMap", m.normalMap), add("alphaMap", m.alphaMap);
+  add("coverage", m.coverage), add("coverageMap", m.coverageMap);
+  add("mirror", m.mirror), add("mirrorGrazing", m.mirrorGrazing);
+  add("transmission", m.transmission), add("thin", m.thin);
+  add("ior", m.ior), add("absorption", m.absorption);
+  add("glossyReflection", m.glossyReflection), add("castsShadow", m.castsShadow);
   return json;
 }
 

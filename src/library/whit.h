@@ -35,7 +35,7 @@ namespace whit::api {
 // file and line or JSON pointer.
 class Error : public std::runtime_error {
  public:
-  // What is known of where it is, each empty where it is not.
+  // Where the error is; members that are not known are empty.
   struct Place {
     std::string file;      // the file, or the name of a scene made in memory
     std::string place;     // line ("12", "12:5") or JSON pointer ("/lights/0") in it
@@ -83,7 +83,7 @@ struct LoadOptions {
   Progress progress = {};
 };
 
-// What moves a scene from 0 to `seconds`; before and after it stands still.
+// An animation from 0 to `seconds`; before and after, everything stands still.
 struct Animation {
   std::string name;
   double seconds = 0;
@@ -131,7 +131,7 @@ struct MeshArrays {
   std::shared_ptr<const void> keep = {};
 };
 
-// Likewise of an image: 1 to 4 interleaved channels, row by row from the top; one channel is gray,
+// Arrays of an image: 1 to 4 interleaved channels, row by row from the top; one channel is gray,
 // the second or fourth alpha. Either codes of 8 bits (of colors in sRGB) or linear values.
 struct ImageArrays {
   int width = 0, height = 0, channels = 3;
@@ -160,8 +160,8 @@ struct Light {
   double innerConeAngle = 0, outerConeAngle = 45;  // of spot lights, degrees from the direction
 };
 
-// What is not given is as scene files have it (share/doc/whit/scenes/README.md). Maps are names of
-// textures.
+// Members that are not given have the defaults of scene files (share/doc/whit/scenes/README.md).
+// Maps are names of textures.
 struct Material {
   Vector diffuse{0.8, 0.8, 0.8}, specular{0, 0, 0}, emission{0, 0, 0};
   double roughness = 0.5, coverage = 1, ior = 1.5;
@@ -172,7 +172,7 @@ struct Material {
 
 // A scene made in memory: validated as files are, with the same errors, and with all that scene
 // files can say. What is added says where it is, a JSON pointer, for setMember(), setTransform()
-// and LoadOptions::movable. What is wrong is said by build().
+// and LoadOptions::movable. build() reports errors.
 class SceneBuilder {
  public:
   // `description`: what a scene file says, in JSON, to begin with. `name` stands for its file.
@@ -322,7 +322,7 @@ class Renderer {
   // From the scene's camera path, `seconds` after its begin.
   void renderOnPath(double seconds, Image& image);
 
-  // Of the last frame.
+  // Statistics of the last frame.
   const FrameStatistics& statistics() const;
 
  private:

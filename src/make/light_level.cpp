@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bake/placed_triangles.h"
-#include "core/luminance.h"
+#include "core/vec3.h"
 
 namespace whit {
 

@@ -4,7 +4,7 @@
 
 #include "bake/eye_in_plane.h"
 #include "reference/find_intersections.h"
-#include "reference/settle_flush.h"
+#include "reference/settle_coplanar.h"
 
 namespace whit::reference {
 

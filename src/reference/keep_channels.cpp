@@ -7,7 +7,7 @@
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
-#include "reference/settle_flush.h"
+#include "reference/settle_coplanar.h"
 #include "sampling/sample_pattern.h"
 
 namespace whit::reference {

@@ -11,7 +11,7 @@
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
-#include "reference/settle_flush.h"
+#include "reference/settle_coplanar.h"
 #include "reference/update_image.h"
 #include "sampling/probe_samples.h"
 #include "sampling/random_streams.h"

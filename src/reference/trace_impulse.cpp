@@ -8,7 +8,7 @@
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/media.h"
 #include "reference/reference.h"
-#include "reference/settle_flush.h"
+#include "reference/settle_coplanar.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/sample_pattern.h"
@@ -98,7 +98,7 @@ std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
     if (!liesInSurface(scene_, ray.origin, candidate.triangle, candidate.instance)) break;
     ray.tNear = wayPastEye(ray.origin, attempt);
   }
-  const Settled settled = settleFlush(scene_, effects_, ray, candidate);
+  const Settled settled = settleCoplanar(scene_, effects_, ray, candidate);
   intersector_.met(settled.candidate);
   return settled;
 }

@@ -38,7 +38,7 @@ std::uint32_t mediaOf(const Chunk& chunk, std::size_t slot) {
 }
 
 std::uint32_t alsoCrossedAt(const Chunk& chunk, std::size_t slot) {
-  return chunk.has(Feature::flush) ? chunk.hits.alsoCrossed[slot] : 0;
+  return chunk.has(Feature::coplanar) ? chunk.hits.alsoCrossed[slot] : 0;
 }
 
 bool isHidden(const Chunk& chunk, std::size_t slot) {

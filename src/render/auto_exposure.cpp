@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/luminance.h"
 #include "core/quantile.h"
+#include "core/vec3.h"
 #include "core/worker_pool.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"

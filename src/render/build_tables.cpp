@@ -76,7 +76,7 @@ bool isRadiance(const Scene& scene, std::int32_t map) {
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   tables.materials.clear();
   tables.radianceMaps = false;
-  const bool onOthers = scene.media.size() > 1 && !scene.flush.empty();
+  const bool onOthers = scene.media.size() > 1 && !scene.coplanar.empty();
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     MaterialRecord r = recordOf(scene.materials[i], scene.mediumOfMaterial[i], onOthers, effects);
     if (isRadiance(scene, r.emissionMap)) {

@@ -3,6 +3,7 @@
 #include "core/option_table.h"
 #include "core/option_values.h"
 #include "core/version.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -13,11 +14,15 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
                                                                const RenderOptions& options) {
   RenderOptions resolved = options;
   resolved.size = ImageSize{film.image.width, film.image.height};
-  resolved.eye = camera.eye;  // also of a camera on a path, which has no name
-  resolved.at = camera.at;
-  resolved.up = camera.up;
-  resolved.fov = camera.fov;
-  if (camera.orthographicHeight > 0 || resolved.ortho) resolved.ortho = camera.orthographicHeight;
+  // A camera on a path has no name, so its members are written: all but numbers that are 0, which
+  // nobody asked for.
+  forEachCameraOption([&](auto option, auto member) {
+    const auto& value = camera.*member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) {
+      if (value == 0 && !(options.*option)) return;
+    }
+    resolved.*option = value;
+  });
   if (options.mode == Mode::packets) {
     resolved.packet = renderer.machine().packet;
     resolved.simd = renderer.machine().simd;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -11,11 +12,9 @@ namespace {
 constexpr std::uint64_t kBytesPerPixel = 32;
 
 Camera aimed(Camera camera, const RenderOptions& options) {
-  camera.eye = options.eye.value_or(camera.eye);
-  camera.at = options.at.value_or(camera.at);
-  camera.up = options.up.value_or(camera.up);
-  camera.fov = options.fov.value_or(camera.fov);
-  camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
+  forEachCameraOption([&](auto option, auto member) {
+    if (options.*option) camera.*member = *(options.*option);
+  });
   return camera;
 }
 
@@ -31,8 +30,8 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
       if (c.name == options.camera) found = &c;
     }
     if (!found) {
-      throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'; nearest: '" +
-                 nearestName(options.camera, names) + "'");
+      throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
+                 didYouMean(options.camera, names));
     }
     camera = *found;
   }

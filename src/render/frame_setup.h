@@ -13,11 +13,11 @@
 
 namespace whit {
 
-// The camera that the options ask for: --camera, then --eye, --at, --up, --fov on top of it.
+// The camera that the options ask for: --camera, changed by the options of forEachCameraOption().
 // Throws Error(usage) naming the nearest camera.
 Camera chooseCamera(const Scene& scene, const RenderOptions& options);
-// Where the scene's camera path is at `seconds`, with --eye, --at, --up, --fov on top. Throws
-// Error(usage) when the scene has no path.
+// The scene's camera path at `seconds`, changed by the same options. Throws Error(usage) when the
+// scene has no path.
 Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
 // The camera as kernels take it.
 CameraRays cameraRays(const CameraFrame& camera);

@@ -7,7 +7,7 @@
 #include "render/audit_shadows.h"
 #include "render/initial_media.h"
 #include "render/keep_channels.h"
-#include "render/settle_flush.h"
+#include "render/settle_coplanar.h"
 #include "render/update_image.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"
@@ -54,12 +54,14 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::absorption, e.has(Effect::absorption))
       .with(Feature::instances, e.has(Effect::instances))
       .with(Feature::spheres, e.has(Effect::spheres))
-      .with(Feature::flush, !scene.flush.empty())
+      .with(Feature::coplanar, !scene.coplanar.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
       // Where no vertex normal differs from its triangle's there is nothing to lift.
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
+      .with(Feature::textures, e.has(Effect::textures))
+      .with(Feature::normalMaps, e.has(Effect::normalMaps))
       .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
 }
 
@@ -138,8 +140,8 @@ class Planner {
   void findIntersections() {
     plan_.perQueue = {embreeStep("findHits", "intersect", findHits, simd::kPackRays,
                                  simd::kUnpackHits, inPackets())};
-    if (plan_.features.has(Feature::flush)) {
-      plan_.perQueue.push_back(amendingStep("settleFlush", simd::kUnpackHits, settleFlush,
+    if (plan_.features.has(Feature::coplanar)) {
+      plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels, plan_.effects));

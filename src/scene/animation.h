@@ -1,4 +1,4 @@
-// What moves in a scene, and the instant at which it is looked at.
+// Animations of a scene, and the instant at which the scene is evaluated.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace whit {
 
-// The name of what scene files move themselves ("motion"), taken together.
+// Name of the animation that scene files describe themselves ("motion").
 inline constexpr char kSceneMotion[] = "scene";
 
-// One that a model's file has. It lasts from 0 to `seconds`; before and after it stands still.
+// An animation of a model's file from 0 to `seconds`; before and after, everything stands still.
 struct Animation {
   std::string name;       // the file's, or "animation N", counted from 0
   double seconds = 0;     // the time of its last key

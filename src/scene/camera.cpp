@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/members.h"
+
 namespace whit {
 
 namespace {
@@ -14,6 +16,11 @@ Vec3f hermite(const Vec3d& p0, const Vec3d& m0, const Vec3d& p1, const Vec3d& m1
                m1 * (s3 - s2));
 }
 
+float between(float a, float b, double s) { return static_cast<float>(a * (1 - s) + b * s); }
+Vec3f between(const Vec3f& a, const Vec3f& b, double s) {
+  return Vec3f(Vec3d(a) * (1 - s) + Vec3d(b) * s);
+}
+
 // Velocity at keyframe i: the slope between its neighbors, or towards the only one there is.
 Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*point) {
   const Keyframe& before = path[i == 0 ? 0 : i - 1];
@@ -22,14 +29,16 @@ Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*
   return (Vec3d(after.camera.*point) - Vec3d(before.camera.*point)) / seconds;
 }
 
-// For cameras whose own `up` is of no use: +y is up, and where the view is vertical, what a level
-// camera looking along -z comes to by tilting.
+// Replaces an `up` that is parallel to the view: +y is up; a vertical view is that of a level
+// camera that looked along -z before it was tilted.
 Vec3d fallbackRight(const Vec3d& forward) {
   const bool vertical = std::abs(forward.y) > 0.999;
   return normalized(cross(forward, vertical ? Vec3d{0, 0, forward.y} : Vec3d{0, 1, 0}));
 }
 
 }  // namespace
+
+bool sameView(const Camera& a, const Camera& b) { return sameMembers(a, b); }
 
 Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   if (!(time > path.front().time)) return path.front().camera;
@@ -44,27 +53,24 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time) {
                    Vec3d(b.camera.*point), velocity(path, next, point) * seconds, s);
   };
   Camera camera = a.camera;
+  forEachMember<Camera>([&](const auto& member) {
+    auto& value = camera.*member.field;
+    value = between(value, b.camera.*member.field, s);
+  });
   camera.eye = along(&Camera::eye);
   camera.at = along(&Camera::at);
-  camera.up = Vec3f(Vec3d(a.camera.up) * (1 - s) + Vec3d(b.camera.up) * s);
-  const auto between = [&](float Camera::*value) {
-    return static_cast<float>(a.camera.*value * (1 - s) + b.camera.*value * s);
-  };
-  camera.fov = between(&Camera::fov);
-  camera.orthographicHeight = between(&Camera::orthographicHeight);
   return camera;
 }
 
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   // Closer to parallel than this, rounding of the float `up` decides where it points.
   constexpr double kParallel = 1e-6;
-  constexpr double kSmallestFov = 1e-3, kLargestFov = 179.9;
   const Vec3d eye = isFinite(camera.eye) ? Vec3d(camera.eye) : Vec3d{};
   const Vec3d forward = normalized(Vec3d(camera.at) - eye, Vec3d{0, 0, -1});
   const Vec3d across = cross(forward, normalized(Vec3d(camera.up)));
   const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
   const double asked = camera.fov;
-  const double fov = asked > kSmallestFov ? std::min(asked, kLargestFov) : kSmallestFov;
+  const double fov = asked > kLeastFov ? std::min(asked, kLargestFov) : kLeastFov;
   const bool orthographic = camera.orthographicHeight > 0;
   const double pixel =
       (orthographic ? camera.orthographicHeight : 2 * std::tan(fov * (std::numbers::pi / 360))) /

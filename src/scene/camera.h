@@ -9,6 +9,7 @@
 
 namespace whit {
 
+// Members are listed in scene/members.h.
 struct Camera {
   std::string name = "default";
   Vec3f eye{0, 0, 5};
@@ -20,22 +21,19 @@ struct Camera {
   float orthographicHeight = 0;
 };
 
-// Whether both see the same: the name does not count.
-inline bool sameView(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.at == b.at && a.up == b.up && a.fov == b.fov &&
-         a.orthographicHeight == b.orthographicHeight;
-}
+// Compares all members but the name.
+bool sameView(const Camera& a, const Camera& b);
 
 struct Keyframe {
   float time = 0;  // seconds
   Camera camera;
 };
 
-// Where the camera is at `time`: Catmull-Rom through eye and at, linear in fov and height. Clamped
-// to the ends. Needs at least one keyframe, in order of time.
+// Interpolates the keyframes at `time`: Catmull-Rom through eye and at, linearly in all other
+// members. Clamped to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
-// What the ray generator needs, worked out once a frame in double: the direction through image
+// Input of the ray generator, computed once a frame in double: the direction through image
 // position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
 // normalized. Directions never come from a difference of world positions, so a camera far from the
 // origin loses nothing (hard case H75). Orthographic rays have the direction forward and start as

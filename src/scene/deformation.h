@@ -18,7 +18,7 @@ struct MorphTarget {
   std::vector<Vec3f> positions, normals;  // by how much each is moved; empty: not at all
 };
 
-// What holds a vertex. The weights of one are scaled to the sum 1.
+// A joint's share in a vertex. The weights of a vertex are scaled to the sum 1.
 struct Influence {
   std::uint32_t joint = 0;
   double weight = 0;
@@ -35,15 +35,15 @@ struct Deformation {
     Affine fromMesh;         // from the mesh as it was modelled to the joint's own space
   };
   std::vector<Joint> joints;
-  // Of the vertex i from firstInfluence[i] to firstInfluence[i + 1]. None: no joint holds it, and
-  // it stays where it was modelled.
+  // Vertex i has the influences from firstInfluence[i] to firstInfluence[i + 1]. A vertex without
+  // influences stays where it was modelled.
   std::vector<std::uint32_t> firstInfluence;
   std::vector<Influence> influences;
 
   bool hasSkin() const { return skeleton != nullptr; }
-  // Whether it stays as it was modelled, at all times.
+  // True if the mesh keeps its modelled shape at all times.
   bool none() const;
-  // Whether it depends on time.
+  // True if the shape depends on time.
   bool moves() const;
 };
 
@@ -52,7 +52,7 @@ struct DeformedVertices {
   bool mirrored = false;                  // the skin turns more than half of them inside out
 };
 
-// What a mesh is bent by at a time.
+// Weights and joint transforms at one time.
 struct DeformationPose {
   std::vector<double> weights;  // of targets
   std::vector<Affine> joints;   // from the mesh as it was modelled

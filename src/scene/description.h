@@ -1,4 +1,4 @@
-// What readers and generators fill in: the scene as its author describes it, before it is baked.
+// The scene as its author describes it, before it is baked. Readers and generators fill it in.
 #pragma once
 
 #include <cstdint>

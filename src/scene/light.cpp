@@ -92,12 +92,12 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
 
 namespace {
 
-// Of the upper and the lower hemisphere.
+// Means over the upper and the lower hemisphere.
 struct Means {
   Rgb up{0, 0, 0}, down{0, 0, 0};
 };
 
-// Those of the sky, times `factor`.
+// Cosine-weighted means of the sky, times `factor`.
 Means meansOf(const Sky& sky, double factor) {
   // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
   constexpr double kMeanSine = 2.0 / 3.0;

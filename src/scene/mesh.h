@@ -49,9 +49,9 @@ struct Object {
   std::vector<Mesh> meshes;
 };
 
-// Of opaque faces in one place light meets the last in the order of the scene: by the sum of this
-// rank and the mesh's, then by the instances in their order, an object's meshes in theirs, and the
-// triangles in theirs.
+// Rays hit the last of coincident opaque faces in the order of the scene: by the sum of this rank
+// and the mesh's, then in the order of the instances, of the object's meshes, and of the
+// triangles.
 struct Instance {
   std::uint32_t object = 0;
   Affine toWorld;  // where something carries it: to the space of that

@@ -1,4 +1,4 @@
-// What moves in a scene.
+// Moving cameras and lights, and the rig that moves instances.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace whit {
 
-// Where they stand without the rig, and the node that carries them. A camera without a node flies
-// along the scene's camera path.
+// Cameras and lights in the space of the node that moves them. A camera without a node follows the
+// scene's camera path.
 struct MovingCamera {
   std::uint32_t camera = 0, node = kNoNode;
   Camera own;
@@ -22,9 +22,9 @@ struct MovingLight {
   Vec3f position, direction;
 };
 
-// Where they are when the node that carries them maps its space to the world like this. A camera's
-// target is as far away as the map says, but never so near, compared with the distance from the
-// origin, that the rounding of both would turn the view.
+// Transforms a camera or a light by the map from its node to the world. A camera's target is as far
+// away as the map says, but never so near, compared with the distance from the origin, that the
+// rounding of both would turn the view.
 void carry(const Camera& own, const Affine& map, Camera& camera);
 void carry(const MovingLight& own, const Affine& map, Light& light);
 

@@ -23,6 +23,21 @@ enum class TexelFormat : std::uint8_t {
   radiance,
 };
 
+// Purposes that an image is read for.
+enum class TextureUse : std::uint8_t {
+  color,
+  emission,  // a color whose channels may go beyond 1
+  data,
+  bump,        // a height map becomes a normal map, a normal map stays unchanged
+  mask,        // alpha, if any texel is not opaque; else the first channel
+  colorAlpha,  // alpha, if any texel is not opaque; else no texture at all
+};
+
+inline TexelFormat formatOf(TextureUse use) {
+  const bool isColor = use == TextureUse::color || use == TextureUse::emission;
+  return isColor ? TexelFormat::color : TexelFormat::data;
+}
+
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v

@@ -66,7 +66,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(float, u, always)                   \
   X(float, v, always)                   \
   X(std::uint32_t, instance, instances) \
-  X(std::uint32_t, alsoCrossed, flush)
+  X(std::uint32_t, alsoCrossed, coplanar)
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray

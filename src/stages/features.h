@@ -25,10 +25,12 @@ namespace whit {
   X(absorption, "media that absorb")                                      \
   X(instances, "hits on instances")                                       \
   X(spheres, "hits on exact spheres")                                     \
-  X(flush, "triangles that share their place with others")                \
+  X(coplanar, "triangles that overlap others in their plane")             \
   X(shadows, "shadow rays")                                               \
   X(lift, "shadow rays that start above their facets (--terminator)")     \
   X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
+  X(textures, "maps of colors")                                           \
+  X(normalMaps, "maps of normals")                                        \
   X(secondUvs, "maps looked up with second texture coordinates")
 
 enum class Feature : std::uint8_t {

@@ -213,7 +213,7 @@ TEST(AccuracyProgram, WrongUsageSaysWhatWasExpected) {
   EXPECT_EQ(status({"mirrors", "--out", out, "--quick", "--full"}, "exclude each other"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--time-budget", "-1"}, "--time-budget"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--truth", "life"}, "--truth"), 2);
-  EXPECT_EQ(status({"mirrors", "--out", out, "--knobs", "dept"}, "nearest: 'depth'"), 2);
+  EXPECT_EQ(status({"mirrors", "--out", out, "--knobs", "dept"}, "did you mean 'depth'?"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--mode", "reference"}, "leave out --mode"), 2);
   EXPECT_EQ(status({"mirrors", "--out", out, "--check", folder / "none.csv"}, "none.csv"), 4);
 }

@@ -124,15 +124,6 @@ TEST(AccuracyReport, VerdictsFollowTheNumbers) {
   EXPECT_NE(verdictList(sweep).find("&#10003;</b> half the time"), std::string::npos);
 }
 
-TEST(AccuracyReport, EmbedsTheHardCasesThatRan) {
-  RunFacts facts;
-  EXPECT_NE(reportHtml({sweepOfThree()}, facts).find("whit stress"), std::string::npos);
-  facts.hardCases = "<table><tr><td>H1</td></tr></table>";
-  const std::string html = reportHtml({sweepOfThree()}, facts);
-  expectBalanced(html);
-  EXPECT_NE(html.find(facts.hardCases), std::string::npos);
-}
-
 // RFC 4648, section 10.
 TEST(AccuracyReport, Base64) {
   const std::string head = "data:image/png;base64,";

@@ -99,7 +99,7 @@ TEST(Knobs, UnknownNamesNameTheNearest) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::usage);
-    EXPECT_NE(std::string(error.what()).find("nearest: 'depth'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("did you mean 'depth'?"), std::string::npos);
   }
 }
 

@@ -73,7 +73,7 @@ TEST(SceneDigest, EveryTableMatters) {
 }
 
 // Which of two faces in one place comes first is in no other table.
-TEST(SceneDigest, TheOrderOfFlushFacesMatters) {
+TEST(SceneDigest, TheOrderOfCoplanarFacesMatters) {
   const auto withRanks = [](std::uint64_t first, std::uint64_t second) {
     return digestAfter([&](SceneDescription& d) {
       d.objects[0].meshes.push_back(d.objects[0].meshes[0]);

@@ -33,7 +33,7 @@ def hovering(count):
             "sky": {"color": 0.2}, "ambient": {"fromSky": 1},
             "materials": {"gem": {"mirror": 0.5}},
             "objects": {"gem": [{"shape": "icosphere", "level": 2, "material": "gem"}]},
-            "scene": [{"shape": "grid", "nx": 256, "nz": 256, "width": 8 * side, "depth": 8 * side,
+            "scene": [{"shape": "canopy", "nx": 256, "ny": 256, "width": 8 * side, "depth": 8 * side,
                        "transform": {"translate": [0, -1, 0]}}] + items}
 
 

@@ -73,7 +73,7 @@ TEST(Channels, WhatCannotBeIsSaid) {
         {"render", scene, "-o", folder / output, "--channels", channels, "--exr", exr, "--quiet"},
         folder);
   };
-  refuse(2, "nearest: 'depth'", "a.exr", "deth");
+  refuse(2, "did you mean 'depth'?", "a.exr", "deth");
   refuse(2, "expected an EXR to keep them in", "a.png", "depth");
   refuse(2, "positions do not fit into a PNG", "a.position.png", "position");
   refuse(2, "dwaa is lossy for channels", "a.exr", "depth", "dwaa");

@@ -1,4 +1,4 @@
-// whit turntable as users run it.
+// Turntables and films as users make them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -136,21 +136,48 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
     EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
     EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
   };
-  refuse(2, "expected a film or pictures", {});
-  refuse(2, "ends in .mp4 or .png or .exr", {"-o", folder / "a.gif"});
+  refuse(2, "expected a file to write", {});
+  refuse(2, "ends in .exr or .png or .mp4", {"-o", folder / "a.gif"});
+  refuse(2, "one film", {"-o", folder / "a.mp4", "-o", folder / "b.mp4"});
+  refuse(2, "--resume", {"-o", folder / "a.mp4", "--resume"});
   refuse(2, "####", {"-o", folder / "a.png"});
   refuse(2, "even numbers", {"-o", folder / "a.mp4", "--size", "31x20"});
-  refuse(2, "--range", {"-o", folder / "a#.png", "--frames", "4", "--range", "2..4"});
-  refuse(2, "--range makes pictures", {"-o", folder / "a.mp4", "--range", "2"});
+  refuse(2, "--frames", {"-o", folder / "a#.png", "--range", "4..2"});
   refuse(4, "there is no folder", {"-o", folder / "none/a.mp4"});
   EXPECT_EQ(turn(folder / "none.glb", {"-o", folder / "a.mp4"}).status, 4);
 }
 
+TEST(Film, FramesAreThoseOfTheirOwnFiles) {
+  const TemporaryFolder folder, programs;
+  const std::string tiny = writeTinyScene(folder), film = folder / "film.mp4";
+  writeProgram(programs, "for last; do :; done; cat >\"$last\"");  // the raw frames
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", tiny, "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runWhit(
+        words, [&] { setenv("PATH", (programs.path().string() + ":/usr/bin:/bin").c_str(), 1); });
+  };
+  const Outcome outcome =
+      render({"--frames", "1..3", "--fps", "4", "-o", film, "-o", folder / "f#.png"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::string frames;
+  for (const std::string name : {"f1.png", "f2.png", "f3.png"}) {
+    Warnings warnings;
+    const std::vector<std::uint8_t> codes =
+        readRawImage(folder / name, ImageLimits(), warnings).codes;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      frames += static_cast<char>(codes[i]);
+      if (i % 3 == 2) frames += '\xff';
+    }
+  }
+  EXPECT_EQ(readFile(film), frames);
+  EXPECT_EQ(render({"-o", film}).status, 2);  // of one image
+}
+
 TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2", "--seconds", "0.5",
-                                    "--fps", "4", "--camera", "side", "--json", "-"});
+  const Outcome outcome = turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2",
+                                                        "--camera", "side", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["frames"], 2);

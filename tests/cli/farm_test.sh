@@ -13,28 +13,54 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 mkdir whole farmed slurm
-# A frame takes long enough to be killed in, a tenth of a second or so.
+# A frame takes a tenth of a second or so, long enough to stop a worker before its last one.
 options=(--size 64x40 --spp 128 --threads 1)
 "$whit" render whitted -o "whole/####.exr" --frames 0..7 "${options[@]}" --quiet
 
 farm() { WHIT=$whit JOBS=2 CHUNK=4 RETRIES=${1:-1} "$farm/parallel.sh" frames whitted "farmed/####.exr" 0..7 \
   "${options[@]}"; }
-farm >log 2>&1 &
-run=$!
-until compgen -G "farmed/00*.exr" >/dev/null; do
-  kill -0 $run 2>/dev/null || { cat log; exit 1; }
-  sleep 0.01
+# stop PROCESS: stops it and waits until all its threads have stopped. Fails if it has ended.
+stop() {
+  local states
+  kill -STOP "$1" 2>/dev/null || return 1
+  while states=$(sed -n 's/^State:[[:space:]]*//p' "/proc/$1/task"/*/status 2>/dev/null); do
+    if grep -q '^[ZX]' <<<"$states"; then return 1; fi
+    if ! grep -qv '^T' <<<"$states"; then return 0; fi
+    sleep 0.01
+  done
+  return 1
+}
+
+# Kills a worker that has frames left to trace. A worker is stopped before its frames are counted; on a
+# busy machine the workers may have ended by then, and the farm starts again.
+killed=false
+for _ in $(seq 20); do
+  rm -f farmed/*
+  farm >log 2>&1 &
+  run=$!
+  until compgen -G "farmed/00*.exr" >/dev/null; do
+    kill -0 $run 2>/dev/null || { cat log; exit 1; }
+    sleep 0.01
+  done
+  # Its own frames: no other program has this folder as its own.
+  for process in /proc/[0-9]*; do
+    if [ "$(readlink "$process/exe")" != "$(readlink -f "$whit")" ] ||
+      [ "$(readlink "$process/cwd")" != "$work" ]; then continue; fi
+    process=${process#/proc/}
+    stop "$process" || continue
+    last=$(tr '\0' '\n' <"/proc/$process/cmdline" | sed -n 's/^[0-9]*\.\.\([0-9]*\)$/\1/p')
+    if [ ! -e "farmed/000$last.exr" ]; then
+      kill -KILL "$process"
+      killed=true
+      break
+    fi
+    kill -CONT "$process"
+  done
+  status=0
+  wait $run || status=$?
+  if $killed; then break; fi
 done
-# Its own frames: no other program has this folder as its own.
-for process in /proc/[0-9]*; do
-  if [ "$(readlink "$process/exe")" = "$(readlink -f "$whit")" ] &&
-    [ "$(readlink "$process/cwd")" = "$work" ]; then
-    kill -KILL "${process#/proc/}"
-    break
-  fi
-done
-status=0
-wait $run || status=$?
+$killed || { echo "no worker could be stopped before its last frame"; exit 1; }
 test $status = 1
 grep -q "1 of 2 jobs failed" log
 tail -1 log | grep -qE "^8 images: 0 kept, 4 traced, 4 failed$"

@@ -30,7 +30,7 @@ for program in "$@"; do
     shown "$page" >"$work/text"
     cat "$work/faults"
     test ! -s "$work/faults"
-    grep -qF -- '--spp N samples per pixel (default: 1).' "$work/text"
+    grep -qF -- '--spp N samples per pixel, for anti-aliasing (default: 1).' "$work/text"
   else
     echo "man is not installed: how the page of $program looks is NOT checked"
   fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The commands of README.md and other pages, as they stand there but for sizes and counts that would
-# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]. Commands are the lines of code blocks, and
+# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]; whit-verify lies beside WHIT. Commands are the lines of code blocks, and
 # code within text that has arguments. Those of the programs and of scenes/farm are run; those that install,
 # build or test the whole are named, and so is whatever this machine lacks something for.
 set -uo pipefail
@@ -22,6 +22,7 @@ trap finish EXIT
 mkdir "$work/build"
 ln -s "$root/scenes" "$work/scenes"
 ln -s "$whit" "$work/build/whit"
+ln -s "$(dirname "$whit")/whit-verify" "$work/build/whit-verify"
 if [ -n "$view" ]; then ln -s "$view" "$work/build/whit-view"; fi
 cd "$work" || exit 1
 
@@ -75,7 +76,7 @@ cheap() {
     -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
     -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
-    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff --time-budget 0/' -e 's/(whit stress).*/\1 --only H13/' \
+    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff --time-budget 0/' -e 's/(whit-verify).*/\1 --only H13/' \
     -e '/whit-view .*--record/s/$/ --size 64x40/' \
     -e '/whit-view/{/--(benchmark|record|script)/!s/$/ --script leave.txt --size 64x40/}'
 }

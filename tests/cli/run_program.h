@@ -44,12 +44,12 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Starts whit with standard output and error going to files in `folder`, after `prepare` has been
-// called in the new process; returns the process.
+// Starts the program (whit) with standard output and error going to files in `folder`, after
+// `prepare` has been called in the new process; returns the process.
 inline pid_t startWhit(
     const std::vector<std::string>& words, const TemporaryFolder& folder,
-    const std::function<void()>& prepare = [] {}) {
-  std::vector<std::string> all{WHIT_PROGRAM};
+    const std::function<void()>& prepare = [] {}, const char* program = WHIT_PROGRAM) {
+  std::vector<std::string> all{program};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> argv;
   for (std::string& word : all) argv.push_back(word.data());

@@ -1,7 +1,7 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(ZLIB REQUIRED)
 whit_tests(cli whit_cli nlohmann_json::nlohmann_json ZLIB::ZLIB)
-whit_runs_programs(cli whit)
+whit_runs_programs(cli whit whit-verify)
 set(programs $<TARGET_FILE:whit>)
 if(TARGET whit-view)
   list(APPEND programs $<TARGET_FILE:whit-view>)

@@ -162,7 +162,7 @@ TEST(SceneBuilder, WhatIsWrongHasItsPlace) {
        [](SceneBuilder& b) { b.addInstance("sheet", "rad"); }},
       {"/scene/0/transform", "a transform that can be undone",
        [](SceneBuilder& b) { b.addInstance("sheet", "red", Matrix{}); }},
-      {"/lights/0/radius", "a number from 1e-06",
+      {"/lights/0/radius", "a number from 1.1e-19",
        [](SceneBuilder& b) { b.set("/lights/0/radius", "0"); }},
       {"/lights/0/intensity", "", [](SceneBuilder& b) { b.set("/lights/0/intensity", "-1"); }},
       {"/cameras/front", "eye and at to differ",

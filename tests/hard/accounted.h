@@ -1,4 +1,4 @@
-// Where the hard cases that are not in src/stress are tested.
+// The hard cases that are not in tests/verify, each with the test that covers it.
 #pragma once
 
 #include <array>

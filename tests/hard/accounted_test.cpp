@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "stress/case.h"
+#include "verify/case.h"
 
 namespace whit::test {
 namespace {
@@ -31,8 +31,8 @@ std::string row(int number, std::string_view title, const std::string& where) {
 std::string table() {
   std::string text = "| number | what | where |\n|---|---|---|\n";
   for (int number = 1; number <= kHighest; ++number) {
-    for (const stress::Family& family : stress::families()) {
-      for (const stress::Case& c : family.cases) {
+    for (const verify::Family& family : verify::families()) {
+      for (const verify::Case& c : family.cases) {
         if (c.number() == number) {
           text += row(number, c.title, "`Hard/CaseTest.Holds/" + std::string(c.name) + "`");
         }
@@ -49,8 +49,8 @@ std::string table() {
 TEST(Accounted, EveryNumberIsTested) {
   std::set<int> known;
   for (const Accounted& a : kAccounted) known.insert(a.number);
-  for (const stress::Family& family : stress::families()) {
-    for (const stress::Case& c : family.cases) known.insert(c.number());
+  for (const verify::Family& family : verify::families()) {
+    for (const verify::Case& c : family.cases) known.insert(c.number());
   }
   for (int number = 1; number <= kHighest; ++number) {
     EXPECT_TRUE(known.contains(number)) << "H" << number;
@@ -59,8 +59,8 @@ TEST(Accounted, EveryNumberIsTested) {
 
 TEST(Accounted, NamesAreUnique) {
   std::set<std::string_view> names;
-  for (const stress::Family& family : stress::families()) {
-    for (const stress::Case& c : family.cases) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+  for (const verify::Family& family : verify::families()) {
+    for (const verify::Case& c : family.cases) EXPECT_TRUE(names.insert(c.name).second) << c.name;
   }
 }
 

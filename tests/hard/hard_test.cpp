@@ -1,9 +1,9 @@
-// The catalogue of hard cases (src/stress), a test a case: Hard/CaseTest.Holds/H13.
+// The catalogue of hard cases (tests/verify), a test a case: Hard/CaseTest.Holds/H13.
 #include <gtest/gtest.h>
 
-#include "stress/case.h"
+#include "verify/case.h"
 
-namespace whit::stress {
+namespace whit::verify {
 
 // For the names that ctest shows.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -22,7 +22,7 @@ class CaseTest : public testing::TestWithParam<Case> {};
 
 TEST_P(CaseTest, Holds) {
   const Case& c = GetParam();
-  for (const stress::Setup& setup : setupsOf(c.runs)) {
+  for (const verify::Setup& setup : setupsOf(c.runs)) {
     const Finding finding = runCase(c, setup);
     std::printf("%s, %s, packet %d: worst %.4g, bound %.4g of %llu\n", std::string(c.name).c_str(),
                 setup.simd.c_str(), setup.packet, finding.worst(), finding.bound(),
@@ -36,4 +36,4 @@ INSTANTIATE_TEST_SUITE_P(Hard, CaseTest, testing::ValuesIn(allCases()),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace whit::stress
+}  // namespace whit::verify

@@ -195,9 +195,9 @@ TEST_F(SceneSections, PatternsAndTheirErrors) {
             "3 s.json#/materials/m/normalMap: expected a texture that is read as data (this one is "
             "color), found \"c\"");
   EXPECT_EQ(errorOfMembers("\"textures\": {\"cc\": {\"pattern\": \"checker\"}},"
-                           "\"materials\": {\"m\": {\"diffuseMap\": \"c\"}}"),
+                           "\"materials\": {\"m\": {\"diffuseMap\": \"cd\"}}"),
             "3 s.json#/materials/m/diffuseMap: expected the name of a texture (is \"cc\" meant?), "
-            "found \"c\"");
+            "found \"cd\"");
 }
 
 TEST_F(SceneSections, ImagesThatAreNotThereAreErrors) {

@@ -133,7 +133,7 @@ Transform onTheGrid(SceneMaker& maker, bool flat) {
   return transform;
 }
 
-void flushSheets(SceneMaker& maker) {
+void coplanarSheets(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.back().transform.translate.y = 0;
   maker.scene.camera.eye.y = maker.random.between(1.6, 4);
@@ -153,7 +153,9 @@ void flushSheets(SceneMaker& maker) {
   }
 }
 
-TEST_F(Coverage, FaceInFace) { expectAgreement({"flush sheets", flushSheets, {.depth = 12}}); }
+TEST_F(Coverage, FaceInFace) {
+  expectAgreement({"coplanar sheets", coplanarSheets, {.depth = 12}});
+}
 
 // Of the lobe of what is there in part, and of lights upon it.
 void sampledSheets(SceneMaker& maker) {

@@ -7,6 +7,13 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unset PYTHONPATH
+export PYTHONDONTWRITEBYTECODE=1
+# Untracked files beside the sources, without the caches of other programs.
+untracked() {
+  git -C "$root" status --porcelain --untracked-files=all -- src/python 2>/dev/null |
+    sed -n '/__pycache__/d; /^??/p'
+}
+untracked >"$work/before"
 "$1" -m venv --system-site-packages "$work/venv" >"$work/log" 2>&1 || { cat "$work/log"; exit 77; }
 "$work/venv/bin/pip" install --no-index --no-build-isolation --disable-pip-version-check \
   --config-settings "build-dir=$2" "$root/src/python" >"$work/log" 2>&1 ||
@@ -19,6 +26,6 @@ assert whit.Scene("whitted").render(size=(48, 30)).rgb.max() > 0.1'
 test -s venv/lib/python3*/site-packages/whit/scenes/whitted.json
 venv/bin/pip uninstall -y whit >"$work/log" 2>&1
 test ! -e venv/lib/python3*/site-packages/whit
-git -C "$root" status --porcelain -- src/python 2>/dev/null >"$work/after" || :
-grep -q '^??' "$work/after" && { cat "$work/after"; exit 1; }
+untracked >"$work/after"
+diff "$work/before" "$work/after" # nothing left behind
 echo "pip: installed, used and removed"

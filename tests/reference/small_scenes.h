@@ -2,11 +2,11 @@
 #pragma once
 
 #include "reference/reference.h"
-#include "stress/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 
-using namespace stress;
+using namespace verify;
 
 // Downwards, at an angle to the vertical.
 inline Vec3d steep(double degrees) {

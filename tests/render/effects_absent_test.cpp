@@ -1,7 +1,7 @@
 // A scene without an effect, and the same scene with it: what the effect costs when it is absent.
 #include <gtest/gtest.h>
 
-#include "bake/leave_out.h"
+#include "make/leave_out.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {
@@ -92,7 +92,7 @@ struct Cost {
   FrameStats stats;
   BufferBytes buffers;
   std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
-  bool skyImage = false, flush = false, coverage = false;
+  bool skyImage = false, coplanar = false, coverage = false;
 };
 
 Cost costWithout(EffectSet effects) {
@@ -110,7 +110,7 @@ Cost costWithout(EffectSet effects) {
   cost.instances = renderer.tables().instances.size();
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
-  cost.flush = !scene.flush.empty();
+  cost.coplanar = !scene.coplanar.empty();
   cost.coverage = scene.effects.has(Effect::coverage);
   return cost;
 }
@@ -122,7 +122,7 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
   const FeatureSet features = FeatureSet()
                                   .with(Feature::emissionFactors)
                                   .with(Feature::streams)
-                                  .with(Feature::flush, cost.flush)
+                                  .with(Feature::coplanar, cost.coplanar)
                                   .with(Feature::glossy, glossy)
                                   .with(Feature::transmission, transmission)
                                   .with(Feature::coverage, cost.coverage)

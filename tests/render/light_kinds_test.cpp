@@ -8,12 +8,12 @@
 #include "reference/generate_rays.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
-#include "stress/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
 
-using namespace stress;
+using namespace verify;
 
 Light spot(float inner, float outer) {
   Light light = lightAt({0, 2, 0}, 10);

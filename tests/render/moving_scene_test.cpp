@@ -145,8 +145,8 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   }
 }
 
-// Of two squares in one plane the later is seen, wherever it has come from; what is flush is found
-// as if the scene had never moved.
+// Of two squares in one plane the later is seen, wherever it has come from; what is coplanar is
+// found as if the scene had never moved.
 TEST_F(MovingFile, WhatSlidesOverASurfaceCoversIt) {
   const auto square = [](const std::string& width, const std::string& material,
                          const std::string& rest) {
@@ -160,7 +160,7 @@ TEST_F(MovingFile, WhatSlidesOverASurfaceCoversIt) {
              "\"translate\": [0.3, 0, 0.2]}]}") +
       "], \"transform\": {\"rotate\": [1, 0, 0, 90]}}]";
   Scene scene = at(0, group);
-  EXPECT_TRUE(scene.flush.empty());
+  EXPECT_TRUE(scene.coplanar.empty());
   const RenderOptions options;
   Renderer renderer(scene, options);
   const auto white = [&] {
@@ -171,11 +171,11 @@ TEST_F(MovingFile, WhatSlidesOverASurfaceCoversIt) {
   EXPECT_EQ(white(), 0);
   moveScene(scene, 1, simd::deformVertices);
   renderer.sceneMoved();
-  EXPECT_FALSE(scene.flush.empty());
+  EXPECT_FALSE(scene.coplanar.empty());
   EXPECT_EQ(white(), 16 * 16);  // two by two units
   moveScene(scene, 0, simd::deformVertices);
   renderer.sceneMoved();
-  EXPECT_TRUE(scene.flush.empty());
+  EXPECT_TRUE(scene.coplanar.empty());
   EXPECT_EQ(white(), 0);
 }
 

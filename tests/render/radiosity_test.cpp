@@ -10,12 +10,12 @@
 
 #include "pi.h"
 #include "render/renderer.h"
-#include "stress/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
 
-using namespace stress;
+using namespace verify;
 
 constexpr double kPanel = 5;  // radiance of the panel, a third of the ceiling each way
 

@@ -33,7 +33,6 @@ std::vector<Case> solids() {
           {"cone", {}, ""},
           {"cone", {{"topRadius", 0.4}, {"segments", 5.0}}, "Cut"},
           {"torus", {}, ""},
-          {"tube", {}, ""},
           {"box", {{"size", Vec3d{1, 2, 3}}}, ""},
           {"roundedBox", {{"size", Vec3d{1, 2, 3}}, {"radius", 0.2}}, ""},
           {"roundedBox", {{"size", Vec3d{0.7, 0.7, 0.7}}, {"radius", 0.1}, {"steps", 7.0}}, "Cube"},

@@ -48,9 +48,6 @@ TEST(Measures, PrismsAreExactForTheirPolygon) {
   EXPECT_NEAR(volume(only(cylinder)) / (kPi * 2.25 * 3 * share), 1, kFloat);
   const Shape cone = generate("cone", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
   EXPECT_NEAR(volume(only(cone)) / (kPi * 2.25 * share), 1, kFloat);
-  const Shape tube =
-      generate("tube", {{"radius", 1.0}, {"innerRadius", 0.5}, {"height", 2.0}, {"segments", n}});
-  EXPECT_NEAR(volume(only(tube)) / (kPi * 0.75 * 2 * share), 1, kFloat);
   const Shape disc = generate("disc", {{"radius", 2.0}, {"segments", n}});
   EXPECT_NEAR(area(only(disc)) / (kPi * 4 * share), 1, kFloat);
 }
@@ -71,9 +68,6 @@ TEST(Measures, BoxesAndSheetsAreExact) {
   const Shape quad = generate("quad", {{"width", 3.0}, {"depth", 2.0}});
   EXPECT_NEAR(area(only(quad)), 6, 6 * kFloat);
   EXPECT_GT(areaVector(only(quad), 0).y, 0) << "faces up";
-  const Shape grid = generate("grid", {{"nx", 7.0}, {"nz", 3.0}});
-  EXPECT_EQ(only(grid).triangles.size(), 42u);
-  EXPECT_NEAR(area(only(grid)), 4, 4 * kFloat);
 }
 
 TEST(Measures, RoundedBoxFollowsSteiner) {

@@ -5,19 +5,19 @@
 
 #include <cmath>
 
-#include "stress/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
 
-using stress::makeTexture;
+using verify::makeTexture;
 
 constexpr double kHalfCode = 0.5 / 1023;  // of a color's square root
 
 std::uint32_t gray(std::uint32_t code) { return code | code << 10 | code << 20; }
 
 Texture noise(TexelFormat format, int width, int height) {
-  stress::Numbers numbers(7);
+  verify::Numbers numbers(7);
   std::vector<std::uint32_t> texels;
   for (int i = 0; i < width * height; ++i) {
     texels.push_back(static_cast<std::uint32_t>(numbers.in(0, 0x1p30)));
@@ -129,15 +129,15 @@ TEST(MipMaps, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
-  stress::SceneBuilder builder;
-  Material m = stress::diffuseMaterial(1);
+  verify::SceneBuilder builder;
+  Material m = verify::diffuseMaterial(1);
   for (std::int32_t* map :
        {&m.diffuseMap, &m.alphaMap, &m.normalMap, &m.emissionMap, &m.specularMap}) {
     const bool data = map == &m.alphaMap || map == &m.normalMap;
     *map = builder.add(noise(data ? TexelFormat::data : TexelFormat::color, 2, 2));
   }
   m.emission = m.specular = Rgb(0.5f);
-  builder.add(stress::floorAt(0, 1, builder.add(m)));
+  builder.add(verify::floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
   const MipMaps maps(scene);
   const int wanted[] = {2, 1, 2, 2, 2};  // alpha masks are looked up in full

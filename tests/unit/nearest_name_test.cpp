@@ -16,21 +16,20 @@ TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
   EXPECT_EQ(nearestName("abcd", {"axxd", "abc"}), "abc");
 }
 
-TEST(NearestName, TheFirstOfEquallyNearOnes) {
-  EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax");
-  EXPECT_EQ(nearestName("", {"long", "a"}), "a");
-}
+TEST(NearestName, TheFirstOfEquallyNearOnes) { EXPECT_EQ(nearestName("bx", {"ax", "cx"}), "ax"); }
 
 TEST(NearestName, NothingToChooseFrom) {
   EXPECT_EQ(nearestName("x", {}), "");
-  EXPECT_EQ(nearName("x", {}), "");
+  EXPECT_EQ(didYouMean("x", {}), "");
 }
 
 TEST(NearestName, OnlyANearOneCanBeMeant) {
-  EXPECT_EQ(nearName("at", {"att", "fov"}), "att");
-  EXPECT_EQ(nearName("shape", {"shaep"}), "shaep");
-  EXPECT_EQ(nearName("at", {"up"}), "");
-  EXPECT_EQ(nearName("sphere", {"spiral"}), "");
+  EXPECT_EQ(nearestName("at", {"att", "fov"}), "att");
+  EXPECT_EQ(nearestName("shape", {"shaep"}), "shaep");
+  EXPECT_EQ(nearestName("at", {"up"}), "");
+  EXPECT_EQ(nearestName("sphere", {"spiral"}), "");
+  EXPECT_EQ(nearestName("helmet.glb", {"merge", "render"}), "");
+  EXPECT_EQ(didYouMean("rendre", {"merge", "render"}), "; did you mean 'render'?");
 }
 
 }  // namespace

@@ -9,13 +9,13 @@
 
 #include "bake/eye_in_plane.h"
 #include "make/shapes/generators.h"
-#include "stress/scene_builder.h"
+#include "verify/scene_builder.h"
 
 namespace whit {
 namespace {
 
-using stress::blackMaterial;
-using stress::SceneBuilder;
+using verify::blackMaterial;
+using verify::SceneBuilder;
 
 // Of numbers of the order of 1 in double.
 constexpr double kDoubleRounding = 1e-14;
@@ -165,7 +165,7 @@ TEST(ExactSphere, IsBakedBehindAllTriangles) {
   SceneBuilder builder;
   const auto material = builder.add(blackMaterial());
   builder.add(ballsOf({Affine::translation({9, 0, 0})}, material));
-  builder.add(stress::floorAt(0, 1, material));
+  builder.add(verify::floorAt(0, 1, material));
   Object pair;
   pair.meshes = {ballsOf({Affine(), Affine::scaling({2, 2, 2})}, material)};
   builder.place(std::move(pair), {Affine(), Affine::translation({0, 20, 0})});

@@ -72,7 +72,7 @@ const std::vector<Refusal>& refusals() {
        [](auto& d) {
          addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 91});
        },
-       {"light 'key'", "90 degrees"}},
+       {"light 'key'", "from 0.5 to 90"}},
       {"camera",
        [](auto& d) {
          d.cameras.resize(2);

@@ -169,16 +169,5 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }
 
-// The lights that such a model is given are smaller than a scene file can say.
-TEST_F(SavedScenes, AreNotWrittenWhereTheyCouldNotBeRead) {
-  std::ofstream(folder_ / "dust.obj") << "v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n";
-  const cli::Outcome outcome =
-      play("errors show\ndrop dust.obj\nwait 60 frames\nwait sharp\nkey Ctrl+S\n");
-  EXPECT_NE(outcome.err.find("dust-edited.json#/lights/0/radius"), std::string::npos)
-      << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_FALSE(fs::exists(folder_ / "dust-edited.json"));
-}
-
 }  // namespace
 }  // namespace whit::view

@@ -29,7 +29,7 @@ int framesOf(const std::string& text, bool sharp = true) {
 
 TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("quit\n\n# all is well\nkey Lft\n"),
-            "walk.txt:4: there is no key 'Lft'; nearest: 'Left'");
+            "walk.txt:4: there is no key 'Lft'; did you mean 'Left'?");
   EXPECT_EQ(errorOf("wait 3"), "walk.txt:1: expected wait N frames, wait N seconds or wait sharp");
   EXPECT_EQ(errorOf("mouse middle 1 2"), "walk.txt:1: expected mouse left|right DX DY");
   EXPECT_EQ(errorOf("wheel x"), "walk.txt:1: expected a number of at most 1e6, got 'x'");
@@ -44,7 +44,8 @@ TEST(Script, ErrorsNameTheLine) {
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
   EXPECT_EQ(errorOf("click 3"), "walk.txt:1: expected click X Y [X2 Y2]");
-  EXPECT_EQ(errorOf("panel knob"), "walk.txt:1: the panel has no tab 'knob'; nearest: 'knobs'");
+  EXPECT_EQ(errorOf("panel knob"),
+            "walk.txt:1: the panel has no tab 'knob'; did you mean 'knobs'?");
   EXPECT_EQ(errorOf("drop"), "walk.txt:1: expected drop FILE");
   EXPECT_EQ(errorOf("resize 0 10"), "walk.txt:1: expected resize W H, from 1 to 16384");
   EXPECT_EQ(errorOf("resize 10"), "walk.txt:1: expected resize W H, from 1 to 16384");

@@ -23,7 +23,7 @@ class BackgroundWriter {
   // Waits for the job that was started last, and throws what it threw.
   void finish();
 
-  // Of each job that is done: how long it took, and how long start() or finish() waited for it.
+  // How long each finished job took, and how long start() or finish() waited for it.
   struct Times {
     double spentMs = 0, waitedMs = 0;
   };

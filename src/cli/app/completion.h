@@ -1,5 +1,5 @@
-// Completion of command lines by bash, zsh and fish, made of what --help is made of, so that the
-// two cannot disagree. A script is its opening, the options of each command, and its closing.
+// Completion of command lines: the shells' scripts ask the program itself, so that completion and
+// --help cannot disagree.
 #pragma once
 
 #include <string>
@@ -9,21 +9,16 @@
 
 namespace whit::cli {
 
-enum class Shell { bash, zsh, fish };
+// The script that makes bash, zsh or fish call `program --complete WORD...`. Throws Error(usage)
+// for another shell.
+std::string completionScript(const std::string& shell, const std::string& program);
 
-// Throws Error(usage) naming the nearest one.
-Shell shellNamed(const std::string& name);
+// The completions of the last word, which may be empty: a line for each, with its meaning after a
+// tab. There are none where a file is expected.
+std::string completions(const std::vector<std::string>& words, const OptionList& list);
 
-struct CommandSummary {
-  std::string name, summary;
-};
-
-// A program without commands has none here, and one part for the command "".
-std::string completionOpening(Shell shell, const std::string& program,
-                              const std::vector<CommandSummary>& commands);
-// What parseOptions prints for the words --completion SHELL PROGRAM COMMAND.
-std::string completionOptions(Shell shell, const std::string& program, const std::string& command,
-                              const OptionList& list);
-std::string completionClosing(Shell shell, const std::string& program);
+// A name and its meaning as such a line, if the name begins with `word`; otherwise nothing.
+std::string completionLine(const std::string& word, const std::string& name,
+                           const std::string& meaning = "");
 
 }  // namespace whit::cli

@@ -17,15 +17,15 @@ struct ExplainedRays {
   bool partsFirstAt(std::size_t node) const;  // and did not before
 };
 
-// Of a film of that size; see render/ray_tree.h.
+// `film` gives the size of the picture; see inspect/ray_tree.h.
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
-// What a node that counts `own` adds to the pixel by itself, without its children.
+// The radiance that `own` of a node adds to the pixel.
 RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own);
 
 std::string materialName(const Scene& scene, std::uint32_t material);
 std::string lightName(const Scene& scene, std::uint32_t light);
-// Of the medium that fills the space.
+// The name of the medium in which a ray travels.
 std::string mediumName(const Scene& scene, std::uint32_t media);
 const char* nameOf(PathEnd end);  // "" for none
 // "glass, 2.5 away", or that it leaves the scene.

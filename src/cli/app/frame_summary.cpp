@@ -114,13 +114,12 @@ std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint
   return most > taken ? most - taken : 0;
 }
 
-VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options) {
-  if (options.verdicts == Verdicts::off) return {0, 0, 0, "off by --verdicts"};
+ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options) {
+  if (options.verdicts == Verdicts::off) return {0, 0, 0, "it is off by --shadow-cache"};
   const std::size_t lights = lightsWithVerdicts(makePlan(scene, options, true)).size();
-  if (lights == 0) return {0, 0, 0, "no shadow that could be proved"};
+  if (lights == 0) return {0, 0, 0, "there is no light whose shadows it could hold"};
   const std::size_t parts = VerdictParts::of(scene).count();
-  if (parts == 0)
-    return {0, 0, 0, "no triangles of the world, or too many or too far out for tables"};
+  if (parts == 0) return {0, 0, 0, "the world has no triangles, too many, or too distant ones"};
   return {lights, parts, samplesThatPay(scene), ""};
 }
 

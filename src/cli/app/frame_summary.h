@@ -14,10 +14,10 @@
 
 namespace whit::cli {
 
-// Shadows that were proved before their rays were traced.
-struct VerdictUse {
-  double coldMs = 0;  // the median frame that knew none; 0: not told apart
-  double fillMs = 0;  // looking for them, between frames
+// How the shadow cache was used.
+struct ShadowCacheUse {
+  double coldMs = 0;  // the median frame with an empty cache; 0: not measured
+  double fillMs = 0;  // filling it, between frames
   std::uint64_t bytes = 0;
 };
 
@@ -29,13 +29,13 @@ struct RunSummary {
   EffectSet effects;
   std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;      // counted ones; none: all images were there
-  std::vector<double> floorMs;         // empty without --floor
-  std::string imageHash;               // of the last frame: accuracy::digestOf(image)
-  std::optional<VerdictUse> verdicts;  // none: all shadow rays were traced
-  std::vector<FarmFrame> shares;       // how the frames were shared; empty for one process
-  // Of frames whose images are written, each beside the tracing of the next: how long it took to
-  // write them, and how long the tracing waited for it.
+  std::vector<FrameStats> frames;             // counted ones; none: all images were there
+  std::vector<double> floorMs;                // empty without --floor
+  std::string imageHash;                      // of the last frame: accuracy::digestOf(image)
+  std::optional<ShadowCacheUse> shadowCache;  // none: all shadow rays were traced
+  std::vector<FarmFrame> shares;              // how the frames were shared; empty for one process
+  // Images are written while the next frame is traced: the time of writing each image, and how
+  // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
   std::vector<double> updateMs;   // of a scene that moves: to bring it to each frame's instant
   double tracedAndWrittenMs = 0;  // from the first frame to the last file
@@ -52,15 +52,15 @@ const FrameStats& medianFrame(const RunSummary& run);
 std::size_t medianFrameIndex(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
 
-// Of frames whose images are written: how many a second, tracing and writing.
+// Frames per second, traced and written.
 double writtenPerSecond(const RunSummary& run);
 
 // The median frame's time that is not spent inside Embree's calls.
 double outsideEmbreeMs(const RunSummary& run);
 
-// Runs that come in pairs: the scene's effects and all of them; all shadow rays traced and warm
-// verdicts.
-enum class RunPairs { none, effects, verdicts };
+// Runs that come in pairs: with the scene's effects and with all of them; without and with the
+// shadow cache.
+enum class RunPairs { none, effects, shadowCache };
 
 // `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
 // else the machine did to both of a turn's frames cancels. 0 for none.
@@ -87,21 +87,20 @@ std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& optio
 // "2 triangles", "3 spheres" or both.
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
 
-// What one exact sphere takes beside its part of the BVH; 0 where there are none.
+// Memory of one exact sphere without the BVH; 0 if there are none.
 std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);
 
-// What --max-memory leaves for verdicts of shadow.
+// Memory that --max-memory leaves for the shadow cache.
 std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most);
 
-// What frames that follow one another could prove of the scene's shadows: of so many lights, in so
-// many parts of triangles, which pays where they trace so many samples of pixels; and why there are
-// none.
-struct VerdictOutlook {
+// The shadow cache that a scene could have: its lights, its pieces of triangles, the number of
+// pixel samples from which it saves time, and otherwise why there is none.
+struct ShadowCacheOutlook {
   std::size_t lights = 0, parts = 0;
   double samples = 0;
   std::string because;
 };
-VerdictOutlook verdictOutlook(const Scene& scene, const RenderOptions& options);
+ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options);
 
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);

@@ -39,6 +39,29 @@ void writeDisplay(const std::string& path, const DisplayImage& image,
   }
 }
 
+constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that might be whole
+
+// The pixels are read as well: a file that was cut off still has its head.
+ImageMetadata readThrough(const std::string& path, const Image& image) {
+  if (extensionOf(path) == ".png") return readPngMetadata(path);
+  Warnings warnings;
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
+  readImage(path, limits, warnings);
+  return readExrMetadata(path);
+}
+
+// Sorted, without empty entries and those that may differ between machines.
+ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
+  std::erase_if(metadata, [&](const auto& entry) {
+    return entry.second.empty() || (entry.first == "simd" && options.simd == "auto") ||
+           (entry.first == "packet" && options.packet == 0);
+  });
+  std::sort(metadata.begin(), metadata.end());
+  return metadata;
+}
+
 }  // namespace
 
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
@@ -106,6 +129,12 @@ ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
   return own;
 }
 
+const DisplayImage& displayOf(const Film& film, const RenderOptions& options, DisplayImage& made) {
+  if (options.mode == Mode::packets && film.wantDisplay) return film.display;
+  made = toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb);
+  return made;
+}
+
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata, const ImageFormat& format) {
   const WriteScope scope;
@@ -116,11 +145,21 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
     writeExr(path, film.image, said, format.exr, format.threads, viewsOf(film.channels));
   } else if (format.channel) {
     writeChannelPng(path, film.image, film.channels, *format.channel, said);
-  } else if (options.mode == Mode::packets && film.wantDisplay) {
-    writeDisplay(path, film.display, metadata);
   } else {
-    writeDisplay(path, toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb),
-                 metadata);
+    DisplayImage made;
+    writeDisplay(path, displayOf(film, options, made), metadata);
+  }
+}
+
+bool isWhole(const std::string& path, const Image& image, const ImageMetadata& expected,
+             const RenderOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  try {
+    return comparable(readThrough(path, image), options) == comparable(expected, options);
+  } catch (const Error& broken) {
+    if (broken.status() == ExitStatus::io) throw;
+    return false;
   }
 }
 

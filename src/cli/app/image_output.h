@@ -1,4 +1,4 @@
-// Images as results: checked names, what they say about themselves, frame numbers.
+// Images as results: checked names, metadata, complete files, frame numbers.
 #pragma once
 
 #include <optional>
@@ -42,13 +42,23 @@ struct ImageFormat {
 // end or before the frame's number: "out.depth.png", "normal-####.png". None: the picture.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
 
+// The 8-bit picture of a film: its own, or in reference mode, which makes none, `made` of it.
+const DisplayImage& displayOf(const Film& film, const RenderOptions& options, DisplayImage& made);
+
 // Writes .exr (linear, with the film's channels) or .png (display, or a channel) by the name's
 // extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
 void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
                 const ImageMetadata& metadata, const ImageFormat& format = {});
-// What writeImage() adds to the metadata of that file: of an EXR its channels, and how it is
-// stored, unless as usual; of a channel which it is.
+// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the PNG
+// of a channel its name.
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
+
+// True if `path` (.exr or .png) is what a render into `image` would write: readable to its last
+// byte and, as far as `expected` tells, made with the same options of a scene with the same
+// contents. What the options leave to the machine (--simd auto, --packet auto) may differ. Throws
+// Error(io) for a file that cannot be read.
+bool isWhole(const std::string& path, const Image& image, const ImageMetadata& expected,
+             const RenderOptions& options);
 
 // Frames a to b, both included.
 struct FrameRange {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <map>
 
 #include "cli/app/parse_options.h"
@@ -13,8 +14,7 @@ namespace whit::cli {
 
 namespace {
 
-// As running text: one line that troff takes as it is, characters that it would make typographical
-// kept as they are typed.
+// One line that troff takes as it is: it would turn some characters into typographical ones.
 std::string roff(const std::string& text) {
   static const std::map<char, std::string> kWritten{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                     {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"},
@@ -27,112 +27,82 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-std::string sentence(const std::string& text) {
-  return roff(text) + (text.empty() || text.back() == '.' ? "\n" : ".\n");
+std::string heading(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return ".SH \"" + roff(text) + "\"\n";
 }
 
-std::string section(const std::string& heading) { return ".SH \"" + roff(heading) + "\"\n"; }
-
-std::string upperCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
+std::string termText(const std::string& term, const std::string& meaning) {
+  return ".TP\n" + term + "\n" + roff(meaning) + (meaning.ends_with('.') ? "\n" : ".\n");
 }
 
 std::string entryText(const OptionList::Entry& entry) {
-  std::string names = entry.shortName.empty() ? "" : "-" + entry.shortName + ", ";
-  names += "--" + entry.name;
-  std::string text = ".TP\n\\fB" + roff(names) + "\\fR";
-  if (!entry.placeholder.empty()) text += " \\fI" + roff(entry.placeholder) + "\\fR";
-  return text + "\n" + sentence(entry.help);
-}
-
-bool sameEntry(const OptionList::Entry& a, const OptionList::Entry& b) {
-  return a.group == b.group && a.name == b.name && a.placeholder == b.placeholder &&
-         a.help == b.help;
-}
-
-template <typename T>
-bool addIfNew(std::vector<T>& all, const T& one) {
-  if (std::find(all.begin(), all.end(), one) != all.end()) return false;
-  all.push_back(one);
-  return true;
-}
-
-// The sections of a page that hold the common options are called by their groups.
-std::string referenceText(const std::vector<std::string>& groups) {
-  std::string text;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (i > 0) text += i + 1 < groups.size() ? ", " : " and ";
-    text += "\\fB" + roff(upperCase(groups[i])) + "\\fR";
-  }
-  return ".PP\nAlso the options of " + text + " below.\n";
+  const std::string letter = entry.shortName.empty() ? "" : "-" + entry.shortName + ", ";
+  std::string term = "\\fB" + roff(letter + "--" + entry.name) + "\\fR";
+  if (!entry.placeholder.empty()) term += " \\fI" + roff(entry.placeholder) + "\\fR";
+  return termText(term, entry.help);
 }
 
 }  // namespace
 
-std::string manOpening(const ManPage& page) {
-  return ".\\\" Written by " + page.name + " \\-\\-man.\n.TH " + upperCase(roff(page.name)) +
-         " 1 \"\" \"whit " + versionText() + "\" \"User Commands\"\n" + section("NAME") +
-         roff(page.name) + " \\- " + roff(page.summary) + "\n" + section("SYNOPSIS") + ".B " +
-         roff(page.synopsis) + "\n" + section("DESCRIPTION") + roff(page.description) + "\n";
+std::string manSection(const std::string& title, const Terms& terms) {
+  std::string text = heading(title);
+  for (const auto& [term, meaning] : terms) text += termText("\\fB" + roff(term) + "\\fR", meaning);
+  return text;
 }
 
 std::string manOptions(const std::string& usage, const std::string& summary,
                        const OptionList& list) {
-  CommonOptions common;
-  OptionList shared;
-  listCommonOptions(shared, common);
   std::string text = ".B " + roff(usage) + "\n.PP\n" + roff(summary) + "\n";
   if (list.operand.most > 0) {
-    text += ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + sentence(list.operand.help);
+    text +=
+        ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + roff(list.operand.help) + ".\n";
   }
-  std::vector<std::string> references;
+  std::string group, shared;
   for (const OptionList::Entry& entry : list.entries) {
-    const bool common = std::any_of(shared.entries.begin(), shared.entries.end(),
-                                    [&](const auto& known) { return sameEntry(known, entry); });
-    if (common) {
-      addIfNew(references, entry.group);
-    } else {
-      text += entryText(entry);
-    }
+    if (!entry.common) text += entryText(entry);
+    if (entry.common && entry.group != group) shared += (shared.empty() ? "" : ", ") + entry.group;
+    if (entry.common) group = entry.group;
   }
-  return references.empty() ? text : text + referenceText(references);
+  return shared.empty() ? text : text + ".PP\nAlso the options described below: " + shared + ".\n";
 }
 
-std::string manTerms(const std::string& heading,
-                     const std::vector<std::pair<std::string, std::string>>& terms) {
-  std::string text = section(heading);
-  for (const auto& [term, meaning] : terms) {
-    text += ".TP\n\\fB" + roff(term) + "\\fR\n" + sentence(meaning);
-  }
-  return text;
-}
-
-std::string manClosing(const ManPage& page) {
+void printManual(const ManPage& page, const std::function<void()>& body) {
+  std::string text = ".TH " + roff(page.name) + " 1 \"\" \"whit " + versionText() +
+                     "\" \"User Commands\"\n" + heading("name") + roff(page.name) + " \\- " +
+                     roff(page.summary) + "\n" + heading("synopsis") + ".B " + roff(page.synopsis) +
+                     "\n" + heading("description") + roff(page.description) + "\n";
+  text += manSection("options",
+                     {{"--help", "commands, or the options of a command that are used every day"},
+                      {"--help-all", "all options of a command"},
+                      {"--version", "the version"},
+                      {"--man", "this page, for man -l"},
+                      {"--completion SHELL", "a script for completion in bash, zsh or fish"}});
+  std::fputs(text.c_str(), stdout);
+  body();
   CommonOptions common;
   OptionList shared;
   listCommonOptions(shared, common);
-  std::string text;
-  std::vector<std::string> groups;
+  std::string group;
+  text.clear();
   for (const OptionList::Entry& entry : shared.entries) {
-    if (addIfNew(groups, entry.group)) text += section(upperCase(entry.group));
+    if (entry.group != group) text += heading(group = entry.group);
     text += entryText(entry);
   }
-  std::vector<std::pair<std::string, std::string>> statuses;
+  Terms statuses, presets;
   for (const ExitMeaning& e : kExitMeanings) {
     statuses.emplace_back(std::to_string(e.status), e.meaning);
   }
-  std::vector<std::pair<std::string, std::string>> presets;
   for (const QualityPreset& preset : qualityPresets()) {
     presets.emplace_back("--quality " + preset.name,
                          preset.options.empty() ? "the defaults" : preset.options);
   }
-  text += manTerms("PRESETS", presets);
-  text += manTerms("EXIT STATUS", statuses);
-  text += manTerms("ENVIRONMENT",
-                   {{"WHIT_SCENES", "folder in which shipped scenes are looked for first"},
-                    {"WHIT_DATA", "folder of models that scenes may name as $WHIT_DATA/..."}});
-  return text + section("SEE ALSO") + ".BR " + roff(page.seeAlso) + " (1)\n";
+  text += manSection("presets", presets) + manSection("exit status", statuses) +
+          manSection("environment",
+                     {{"WHIT_SCENES", "folder that is searched first for shipped scenes"},
+                      {"WHIT_DATA", "folder of models that scenes may name as $WHIT_DATA/..."}}) +
+          heading("see also") + ".BR " + roff(page.seeAlso) + " (1)\n";
+  std::fputs(text.c_str(), stdout);
 }
 
 }  // namespace whit::cli

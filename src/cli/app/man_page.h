@@ -1,7 +1,7 @@
-// Manual pages in man(7), made of what --help is made of, so that the two cannot disagree. A page
-// is its opening, an options part for each command, and its closing.
+// Manual pages in man(7), written from what --help is written from.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace whit::cli {
 
+using Terms = std::vector<std::pair<std::string, std::string>>;
+
 struct ManPage {
   std::string name, summary, synopsis, description, seeAlso;
 };
 
-// Heading to description.
-std::string manOpening(const ManPage& page);
-// Usage, summary and options; of the options of listCommonOptions no more than the name of their
-// section. What parseOptions prints for the word --man.
+// Prints a page to standard output: the sections up to the options of the program itself, what
+// `body` prints, and the options that all commands share, exit status and environment.
+void printManual(const ManPage& page, const std::function<void()>& body);
+
+// The part of a command: usage, summary, its own options and a reference to the shared ones.
 std::string manOptions(const std::string& usage, const std::string& summary,
                        const OptionList& list);
-// A section of things and what they mean.
-std::string manTerms(const std::string& heading,
-                     const std::vector<std::pair<std::string, std::string>>& terms);
-// The options of listCommonOptions, exit status, environment.
-std::string manClosing(const ManPage& page);
+// A section of terms and their meaning.
+std::string manSection(const std::string& heading, const Terms& terms);
 
 }  // namespace whit::cli

@@ -19,7 +19,7 @@ struct OpenScene {
   explicit OpenScene(bool strict) : warnings(strict) {}
   Scene scene;
   Warnings warnings;
-  // That it was read with, as LoadOptions has them.
+  // The options --set and --sky that it was read with.
   std::vector<std::string> settings;
   std::string sky;
   double loadMs = 0;  // reading and baking
@@ -37,7 +37,7 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
 // still to be settled (render/auto_exposure.h).
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
 
-// What was repaired, one line each on standard error.
+// Prints what was repaired, one line each, to standard error.
 void tellWarnings(const Warnings& warnings);
 
 // A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.

@@ -1,39 +1,23 @@
-// What a command can be told: names, help, and where the values go. Knows nothing of the parser.
+// The options of a command: names, help, and where the values go.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "core/option_values.h"
 
 namespace whit::cli {
 
-// What a value that is a list of names is made of; none of another.
-template <typename T>
-std::vector<std::string> namesIn(const T&) {
-  return {};
-}
-inline std::vector<std::string> namesIn(const EffectSet&) {
-  std::vector<std::string> names;
-  names.reserve(kEffectNames.size());
-  for (const EffectName& effect : kEffectNames) names.emplace_back(effect.name);
-  return names;
-}
-inline std::vector<std::string> namesIn(const ChannelSet&) {
-  std::vector<std::string> names;
-  names.reserve(kChannels.size());
-  for (const ChannelInfo& channel : kChannels) names.emplace_back(channel.name);
-  return names;
-}
-
 class OptionList {
  public:
   struct Entry {
-    std::string group, name, shortName, placeholder, help;  // no placeholder: a flag
-    std::vector<std::string> names = {};  // of which its value is a list, with commas between
-    bool repeats = false;
-    bool everyday = true;  // in --help; the others are in --help-all
+    std::string group, name, shortName, placeholder, help;  // a flag has no placeholder
+    std::vector<std::string> names = {};  // its value is a list of these, separated by commas
+    bool everyday = true;                 // in --help; the others are in --help-all only
+    bool common = false;                  // an option of all commands that render
     std::function<void(const std::string&)> set;
   };
   struct Operand {
@@ -42,7 +26,7 @@ class OptionList {
     std::vector<std::string>* values = nullptr;
   };
 
-  // Entries that follow are listed under this heading of --help.
+  // The entries that follow stand under this heading of --help.
   void group(const std::string& heading) { group_ = heading; }
 
   template <typename T>
@@ -51,7 +35,8 @@ class OptionList {
     const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
     Entry& entry = push(spec, tell ? help + " (default: " + known + ")" : help,
                         [spec, &field](const std::string& text) { parseValue(spec, text, field); });
-    entry.names = namesIn(field);
+    if constexpr (std::is_same_v<T, EffectSet>) entry.names = namesIn(kEffectNames);
+    if constexpr (std::is_same_v<T, ChannelSet>) entry.names = namesIn(kChannels);
     return entry;
   }
   Entry& flag(std::string_view name, const std::string& help, bool& field) {
@@ -59,11 +44,9 @@ class OptionList {
   }
   // May be given more than once; all values are kept.
   Entry& many(const OptionSpec& spec, const std::string& help, std::vector<std::string>& field) {
-    Entry& entry = push(spec, help, [&field](const std::string& text) { field.push_back(text); });
-    entry.repeats = true;
-    return entry;
+    return push(spec, help, [&field](const std::string& text) { field.push_back(text); });
   }
-  // What stands on the command line without a name.
+  // Words that are not options.
   void operands(const std::string& placeholder, const std::string& help, std::size_t least,
                 std::size_t most, std::vector<std::string>& values) {
     operand = {placeholder, help, least, most, &values};

@@ -1,7 +1,8 @@
 #include "cli/app/parse_options.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "cli/app/completion.h"
 #include "cli/app/help_text.h"
@@ -14,64 +15,32 @@ namespace whit::cli {
 
 namespace {
 
-bool looksLikeOption(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
-
-[[noreturn]] void throwUnknownOption(const std::string& word, const OptionList& list) {
+[[noreturn]] void throwUnknownOption(const std::string& name, const OptionList& list) {
+  if (name.starts_with("--")) refuseFormerName(name.substr(2));
   std::vector<std::string> names{"--help", "--help-all"};
   for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
-  const std::string name = word.substr(0, word.find('='));
-  throwUsage("there is no option '" + name + "'; nearest: '" + nearestName(name, names) + "'");
+  throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
 }
 
-// The parser says "--size: 1 required TEXT missing".
-[[noreturn]] void throwNoValue(const std::string& said, const OptionList& list) {
-  const std::string name = said.substr(0, said.find(':'));
-  for (const OptionList::Entry& e : list.entries) {
-    if (name == "--" + e.name && !e.placeholder.empty()) {
-      throwUsage(name + ": expected " + e.placeholder + " after it");
-    }
+// An option as it was typed: "--name=value", "--name" or, of one letter, "-n", "-nvalue".
+struct TypedOption {
+  std::string name;
+  std::optional<std::string> value;
+  bool isLetter = false;
+};
+
+TypedOption splitOption(const std::string& word) {
+  if (word[1] != '-') {
+    const std::size_t value = word.size() > 2 && word[2] == '=' ? 3 : 2;
+    if (word.size() == 2) return {word, std::nullopt, true};
+    return {word.substr(0, 2), word.substr(value), true};
   }
-  throwUsage(said);
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) return {word, std::nullopt};
+  return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-std::string optionNames(const OptionList::Entry& entry) {
-  return (entry.shortName.empty() ? "" : "-" + entry.shortName + ",") + "--" + entry.name;
-}
-
-// The parser for `list`, with its options in the order of list.entries.
-std::vector<CLI::Option*> declare(CLI::App& app, const OptionList& list) {
-  app.allow_extras();
-  app.set_help_flag("-h,--help");
-  app.set_help_all_flag("--help-all");
-  std::vector<CLI::Option*> options;
-  for (const OptionList::Entry& entry : list.entries) {
-    CLI::Option* option = nullptr;
-    if (entry.placeholder.empty()) {
-      option = app.add_flag(optionNames(entry));
-    } else {
-      option = app.add_option(optionNames(entry), CLI::callback_t());
-    }
-    option->multi_option_policy(entry.repeats ? CLI::MultiOptionPolicy::TakeAll
-                                              : CLI::MultiOptionPolicy::TakeLast);
-    options.push_back(option);
-  }
-  return options;
-}
-
-// What stands alone; an unknown option among it is an error. Words after "--" are never options.
-void takeOperands(const std::vector<std::string>& rest, const OptionList& list) {
-  bool onlyOperands = false;
-  std::vector<std::string> operands;
-  for (const std::string& word : rest) {
-    if (!onlyOperands && word == "--") {
-      onlyOperands = true;
-    } else if (!onlyOperands && looksLikeOption(word)) {
-      throwUnknownOption(word, list);
-    } else {
-      operands.push_back(word);
-    }
-  }
-  const OptionList::Operand& wanted = list.operand;
+void takeOperands(const std::vector<std::string>& operands, const OptionList::Operand& wanted) {
   if (operands.size() < wanted.least) {
     throwUsage("expected " + wanted.placeholder + ": " + wanted.help);
   }
@@ -81,15 +50,48 @@ void takeOperands(const std::vector<std::string>& rest, const OptionList& list) 
   if (wanted.values) *wanted.values = operands;
 }
 
+// Sets every value; stops at a call for help, which is the name of its option.
+std::string takeWords(const std::vector<std::string>& words, const OptionList& list) {
+  std::vector<std::string> operands;
+  bool onlyOperands = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (onlyOperands || word.size() < 2 || word[0] != '-') {
+      operands.push_back(word);
+      continue;
+    }
+    if (word == "-h" || word == "--help" || word == "--help-all") return word;
+    onlyOperands = word == "--";
+    if (onlyOperands) continue;
+    const TypedOption typed = splitOption(word);
+    const auto entry =
+        std::find_if(list.entries.begin(), list.entries.end(), [&](const OptionList::Entry& e) {
+          return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
+        });
+    if (entry == list.entries.end()) throwUnknownOption(typed.name, list);
+    if (typed.value || entry->placeholder.empty()) {
+      entry->set(typed.value.value_or("true"));
+    } else if (i + 1 < words.size()) {
+      entry->set(words[++i]);
+    } else {
+      throwUsage(typed.name + ": expected " + entry->placeholder + " after it");
+    }
+  }
+  takeOperands(operands, list.operand);
+  return "";
+}
+
 }  // namespace
 
 void listReportOptions(OptionList& list, CommonOptions& common) {
   list.group("Reporting");
-  list.flag("quiet", "nothing on standard error but errors", common.quiet);
-  list.value({"progress", "auto|never"}, "progress bar (auto: on a terminal)", common.progress);
+  list.flag("quiet", "nothing on standard error but errors", common.quiet).common = true;
+  list.value({"progress", "auto|never"}, "progress bar (auto: on a terminal)", common.progress)
+      .common = true;
 }
 
 void listCommonOptions(OptionList& list, CommonOptions& common) {
+  const std::size_t own = list.entries.size();
   list.group("Rendering");
   forEachOption(common.render, [&](const OptionSpec& spec, auto& field) {
     OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
@@ -100,30 +102,28 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
     };
   });
   list.group("Loading");
-  list.flag("allow-outside", "the scene may name files outside its own folder",
+  list.flag("allow-outside", "let the scene name files outside its own folder",
             common.load.allowOutside)
       .everyday = false;
-  list.many(
-      {"set", "POINTER=VALUE"},
-      "a member of the scene's description, by JSON pointer, and what it is to be instead, in "
-      "JSON: /lights/0/intensity=40; may be repeated",
-      common.load.settings);
+  list.many({"set", "POINTER=VALUE"},
+            "replaces a member of the scene file, named by JSON pointer, by a value in JSON: "
+            "/lights/0/intensity=40; may be repeated",
+            common.load.settings);
   list.value({"sky", "FILE"},
-             "what is around the scene in place of its own sky: nothing, a studio with soft boxes "
-             "to be mirrored, or an equirectangular image (default: the scene's own; of models the "
-             "studio)",
+             "environment light: none, a studio with soft boxes, or an equirectangular image "
+             "(default: the scene's own; of models the studio)",
              common.load.sky)
       .placeholder = "none|studio|FILE";
   list.value({"time", "SECONDS", -1e9, 1e9},
-             "the instant at which animations and the camera's path are looked at (default: models "
-             "stand as their files have them, without animations)",
+             "time at which animations and the camera path are sampled (default: models stand as "
+             "their files have them, without animations)",
              common.load.instant.seconds);
-  list.value({"animation", "NAME"},
-             "which animation of models is played (default: the first of each)",
+  list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
              common.load.instant.animation);
-  list.value({"max-memory", "GB", 0.001, 1e6}, "what geometry and images may take",
+  list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)
       .everyday = false;
+  for (std::size_t i = own; i < list.entries.size(); ++i) list.entries[i].common = true;
   listReportOptions(list, common);
 }
 
@@ -140,35 +140,15 @@ Parsed parseOptions(const std::string& usage, const std::string& summary, const 
     std::fputs(manOptions(usage, summary, list).c_str(), stdout);
     return Parsed::helpShown;
   }
-  if (words.size() == 4 && words[0] == "--completion") {
-    std::fputs(completionOptions(shellNamed(words[1]), words[2], words[3], list).c_str(), stdout);
+  if (!words.empty() && words[0] == "--complete") {
+    std::fputs(completions({words.begin() + 1, words.end()}, list).c_str(), stdout);
     return Parsed::helpShown;
   }
-  CLI::App app;
-  const std::vector<CLI::Option*> options = declare(app, list);
-  const auto showHelp = [&](HelpTier tier) {
-    std::fputs(helpText(usage, summary, list, tier, helpWidth()).c_str(), stdout);
-  };
-  try {
-    std::vector<std::string> reversed(words.rbegin(), words.rend());
-    app.parse(std::move(reversed));
-  } catch (const CLI::CallForHelp&) {
-    showHelp(HelpTier::everyday);
-    return Parsed::helpShown;
-  } catch (const CLI::CallForAllHelp&) {
-    showHelp(HelpTier::all);
-    return Parsed::helpShown;
-  } catch (const CLI::ArgumentMismatch& error) {
-    throwNoValue(error.what(), list);
-  } catch (const CLI::ParseError& error) {
-    throwUsage(error.what());
-  }
-  takeOperands(app.remaining(), list);
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    if (options[i]->count() == 0) continue;
-    for (const std::string& text : options[i]->reduced_results()) list.entries[i].set(text);
-  }
-  return Parsed::run;
+  const std::string help = takeWords(words, list);
+  if (help.empty()) return Parsed::run;
+  const HelpTier tier = help == "--help-all" ? HelpTier::all : HelpTier::everyday;
+  std::fputs(helpText(usage, summary, list, tier, helpWidth()).c_str(), stdout);
+  return Parsed::helpShown;
 }
 
 }  // namespace whit::cli

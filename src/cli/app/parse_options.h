@@ -11,7 +11,7 @@
 
 namespace whit::cli {
 
-// What every command that renders understands.
+// The options of all commands that render.
 struct CommonOptions {
   RenderOptions render;
   std::set<std::string> given;  // names of the render options on the command line
@@ -29,10 +29,10 @@ void settleOptions(CommonOptions& common);
 
 enum class Parsed { run, helpShown };
 
-// Parses `words` (without the program's name). `usage` is the first line of --help, which goes to
-// standard output, with all options for --help-all; so does the command's part of the manual page
-// for the one word --man, and its part of the completion for --completion SHELL PROGRAM COMMAND.
-// Throws Error(usage): unknown options name the nearest one.
+// Parses `words` (without the names of program and command). --help and --help-all print the help
+// text, which begins with `usage` and `summary`; a first word --man prints the command's part of
+// the manual page, and --complete what a shell may complete the words after it to. Throws
+// Error(usage).
 Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
                     const std::vector<std::string>& words);
 

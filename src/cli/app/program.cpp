@@ -25,7 +25,7 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
   signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then an error of the write
   try {
     const int status = body();
-    // What did not fit into the buffer has failed earlier.
+    // The flag tells of earlier writes, which did not fit into the buffer.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (lost) return fail(name, ExitStatus::io, "cannot write the result");
     return status;

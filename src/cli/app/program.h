@@ -1,4 +1,4 @@
-// What the programs have in common: errors become exit statuses.
+// The frame of main(): errors become exit statuses.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace whit::cli {
 // anything else 1, each with one line "NAME: what" on standard error.
 int runProgram(const std::string& name, const std::function<int()>& body);
 
-// What the programs' exit statuses mean, in words.
+// The exit statuses of the programs.
 struct ExitMeaning {
   int status;
   const char* meaning;

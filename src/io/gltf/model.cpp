@@ -14,6 +14,7 @@
 #include "io/gltf/nodes.h"
 #include "io/gltf/shading.h"
 #include "io/model.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -45,26 +46,14 @@ class GltfModel : public Model {
   GltfStage stage_;
 };
 
-// What is not `given` becomes what `fresh` has: what a scene file has changed stays.
+// Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
 void renew(Material& to, const Material& fresh, const GivenMembers& given) {
-  const auto member = [&](const char* name, auto Material::*m) {
-    if (!given.contains(name)) to.*m = fresh.*m;
-  };
-  member("diffuse", &Material::diffuse);
-  member("specular", &Material::specular);
-  member("emission", &Material::emission);
-  member("roughness", &Material::roughness);
-  member("glossyReflection", &Material::glossyReflection);
-  member("mirror", &Material::mirror);
-  member("mirrorGrazing", &Material::mirrorGrazing);
-  member("transmission", &Material::transmission);
-  member("thin", &Material::thin);
-  member("ior", &Material::ior);
-  member("absorption", &Material::absorption);
-  member("vertexTint", &Material::vertexTint);
-  member("castsShadow", &Material::castsShadow);
-  member("coverage", &Material::coverage);
-  if (!given.contains("alphaMap")) member("alphaCutoff", &Material::alphaCutoff);
+  const float cutoff = to.alphaCutoff;
+  forEachMember<Material>([&](const auto& member) {
+    if (member.rules.kind == MemberKind::map || given.contains(member.name)) return;
+    to.*member.field = fresh.*member.field;
+  });
+  if (given.contains("alphaMap")) to.alphaCutoff = cutoff;
 }
 
 // Bodies of nodes that move, each in that of its parent, where the first of what it holds comes.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "io/gltf/accessor.h"
 #include "io/scene/distinct_names.h"
 #include "scene/description.h"
@@ -365,7 +366,7 @@ class TreeReader {
       const GltfValue perspective = source.need(type);
       const double fov = perspective.need("yfov").number(0) * 180 / std::numbers::pi;
       shows = fov > 0 && fov < 180;
-      camera.fov = static_cast<float>(fov);
+      camera.fov = static_cast<float>(std::clamp(fov, kLeastFov, kLargestFov));
       aspect = perspective["aspectRatio"].number(0);
     } else if (type == "orthographic") {
       const GltfValue orthographic = source.need(type);

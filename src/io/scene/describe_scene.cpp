@@ -41,7 +41,7 @@ class PathMover {
 };
 
 template <typename Visit>
-void forEachMember(Json& root, const char* section, const Visit& visit) {
+void forEachEntry(Json& root, const char* section, const Visit& visit) {
   const auto found = root.find(section);
   if (found == root.end() || !found->is_object()) return;
   for (auto& [name, value] : found->items()) visit(value);
@@ -70,8 +70,8 @@ bool leavesFolder(const std::string& path) { return *fs::path(path).begin() == "
 bool movePaths(Json& root, const fs::path& from, const fs::path& to) {
   PathMover mover(from, to);
   if (root.contains("sky")) mover.moveIn(root["sky"], "image");
-  forEachMember(root, "textures", [&](Json& texture) { mover.moveIn(texture, "image"); });
-  forEachMember(root, "objects", [&](Json& items) { mover.moveInItems(items); });
+  forEachEntry(root, "textures", [&](Json& texture) { mover.moveIn(texture, "image"); });
+  forEachEntry(root, "objects", [&](Json& items) { mover.moveInItems(items); });
   if (root.contains("scene")) mover.moveInItems(root["scene"]);
   return mover.leaves();
 }

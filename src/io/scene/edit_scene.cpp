@@ -47,8 +47,8 @@ bool editLights(const SceneSetting& setting, const LoadOptions& options, Scene& 
   return editLights(options, described, scene);
 }
 
-// Of cameras that stand still, and the image size. Which instances are too small to be traced
-// follows from where cameras are.
+// Edits cameras that stand still, and the image size. The positions of cameras decide which
+// instances are too small to be traced.
 bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
   SceneDescription read;
   JsonObject file{JsonValue(sections)};
@@ -83,10 +83,11 @@ bool editSurroundings(const LoadOptions& options, const JsonDocument& sections, 
   return true;
 }
 
-// What triangles were sorted by, or images were read for.
-bool isBakedIn(std::string_view member) {
-  return member.ends_with("Map") || member == "alphaCutoff" || member == "coverage" ||
-         member == "castsShadow";
+bool isBakedIn(std::string_view name) {
+  bool baked = false;
+  forEachMember<Material>(
+      [&](const auto& member) { baked = baked || (member.rules.baked && member.name == name); });
+  return baked;
 }
 
 bool editMaterial(const SceneSetting& setting, const LoadOptions& options,
@@ -104,10 +105,7 @@ bool editMaterial(const SceneSetting& setting, const LoadOptions& options,
   applySceneSetting(setting, sections);
   JsonDocument plain = sections;
   Json& members = plain.root["materials"][name];
-  for (const char* map : {"diffuseMap", "specularMap", "roughnessMap", "emissionMap", "normalMap",
-                          "alphaMap", "coverageMap"}) {
-    members.erase(map);
-  }
+  forEachMap([&](const auto& member) { members.erase(member.name); });
   Warnings none;
   SceneContext context("scene", options, none, nullptr);
   JsonObject file{JsonValue(plain)};

@@ -11,7 +11,7 @@ namespace {
 
 using Event = Json::parse_event_t;
 
-// Watches the parser: refuses what the parser itself would accept.
+// Refuses texts that the parser itself would accept: repeated keys, deep nesting, too many members.
 class Watcher {
  public:
   explicit Watcher(std::string file) : file_(std::move(file)) {}

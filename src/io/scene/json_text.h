@@ -1,4 +1,4 @@
-// JSON texts: their syntax only.
+// Parses JSON texts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Skies by the names that --sky has for them.
+// Makes the sky that --sky names.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
 
-// What a key sets, one after the other: three of translation, the degrees, three of scale.
+// Numbers of a key: three of translation, the degrees, three of scale.
 constexpr std::size_t kKeyNumbers = 7;
 
 class KeyReader {

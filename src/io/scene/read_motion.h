@@ -15,7 +15,7 @@ namespace whit {
 // "scale"}, ...], "interpolation": "linear" | "step" | "cubic", "loop": true}; scale comes first,
 // translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
 // smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
-// What is moved by hand has a motion always. Throws badScene with the place.
+// A thing that is moved by hand always has a motion. Throws badScene with the place.
 std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
                                          SceneDescription& scene);
 

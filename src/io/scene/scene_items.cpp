@@ -12,7 +12,6 @@
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
 #include "io/scene/distinct_names.h"
-#include "io/scene/find_named.h"
 #include "io/scene/read_motion.h"
 #include "io/scene/shape_parameters.h"
 #include "scene/generation_limit.h"
@@ -112,7 +111,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
-// What a shape or a model has not named itself is one item, or one each where it is placed often.
+// A shape or model without item names of its own is one item, or one item a placement.
 void nameItem(Body& content, const std::string& pointer) {
   if (content.parts.empty() && content.children.empty()) return;
   const ItemName name = std::make_shared<const std::string>(pointer);
@@ -231,7 +230,18 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   --depth_;
 }
 
+void refuseRemovedShapes(const JsonValue& name) {
+  const std::pair<std::string, std::string> removed[] = {
+      {"grid", "\"quad\""}, {"tube", "\"tumbler\", or a model of a pipe"}};
+  for (const auto& [shape, instead] : removed) {
+    if (name.isText() && name.text() == shape) {
+      name.fail(instead + " in place of the removed shape");
+    }
+  }
+}
+
 Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
+  refuseRemovedShapes(name);
   JsonShapeParameters parameters(item);
   const GenerationLimit limit(context_.budget.left());
   Shape shape = findGenerator(name, shapeGenerators())(parameters);

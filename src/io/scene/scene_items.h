@@ -50,7 +50,7 @@ class ItemReader {
   MaterialReader& materials_;
   SceneLayout layout_;
   std::map<std::string, NamedObject> objects_;
-  // Of meshes that a program hands over, by name and material.
+  // Bodies of the meshes that a program hands over, by name and material.
   std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
   int depth_ = 0;  // of the item that is being read
 };

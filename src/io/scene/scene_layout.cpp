@@ -137,7 +137,7 @@ std::vector<std::uint64_t> SceneLayout::itemsOfParts(const Body& body) const {
   return items;
 }
 
-// Of its own items; `first` is the number of the first of all that it holds.
+// Names the body's own items; `first` is the number of the first item within the body.
 void SceneLayout::nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
                             SceneDescription& scene) const {
   if (first >= scene.itemNames.size()) return;

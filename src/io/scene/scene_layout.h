@@ -16,7 +16,7 @@ namespace whit {
 // Items within items, by "group" or "use".
 inline constexpr int kNestingLimit = 256;
 
-// What a mesh takes in memory.
+// Memory that a mesh takes.
 std::uint64_t bytesOf(const Mesh& mesh);
 
 // Shared by the copies of what it names.
@@ -47,7 +47,7 @@ struct Body {
   std::vector<ItemName> items;
 
   std::size_t itemCount() const { return items.empty() && !parts.empty() ? 1 : items.size(); }
-  // Of its own, those of so many of its parts.
+  // The number of own items that come before a part.
   std::size_t itemsBefore(std::size_t part) const {
     return part < parts.size() ? parts[part].item : itemCount();
   }

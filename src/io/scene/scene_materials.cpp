@@ -4,25 +4,16 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "io/scene/find_named.h"
 #include "io/scene/shape_parameters.h"
 #include "scene/generation_limit.h"
 
 namespace whit {
 namespace {
 
-constexpr double kLeastIor = 0.1;
-constexpr int kLargestPriority = 1000;
-
 std::vector<std::string> useNames() { return {"color", "data"}; }
 
 const char* formatName(TexelFormat format) {
   return format == TexelFormat::data ? "data" : "color";
-}
-
-TexelFormat formatOf(TextureUse use) {
-  const bool isColor = use == TextureUse::color || use == TextureUse::emission;
-  return isColor ? TexelFormat::color : TexelFormat::data;
 }
 
 Wrap readWrapWord(const JsonValue& value) {
@@ -58,7 +49,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
             formatName(is) + ")");
 }
 
-// What the texture says that it is read as, where it does.
+// The member "as" of a texture, or else `use`.
 TextureUse readUse(JsonObject& object, const JsonValue& name, TextureUse use) {
   const auto as = object.find("as");
   if (!as) return use;
@@ -171,48 +162,22 @@ void MaterialReader::checkUnused() {
   }
 }
 
-void MaterialReader::readMap(JsonObject& object, const std::string& key, TextureUse use,
-                             std::int32_t& map) {
-  const auto name = object.find(key);
-  if (name) map = name->isNull() ? kNoTexture : texture(*name, use);
-}
-
 void MaterialReader::read(JsonObject& object, Material& m) {
-  m.diffuse = object.color("diffuse", m.diffuse, 1);
-  readMap(object, "diffuseMap", TextureUse::color, m.diffuseMap);
-  m.specular = object.color("specular", m.specular, 1);
-  readMap(object, "specularMap", TextureUse::color, m.specularMap);
-  m.roughness = object.number("roughness", m.roughness, 0, 1);
-  readMap(object, "roughnessMap", TextureUse::data, m.roughnessMap);
-  m.emission = object.color("emission", m.emission);
-  readMap(object, "emissionMap", TextureUse::emission, m.emissionMap);
-  readMap(object, "normalMap", TextureUse::data, m.normalMap);
-  readMap(object, "alphaMap", TextureUse::mask, m.alphaMap);
-  m.alphaCutoff = object.number("alphaCutoff", m.alphaCutoff, 0, 1);
-  m.coverage = object.number("coverage", m.coverage, 0, 1);
-  readMap(object, "coverageMap", TextureUse::mask, m.coverageMap);
+  readMembers(object, m);
+  forEachMap([&](const auto& member) {
+    const auto name = object.find(member.name);
+    if (!name) return;
+    m.*member.field = name->isNull() ? kNoTexture : texture(*name, member.rules.use);
+  });
+  // Defaults that follow from other members; see `decides` in scene/members.h.
   if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
-  const bool mirrorGiven = object.has("mirror");
-  m.mirror = object.color("mirror", m.mirror, 1);
-  m.mirrorGrazing = object.color("mirrorGrazing", mirrorGiven ? m.mirror : m.mirrorGrazing, 1);
-  const bool transmissionGiven = object.has("transmission");
-  m.transmission = object.color("transmission", m.transmission, 1);
-  if (const auto thin = object.find("thin")) m.thin = thin->flag();
-  m.ior = object.number("ior", m.ior, kLeastIor, kLargestIor);
-  m.absorption = object.color("absorption", m.absorption);
-  if (const auto priority = object.find("priority")) {
-    m.priority = priority->integer(-kLargestPriority, kLargestPriority);
-  }
-  if (const auto reflects = object.find("diffuseReflection"))
-    m.diffuseReflection = reflects->flag();
-  if (const auto reflects = object.find("glossyReflection")) {
-    m.glossyReflection = reflects->flag();
-  } else if (mirrorGiven || object.has("mirrorGrazing") || transmissionGiven) {
+  const bool mirrors = object.has("mirror"), transmits = object.has("transmission");
+  if (mirrors && !object.has("mirrorGrazing")) m.mirrorGrazing = m.mirror;
+  const bool hasImpulses = mirrors || transmits || object.has("mirrorGrazing");
+  if (hasImpulses && !object.has("glossyReflection")) {
     m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
   }
-  if (const auto castsShadow = object.find("castsShadow")) {
-    m.castsShadow = castsShadow->flag();
-  } else if (transmissionGiven || object.has("coverage")) {
+  if ((transmits || object.has("coverage")) && !object.has("castsShadow")) {
     m.castsShadow = m.blocksLight();
   }
 }
@@ -220,14 +185,10 @@ void MaterialReader::read(JsonObject& object, Material& m) {
 void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
   read(object, material);
   for (const auto& [name, value] : object.value().members()) given.insert(name);
-  if (object.has("mirror")) given.insert("mirrorGrazing");
-  if (object.has("coverageMap")) given.insert({"alphaMap", "alphaCutoff"});
-  for (const char* passing : {"transmission", "coverage"}) {
-    if (object.has(passing)) given.insert("castsShadow");
-  }
-  for (const char* impulse : {"mirror", "mirrorGrazing", "transmission"}) {
-    if (object.has(impulse)) given.insert("glossyReflection");
-  }
+  forEachMember<Material>([&](const auto& member) {
+    if (!given.contains(member.name)) return;
+    for (const std::string_view name : member.rules.decides) given.emplace(name);
+  });
 }
 
 }  // namespace whit

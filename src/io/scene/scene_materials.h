@@ -20,7 +20,7 @@ class MaterialReader {
 
   // The index of the material that the text of `name` stands for.
   std::uint32_t find(const JsonValue& name) const;
-  // Of items that name none: the one called "default", or else a gray one.
+  // The material of items that name none: the one called "default", or else a gray one.
   std::uint32_t defaultMaterial();
   // Adds the material as it is, returns its index.
   std::uint32_t add(Material material);
@@ -30,8 +30,8 @@ class MaterialReader {
 
   // Changes what `object` gives and nothing else. A map may be null: none.
   void read(JsonObject& object, Material& material);
-  // The same for a material of a model, before its images are asked for. What changes for good is
-  // added to `given`.
+  // Reads members of a model's material before its images are asked for. Members that the model may
+  // not change any more are added to `given`.
   void override(JsonObject& object, Material& material, GivenMembers& given);
 
  private:
@@ -44,7 +44,6 @@ class MaterialReader {
   std::int32_t texture(const JsonValue& name, TextureUse use);
   std::int32_t load(const JsonValue& definition, const JsonValue& name, TextureUse use);
   std::int32_t loadArray(JsonObject& object, const JsonValue& name, TextureUse use);
-  void readMap(JsonObject& object, const std::string& key, TextureUse use, std::int32_t& map);
 
   SceneContext& context_;
   std::map<std::string, NamedTexture> textures_;

@@ -1,4 +1,4 @@
-// What a program hands over in place of files: the meshes and images that a scene's text names.
+// Meshes and images that a program hands over, which a scene's text names in place of files.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ std::vector<std::string> tokensOf(const std::string& text) {
   return tokens;
 }
 
-// Of an element of `list`, or of one to come.
+// The index of an element of `list`, or of a new element.
 std::size_t indexOf(const std::string& token, const Json& list, const JsonValue& place) {
   if (token == "-") return list.size();
   std::size_t index = 0;
@@ -36,7 +36,7 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
   return index;
 }
 
-// Whether one of the members is within the other, or both are the same.
+// True if one of the members is within the other, or both are the same.
 bool areRelated(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   return std::equal(
       a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());

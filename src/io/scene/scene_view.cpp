@@ -10,16 +10,9 @@
 namespace whit {
 namespace {
 
-constexpr double kLeastFov = 0.01, kLargestFov = 179;
-constexpr double kLeastRadius = 1e-6;
-
-// The fields that are given; the others stay.
+// Reads the members that are given; the others keep their values.
 void readCamera(JsonObject& object, Camera& camera) {
-  camera.eye = object.vector("eye", camera.eye);
-  camera.at = object.vector("at", camera.at);
-  camera.up = object.vector("up", camera.up);
-  camera.fov = object.number("fov", camera.fov, kLeastFov, kLargestFov);
-  camera.orthographicHeight = object.number("orthographicHeight", camera.orthographicHeight, 0);
+  readMembers(object, camera);
   const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
   if (forward == Vec3d()) object.value().fail("eye and at to differ");
   const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
@@ -77,47 +70,15 @@ void readPath(JsonObject& file, SceneDescription& scene) {
   }
 }
 
-void readDirection(JsonObject& object, Light& light) {
-  const JsonValue direction = object.need("direction");
-  light.direction = Vec3f(direction.vector());
-  if (!(maxComponent(abs(light.direction)) > 0))
-    direction.fail("a direction that is not [0, 0, 0]");
-}
-
-void readDirectional(JsonObject& object, Light& light) {
-  light.kind = Light::Kind::directional;
-  readDirection(object, light);
-  light.intensity = object.need("irradiance").color();
-}
-
-void readCone(JsonObject& object, Light& light) {
-  constexpr double kLeastOuter = 0.5, kLargestOuter = 90;
-  light.kind = Light::Kind::spot;
-  readDirection(object, light);
-  light.outerConeAngle =
-      object.number("outerConeAngle", light.outerConeAngle, kLeastOuter, kLargestOuter);
-  light.innerConeAngle = object.number("innerConeAngle", light.innerConeAngle, 0, kLargestOuter);
-  if (light.innerConeAngle < light.outerConeAngle) return;
-  object.value().fail("an innerConeAngle below the outerConeAngle, " +
-                      std::to_string(light.outerConeAngle) + " degrees");
-}
-
-Json describeLight(const Light& light) {
-  Json json{{"name", light.name}};
-  if (light.kind != Light::Kind::point) json["direction"] = describe(light.direction);
-  if (light.kind == Light::Kind::directional) {
-    json.update({{"type", "directional"}, {"irradiance", describe(light.intensity)}});
-    return json;
+void readLight(JsonObject& object, Light& light) {
+  readMembers(object, light);
+  if (light.kind != Light::Kind::point && !(maxComponent(abs(light.direction)) > 0)) {
+    object.need("direction").fail("a direction that is not [0, 0, 0]");
   }
-  json.update({{"position", describe(light.position)},
-               {"intensity", describe(light.intensity)},
-               {"radius", describe(light.radius)}});
-  if (light.kind == Light::Kind::spot) {
-    json.update({{"type", "spot"},
-                 {"innerConeAngle", describe(light.innerConeAngle)},
-                 {"outerConeAngle", describe(light.outerConeAngle)}});
+  if (light.kind == Light::Kind::spot && !(light.innerConeAngle < light.outerConeAngle)) {
+    object.value().fail("an innerConeAngle below the outerConeAngle, " +
+                        std::to_string(light.outerConeAngle) + " degrees");
   }
-  return json;
 }
 
 }  // namespace
@@ -153,16 +114,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
     const auto name = object.find("name");
     light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
     light.pointer = value.pointer();
-    const auto type = object.find("type");
-    const std::string kind = type ? type->word({"point", "spot", "directional"}) : "point";
-    if (kind == "directional") {
-      readDirectional(object, light);
-    } else {
-      light.position = Vec3f(object.need("position").vector());
-      light.intensity = object.need("intensity").color();
-      light.radius = object.number("radius", light.radius, kLeastRadius);
-      if (kind == "spot") readCone(object, light);
-    }
+    readLight(object, light);
     readMotionOf(object, instant, scene, light);
     object.finish();
     scene.lights.push_back(light);
@@ -227,16 +179,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   return fromSky;
 }
 
-Json describe(const Camera& camera) {
-  Json json{{"eye", describe(camera.eye)},
-            {"at", describe(camera.at)},
-            {"up", describe(camera.up)},
-            {"fov", describe(camera.fov)}};
-  if (camera.orthographicHeight > 0) {
-    json["orthographicHeight"] = describe(camera.orthographicHeight);
-  }
-  return json;
-}
+Json describe(const Camera& camera) { return describeMembers(camera); }
 
 Json describe(const Ambient& ambient) {
   Json json = ambient.ofSky > 0
@@ -248,7 +191,10 @@ Json describe(const Ambient& ambient) {
 
 Json describe(const std::vector<Light>& lights) {
   Json list = Json::array();
-  for (const Light& light : lights) list.push_back(describeLight(light));
+  for (const Light& light : lights) {
+    list.push_back({{"name", light.name}});
+    list.back().update(describeMembers(light));
+  }
   return list;
 }
 

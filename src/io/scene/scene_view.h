@@ -12,11 +12,7 @@ namespace whit {
 // "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
 // degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
-// "lights": of each, "type" is "point" (default), "spot" or "directional", "name" is free. Point
-// and spot lights have "position", "intensity" (W/sr) and "radius"; spot lights also "direction"
-// and, half angles in degrees, "innerConeAngle" (0) and "outerConeAngle" (45), between which they
-// fall off. Directional lights have "direction" and "irradiance" (W/m^2 on a surface that faces
-// them).
+// "lights": see scene/members.h for what each type has. "name" is free.
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
 // "sky"; its image is there after context.textures.finish().
 void readSky(JsonObject& file, SceneContext& context);
@@ -24,7 +20,7 @@ void readSky(JsonObject& file, SceneContext& context);
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
 
-// What is read of these is the same bit for bit: one of "cameras", "lights", "ambient".
+// Sections "lights" and "ambient" and one of the "cameras"; reading them gives the same bits.
 Json describe(const Camera& camera);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);

@@ -7,25 +7,25 @@ namespace whit::procedural {
 
 using MakeShape = Shape(ShapeParameters& parameters);
 
-// round.cpp: turned and tessellated solids about the y axis, centered on the origin.
-MakeShape makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeTube, makeDisc;
+// solids.cpp: turned and tessellated solids about the y axis, centered on the origin.
+MakeShape makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeDisc;
 
-// Its exact spheres become triangles: so many around, half as many from pole to pole.
+// Replaces exact spheres by triangles: `segments` around, half as many from pole to pole.
 void tessellateSpheres(Mesh& mesh, int segments);
 
-// flat.cpp: plane faces, no normals.
-MakeShape makeQuad, makeGrid, makeBox, makeRoundedBox, makeStairs;
+// solids.cpp: plane faces, no normals.
+MakeShape makeQuad, makeBox, makeRoundedBox, makeStairs;
 
 // vessels.cpp: standing on y = 0.
 MakeShape makeVase, makeTumbler;
 
-// column.cpp, wall.cpp, colonnade.cpp, vault.cpp: architecture, in units of metres, on y = 0.
+// architecture.cpp, vault.cpp: in units of metres, on y = 0.
 MakeShape makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade, makeVault, makeCornice;
 
 // cloth.cpp: sheets without thickness.
 MakeShape makeCurtain, makeCanopy;
 
-// terrain.cpp, tree.cpp, plant.cpp
+// terrain.cpp, plants.cpp
 MakeShape makeTerrain, makeTree, makeForest, makePlant, makeRock;
 
 }  // namespace whit::procedural

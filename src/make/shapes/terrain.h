@@ -17,7 +17,7 @@ class Ground {
 
   double size() const { return size_; }
   std::uint32_t seed() const { return seed_; }
-  // Of the ground at (x, z); below zero in the valley's floor.
+  // Height of the ground at (x, z); below zero in the valley's floor.
   double height(double x, double z) const;
   // Upward unit normal, from differences over `step`.
   Vec3d normal(double x, double z, double step) const;

@@ -1,0 +1,173 @@
+// Coplanar triangles that overlap: boxes face in face, decals in a floor, instances in one place,
+// glass that stands on a floor. A ray hits them at the same distance, and a rule decides which of
+// them is nearer.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bake/covered_part.h"
+
+namespace whit {
+
+class Scene;
+class BoxTree;
+struct SceneOrder;
+
+inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
+
+// A triangle where it stands: in the world (kNoInstance) or carried by an instance. Indices into
+// Scene::triangles and Scene::instances.
+struct PlacedTriangleId {
+  std::uint32_t triangle = 0, instance = kNoInstance;
+  bool operator==(const PlacedTriangleId&) const = default;
+};
+
+// Ascending in this are the world's triangles, then those of one instance after the other.
+inline std::uint64_t orderOf(PlacedTriangleId id) {
+  return std::uint64_t{id.instance + 1} << 32 | id.triangle;
+}
+inline PlacedTriangleId placedTriangle(std::uint64_t order) {
+  return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
+}
+
+class CoplanarTriangles {
+ public:
+  CoplanarTriangles() = default;
+  // Each pair of orderOf() is given once, in any order of its two.
+  CoplanarTriangles(std::uint64_t triangles,
+                    std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs);
+
+  bool empty() const { return partners_.empty(); }
+
+  // True if the triangle is coplanar with another one in some placement of it. False for numbers
+  // that no triangle has.
+  bool any(std::uint32_t triangle) const {
+    const std::size_t word = triangle / 64;
+    return word < any_.size() && (any_[word] >> triangle % 64 & 1) != 0;
+  }
+
+  // The triangles that lie in the plane of this one and touch it, itself excluded, ascending by
+  // orderOf(). Empty if there are none.
+  std::span<const PlacedTriangleId> partnersOf(PlacedTriangleId id) const;
+
+  // False only if forEachPartnerAt() visits none. The scene must have coplanar triangles.
+  bool anyAt(PlacedTriangleId id, double u, double v) const {
+    const Slot& slot = slots_[slotOf(id)];
+    return slot.count != 0 && isContested(slot, u, v);
+  }
+
+  // Numbers the coplanar triangles in the order of the scene file; all ranks are 0 before this.
+  void rankBy(const Scene& scene, const SceneOrder& order);
+
+  // The triangle must be coplanar with another one.
+  std::uint32_t rankOf(PlacedTriangleId id) const { return slots_[slotOf(id)].rank; }
+
+  // The ranks of the partners of all triangles, one after the other.
+  std::span<const std::uint32_t> ranks() const { return ranks_; }
+
+  // Calls visit(partner, rank) for partners that may lie at the point of this triangle that has the
+  // weights u and v of corners 1 and 2. Visits none if no partner overlaps the triangle there.
+  template <typename Visitor>
+  void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
+    if (empty()) return;
+    const Slot& slot = slots_[slotOf(id)];
+    if (slot.count == 0 || !isContested(slot, u, v)) return;
+    const Cell& cell = cells_[slot.firstCell + cellAt(u, v, slot.side)];
+    const auto own = std::span(inCells_).subspan(cell.first, cell.count);
+    const auto holds = [&](std::size_t i) {
+      return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
+    };
+    const auto overlapping = own.first(cell.overlapping);
+    if (std::none_of(overlapping.begin(), overlapping.end(), holds)) return;
+    for (const std::size_t i : own) {
+      if (holds(i)) visit(partners_[i], ranks_[i]);
+    }
+  }
+
+  std::uint64_t bytes() const;
+
+ private:
+  friend class CoplanarFinder;
+
+  struct Slot {
+    PlacedTriangleId id;
+    std::uint32_t count = 0;  // 0: the slot is free
+    std::uint32_t rank = 0;
+    std::uint64_t first = 0;    // in partners_
+    std::size_t firstCell = 0;  // in cells_
+    std::size_t side = 1;       // the number of cells along each side of a square
+    std::size_t firstWord = 0;  // in contested_
+    std::size_t maskSide = 0;   // likewise, of a finer square
+  };
+  static std::size_t cellOf(double weight, std::size_t side) {
+    const auto most = static_cast<double>(side);
+    return static_cast<std::size_t>(std::clamp(weight * most, 0.0, most - 1));
+  }
+  static std::size_t cellAt(double u, double v, std::size_t side) {
+    return cellOf(v, side) * side + cellOf(u, side);
+  }
+  bool isContested(const Slot& slot, double u, double v) const {
+    const std::size_t cell = cellAt(u, v, slot.maskSide);
+    return (contested_[slot.firstWord + cell / 64] >> cell % 64 & 1) != 0;
+  }
+  template <typename Visitor>
+  static void forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit);
+  void fillCells(Slot& slot, std::span<const std::uint8_t> overlaps);
+
+  std::size_t slotOf(PlacedTriangleId id) const;
+
+  std::vector<std::uint64_t> any_;  // a bit a triangle
+  std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
+  std::vector<PlacedTriangleId> partners_;
+  std::vector<std::uint32_t> ranks_;  // one for each of partners_
+  std::vector<CoveredPart> covered_;  // the part that each of partners_ covers of its triangle
+  // Partners by place: a cell that some partner overlaps lists all partners that reach into it; the
+  // overlapping ones come first.
+  struct Cell {
+    std::uint64_t first = 0;  // in inCells_
+    std::uint32_t count = 0, overlapping = 0;
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> inCells_;  // places in partners_
+  // A bit for each cell of the finer squares: some overlapping partner reaches into it.
+  std::vector<std::uint64_t> contested_;
+};
+
+// Two placed triangles lie in one plane if the corners of each are no farther from the plane of the
+// other than the sum of their error bounds (see Facet). They overlap if no edge of either, by its
+// normal in the plane, leaves them less than that sum in common, and touch if none separates them
+// by more. The search finds the triangles that overlap another one in their plane, and the ones
+// that touch one of these in its plane; both are partners of all of them that they touch in their
+// plane. Triangles without area are left out. The result is the same for any number of threads.
+//
+// The work is bounded (see findPairs), and `complete` says if all pairs were found. Heaps of
+// triangles or instances that overlap deeply may exceed the bound. Of instances of one object in
+// exactly one place only the first four take part. Scenes of more triangles than kMostSearched,
+// each instanced object counted once, are not searched.
+inline constexpr std::uint64_t kMostSearched = 4'000'000;
+CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
+
+// The geometries' trees, see bake/coplanar_pairs.h.
+using TriangleTrees = std::vector<std::shared_ptr<const BoxTree>>;
+
+// The coplanar triangles among all that stands still in a scene that moves, searched once.
+struct StillCoplanar {
+  bool known = false;
+  std::vector<std::uint32_t> instances;  // InstanceRecord::written of all instances at that time
+  std::vector<std::uint64_t> triangles;  // orderOf() of triangles that overlap others
+  bool all = false;     // no moving triangle overlapped another one at the last search
+  TriangleTrees trees;  // at that time
+};
+
+// Searches again after the scene has moved: scene.coplanar comes out as findCoplanarTriangles()
+// would find it, except that a moving triangle that only touches coplanar ones is no partner of
+// them unless some moving triangle overlaps another one in its plane.
+void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrder& order,
+                             int threads);
+
+}  // namespace whit

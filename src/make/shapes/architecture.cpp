@@ -1,0 +1,475 @@
+// Buildings: walls, arches, columns.
+#include <array>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "make/patterns/noise.h"
+#include "make/shapes/generators.h"
+#include "make/shapes/mesh_builder.h"
+
+namespace whit::procedural {
+namespace {
+
+// A solid is a plan in the x-y plane pulled along z.
+using PlanPoint = std::array<double, 2>;
+// Four corners, counter-clockwise. Cells meet edge to edge with equal coordinates; an edge that
+// only one cell has belongs to the outline.
+using PlanCell = std::array<PlanPoint, 4>;
+
+using Edge = std::pair<PlanPoint, PlanPoint>;
+constexpr double kCreaseCosine = 0.81915204428899178968;  // 35 degrees
+
+// Edges of cells without a partner of opposite direction.
+std::map<Edge, bool> outlineOf(const std::vector<PlanCell>& plan) {
+  std::map<Edge, bool> edges;
+  for (const PlanCell& cell : plan) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const PlanPoint &a = cell[k], &b = cell[(k + 1) % 4];
+      if (a == b) continue;
+      const auto partner = edges.find({b, a});
+      if (partner != edges.end()) {
+        edges.erase(partner);
+      } else {
+        edges[{a, b}] = true;
+      }
+    }
+  }
+  return edges;
+}
+
+Vec3d outward(const Edge& e) {
+  return normalized(Vec3d{e.second[1] - e.first[1], e.first[0] - e.second[0], 0});
+}
+
+void addFaces(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z, double repeat) {
+  for (const PlanCell& cell : plan) {
+    std::array<Vec3d, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = {cell[k][0], cell[k][1], z};
+    builder.plate(corners, repeat);
+  }
+}
+
+void addSides(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z0, double z1,
+              double repeat) {
+  const auto outline = outlineOf(plan);
+  std::map<PlanPoint, Vec3d> arriving, leaving;
+  for (const auto& [edge, present] : outline) {
+    leaving[edge.first] = outward(edge);
+    arriving[edge.second] = outward(edge);
+  }
+  const auto smoothed = [](const Vec3d& own, const Vec3d& neighbor) {
+    return dot(own, neighbor) > kCreaseCosine ? own + neighbor : own;
+  };
+  for (const auto& [edge, present] : outline) {
+    const auto& [a, b] = edge;
+    const Vec3d own = outward(edge);
+    const Vec3d atA = smoothed(own, arriving[a]), atB = smoothed(own, leaving[b]);
+    // Steep sides run their texture up, level ones along x.
+    const bool steep = std::fabs(own.x) > std::fabs(own.y);
+    const double facing = own.x > 0 ? -1 : 1;
+    const auto uv = [&](const PlanPoint& p, double z) {
+      return steep ? Uv{facing * z / repeat, p[1] / repeat} : Uv{p[0] / repeat, -z / repeat};
+    };
+    const auto corner = [&](const PlanPoint& p, double z, const Vec3d& normal) {
+      return builder.vertex({{p[0], p[1], z}, normal, uv(p, z)});
+    };
+    const std::uint32_t q0 = corner(a, z1, atA), q1 = corner(a, z0, atA);
+    const std::uint32_t q2 = corner(b, z0, atB), q3 = corner(b, z1, atB);
+    builder.quad(q0, q1, q2, q3);
+  }
+}
+
+// Closed solid from z0 to z1. Side faces whose directions differ by less than 35 degrees are
+// smooth. `repeat` units of length a texture.
+Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double repeat) {
+  MeshBuilder builder;
+  addFaces(builder, plan, z1, repeat);
+  std::vector<PlanCell> behind = plan;
+  for (PlanCell& cell : behind) std::swap(cell[1], cell[3]);
+  addFaces(builder, behind, z0, repeat);
+  addSides(builder, plan, z0, z1, repeat);
+  return builder.take("extrusion");
+}
+
+PlanCell rectangle(double x0, double y0, double x1, double y1) {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
+}
+
+// Cells of the half ring between two half ellipses over `center`.
+std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint outer, int segments) {
+  const auto at = [&](const PlanPoint& radii, int k) {
+    const TurnPoint t = turn(k, 2 * segments);
+    return PlanPoint{center[0] + radii[0] * t.cosine, center[1] + radii[1] * t.sine};
+  };
+  std::vector<PlanCell> cells;
+  cells.reserve(static_cast<std::size_t>(segments));
+  for (int k = 0; k < segments; ++k) {
+    cells.push_back({at(inner, k), at(outer, k), at(outer, k + 1), at(inner, k + 1)});
+  }
+  return cells;
+}
+
+// A wall with a row of openings, in the x-y plane, centered on x = 0 and z = 0, standing on y = 0.
+struct WallPlan {
+  double spacing = 3;  // width of a bay
+  int bays = 1;        // openings, one in the middle of each bay
+  double height = 4, depth = 0.3;
+  double margin = 0;  // more wall at both ends
+  double openingWidth = 1.2;
+  double sill = 0;    // height of the opening's lower edge, 0: a door
+  double spring = 2;  // where the arch begins
+  double rise = 0.6;  // height of the arch above the spring, 0: a straight lintel
+  int segments = 24;  // of an arch
+  double uvRepeat = 1;
+};
+
+// A pier from floor to top, cut at the levels that its neighbors have corners at.
+void addPier(std::vector<PlanCell>& cells, const std::vector<double>& levels, double x0,
+             double x1) {
+  if (!(x1 > x0)) return;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    if (levels[k + 1] > levels[k]) cells.push_back(rectangle(x0, levels[k], x1, levels[k + 1]));
+  }
+}
+
+void addOpening(std::vector<PlanCell>& cells, const WallPlan& plan, double a, double b) {
+  if (plan.sill > 0) cells.push_back(rectangle(a, 0, b, plan.sill));
+  const int n = plan.rise > 0 ? plan.segments : 1;
+  const double half = (b - a) / 2;
+  const auto arc = [&](int k) {
+    if (k == 0) return PlanPoint{a, plan.spring};
+    if (k == n) return PlanPoint{b, plan.spring};
+    const TurnPoint t = turn(k, 2 * n);
+    return PlanPoint{a + half * (1 - t.cosine), plan.spring + plan.rise * t.sine};
+  };
+  for (int k = 0; k < n; ++k) {
+    const PlanPoint p = arc(k), q = arc(k + 1);
+    cells.push_back({{p, q, {q[0], plan.height}, {p[0], plan.height}}});
+  }
+}
+
+Mesh buildWall(const WallPlan& plan) {
+  std::vector<PlanCell> cells;
+  const std::vector<double> levels{0, plan.sill, plan.spring, plan.height};
+  const double left = -0.5 * plan.bays * plan.spacing;
+  const auto boundary = [&](int bay) { return left + bay * plan.spacing; };
+  addPier(cells, levels, boundary(0) - plan.margin, boundary(0));
+  for (int bay = 0; bay < plan.bays; ++bay) {
+    const double middle = 0.5 * (boundary(bay) + boundary(bay + 1));
+    const double a = middle - plan.openingWidth / 2, b = middle + plan.openingWidth / 2;
+    addPier(cells, levels, boundary(bay), a);
+    addOpening(cells, plan, a, b);
+    addPier(cells, levels, b, boundary(bay + 1));
+  }
+  addPier(cells, levels, boundary(plan.bays), boundary(plan.bays) + plan.margin);
+  return extrude(cells, -plan.depth / 2, plan.depth / 2, plan.uvRepeat);
+}
+
+// A classical column standing on y = 0: square plinth, moulded base, shaft with entasis and flutes,
+// leafed bell and square abacus.
+struct ColumnPlan {
+  double radius = 0.3;  // of the shaft at its foot
+  double height = 4;    // with base and capital
+  int flutes = 0;       // 0: a smooth shaft
+  int segments = 48;    // around; rounded up to a multiple of 4 a flute
+  int rings = 16;       // along the shaft
+  double taper = 0.14;  // how much thinner the shaft is at the top, in parts of the radius
+  int leaves = 8;       // leaves in each of the capital's two rows, 0: a plain bell
+  double uvRepeat = 1;
+};
+
+struct ColumnMeshes {
+  Mesh shaft, trim;
+};
+
+// Half the side of the abacus in parts of the radius: a wall above may rest on it.
+constexpr double kAbacusHalf = 1.5;
+
+// Heights in parts of the radius.
+constexpr double kPlinth = 0.35, kBase = 1.0, kCapital = 2.4, kAbacus = 0.35, kNeck = 0.16;
+
+void addHalfRound(std::vector<std::array<double, 2>>& outline, double r, double y0, double y1) {
+  constexpr int kSteps = 6;
+  const double half = (y1 - y0) / 2;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double a = std::numbers::pi * k / kSteps;
+    outline.push_back({r + half * std::sin(a), y0 + half - half * std::cos(a)});
+  }
+}
+
+void addBase(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
+  const double r = plan.radius;
+  builder.box({-1.42 * r, 0, -1.42 * r}, {1.42 * r, kPlinth * r, 1.42 * r}, plan.uvRepeat);
+  // The attic base: torus, hollow, torus. It starts inside the plinth.
+  std::vector<std::array<double, 2>> outline{{0, 0.3 * r}, {1.22 * r, 0.3 * r}};
+  addHalfRound(outline, 1.22 * r, kPlinth * r, 0.66 * r);
+  outline.push_back({1.14 * r, 0.66 * r});
+  outline.push_back({1.07 * r, 0.74 * r});
+  outline.push_back({1.10 * r, 0.82 * r});
+  addHalfRound(outline, 1.08 * r, 0.82 * r, kBase * r);
+  outline.push_back({0, kBase * r});
+  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), segments, 4);
+}
+
+// Radius of the bell of the capital at t in [0, 1] from neck to abacus.
+double bellRadius(const ColumnPlan& plan, double t) {
+  return plan.radius * (0.86 + 0.10 * t + 0.34 * t * t * t);
+}
+
+void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double y0, double height,
+             double bell, double halfWidth) {
+  constexpr int kAcross = 4, kUp = 7;
+  const double r = plan.radius;
+  builder.smoothSheet(
+      kAcross, kUp, false,
+      [&](int i, int j) {
+        const double s = 2.0 * i / kAcross - 1, t = static_cast<double>(j) / kUp;
+        const double curl = std::max(0.0, t - 0.55) / 0.45;
+        const double narrow =
+            (1 - 0.55 * t * t * t) * (0.9 + 0.1 * std::cos(4 * std::numbers::pi * t));
+        const double out =
+            bellRadius(plan, bell * t) + r * (0.05 + 0.24 * curl * curl + 0.05 * std::fabs(s));
+        const double a = angle + s * halfWidth * narrow;
+        const double y = y0 + height * (t - 0.32 * curl * curl * curl);
+        return Vec3d{out * std::cos(a), y, -out * std::sin(a)};
+      },
+      [&](int i, int j) {
+        return Uv{0.3 * i / kAcross, 0.5 * static_cast<double>(j) / kUp};
+      });
+}
+
+void addCapital(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
+  const double r = plan.radius, bottom = plan.height - kCapital * r;
+  const double bellTop = plan.height - kAbacus * r, neckTop = bottom + kNeck * r;
+  std::vector<std::array<double, 2>> outline{{0, bottom}};
+  addHalfRound(outline, 0.90 * r, bottom, neckTop);
+  constexpr int kSteps = 10;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double t = static_cast<double>(k) / kSteps;
+    outline.push_back({bellRadius(plan, t), lerp(neckTop, bellTop, t)});
+  }
+  outline.push_back({0, bellTop});
+  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), segments, 4);
+  const double a = kAbacusHalf * r;
+  builder.box({-a, bellTop - 0.01 * r, -a}, {a, plan.height, a}, plan.uvRepeat);
+  const double bell = bellTop - neckTop;
+  for (int k = 0; k < plan.leaves; ++k) {
+    const double step = 2 * std::numbers::pi / plan.leaves;
+    addLeaf(builder, plan, step * (k + 0.5), neckTop, 0.92 * bell, 0.92, 0.42 * step);
+    addLeaf(builder, plan, step * k, neckTop, 0.55 * bell, 0.55, 0.46 * step);
+  }
+}
+
+void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
+  const double r = plan.radius, y0 = (kBase - 0.02) * r, y1 = plan.height - (kCapital - 0.02) * r;
+  const auto radiusAt = [&](int i, int j) {
+    const double t = static_cast<double>(j) / plan.rings;
+    double radius = r * (1 - plan.taper * std::pow(t, 1.7));
+    if (plan.flutes > 0) {
+      const double phase = static_cast<double>(i) * plan.flutes / segments;
+      const double hollow = std::fabs(std::sin(std::numbers::pi * phase));
+      // Flutes end round, short of base and capital.
+      const double fade = std::min(1.0, 14 * std::min(t, 1 - t));
+      radius -= 0.085 * r * hollow * fade;
+    }
+    return radius;
+  };
+  const auto height = [&](int j) { return lerp(y0, y1, static_cast<double>(j) / plan.rings); };
+  const double around = std::max(1.0, std::round(2 * std::numbers::pi * r / plan.uvRepeat));
+  builder.smoothSheet(
+      segments, plan.rings, true,
+      [&](int i, int j) {
+        const TurnPoint t = turn(i, segments);
+        const double radius = radiusAt(i, j);
+        return Vec3d{radius * t.cosine, height(j), -radius * t.sine};
+      },
+      [&](int i, int j) {
+        return Uv{around * i / segments, height(j) / plan.uvRepeat};
+      });
+  // Lids inside base and capital close the shaft.
+  for (const bool top : {false, true}) {
+    const int j = top ? plan.rings : 0;
+    const Vec3d normal{0, top ? 1.0 : -1.0, 0};
+    const std::uint32_t center = builder.vertex({{0, height(j), 0}, normal, {}});
+    std::vector<std::uint32_t> rim;
+    for (int i = 0; i < segments; ++i) {
+      const TurnPoint t = turn(i, segments);
+      const double radius = radiusAt(i, j);
+      rim.push_back(builder.vertex({{radius * t.cosine, height(j), -radius * t.sine}, normal, {}}));
+    }
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      const std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
+      builder.triangle(center, top ? a : b, top ? b : a);
+    }
+  }
+}
+
+ColumnMeshes buildColumn(const ColumnPlan& plan) {
+  int segments = plan.segments;
+  if (plan.flutes > 0) {
+    const int unit = 4 * plan.flutes;
+    segments = std::max(unit, (plan.segments + unit - 1) / unit * unit);
+  }
+  ColumnMeshes meshes;
+  MeshBuilder shaft, trim;
+  addShaft(shaft, plan, segments);
+  addBase(trim, plan, plan.segments);
+  addCapital(trim, plan, plan.segments);
+  meshes.shaft = shaft.take("shaft");
+  meshes.trim = trim.take("trim");
+  return meshes;
+}
+
+struct ColonnadePlan {
+  ColumnPlan column;
+  int columns = 5;
+  double spacing = 3;
+  bool engaged = false;  // an arch more at each end, from the last column to a pier or wall
+  bool arches = true;
+  double wallAbove = 0.5;  // above the crown of the arches
+  double wallDepth = 0.6;
+};
+
+void addWall(Shape& shape, const ColonnadePlan& plan) {
+  const double width = plan.spacing - 2 * kAbacusHalf * plan.column.radius;
+  WallPlan wall;
+  wall.spacing = plan.spacing;
+  wall.bays = plan.columns + (plan.engaged ? 1 : -1);
+  wall.openingWidth = width;
+  wall.rise = width / 2;
+  // The arches begin a little above the abacus: a stilt that also keeps the wall in one piece.
+  wall.spring = 0.1 * plan.spacing;
+  wall.height = wall.spring + wall.rise + plan.wallAbove;
+  wall.depth = plan.wallDepth;
+  wall.margin = plan.engaged ? 0 : kAbacusHalf * plan.column.radius;
+  wall.segments = 24;
+  wall.uvRepeat = plan.column.uvRepeat;
+  MeshBuilder walls, arches;
+  const Affine up = Affine::translation({0, plan.column.height, 0});
+  walls.append(buildWall(wall), up);
+  const double thickness = 0.09 * width, lip = 0.012 * width;
+  const Mesh ring = extrude(halfRing({0, wall.spring}, {width / 2 - lip, width / 2 - lip},
+                                     {width / 2 + thickness, width / 2 + thickness}, wall.segments),
+                            -wall.depth / 2 - 2 * lip, wall.depth / 2 + 2 * lip, wall.uvRepeat);
+  for (int bay = 0; bay < wall.bays; ++bay) {
+    const double x = (bay - 0.5 * (wall.bays - 1)) * plan.spacing;
+    arches.append(ring, Affine::translation({x, plan.column.height, 0}));
+  }
+  shape.parts.push_back({"wall", walls.take("wall")});
+  shape.parts.push_back({"arch", arches.take("arch")});
+}
+
+}  // namespace
+
+Shape makeWall(ShapeParameters& parameters) {
+  WallPlan plan;
+  plan.spacing = parameters.number("spacing", plan.spacing, 1e-3, 1e6);
+  plan.bays = parameters.integer("bays", plan.bays, 1, 10000);
+  plan.height = parameters.number("height", plan.height, 1e-3, 1e6);
+  plan.depth = parameters.number("depth", plan.depth, 1e-3, 1e6);
+  plan.margin = parameters.number("margin", 0, 0, 1e6);
+  plan.openingWidth =
+      parameters.number("openingWidth", 0.4 * plan.spacing, 1e-3, 0.999 * plan.spacing);
+  plan.spring = parameters.number("spring", 0.5 * plan.height, 1e-3, 0.999 * plan.height);
+  plan.sill = parameters.number("sill", 0, 0, 0.999 * plan.spring);
+  const double room = 0.999 * (plan.height - plan.spring);
+  plan.rise = parameters.number("rise", std::min(plan.openingWidth / 2, room), 0, room);
+  plan.segments = parameters.integer("segments", plan.segments, 2, 4096);
+  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
+  return singlePart(buildWall(plan));
+}
+
+// The ring of stones around an arched opening, standing on y = 0.
+Shape makeArch(ShapeParameters& parameters) {
+  const double width = parameters.number("width", 2, 1e-3, 1e6);
+  const double rise = parameters.number("rise", width / 2, 1e-3, 1e6);
+  const double thickness = parameters.number("thickness", 0.15 * width, 1e-4, 1e6);
+  const double depth = parameters.number("depth", 0.4, 1e-4, 1e6);
+  const int segments = parameters.integer("segments", 32, 2, 4096);
+  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double half = width / 2;
+  return singlePart(
+      extrude(halfRing({0, 0}, {half, rise}, {half + thickness, rise + thickness}, segments),
+              -depth / 2, depth / 2, repeat));
+}
+
+Shape makeColumn(ShapeParameters& parameters) {
+  ColumnPlan plan;
+  plan.radius = parameters.number("radius", plan.radius, 1e-4, 1e6);
+  plan.height = parameters.number("height", plan.height, 4.5 * plan.radius, 1e6);
+  plan.flutes = parameters.integer("flutes", plan.flutes, 0, 256);
+  plan.segments = parameters.integer("segments", plan.segments, 8, 4096);
+  plan.rings = parameters.integer("rings", plan.rings, 1, 4096);
+  plan.taper = parameters.number("taper", plan.taper, 0, 0.14);
+  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 64);
+  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
+  ColumnMeshes meshes = buildColumn(plan);
+  Shape shape;
+  shape.parts.push_back({"shaft", std::move(meshes.shaft)});
+  shape.parts.push_back({"trim", std::move(meshes.trim)});
+  return shape;
+}
+
+// Columns in a row along x, in the middle of it at the origin; slots shaft, trim, wall, arch.
+Shape makeColonnade(ShapeParameters& parameters) {
+  ColonnadePlan plan;
+  plan.columns = parameters.integer("columns", plan.columns, 1, 10000);
+  plan.spacing = parameters.number("spacing", plan.spacing, 1e-3, 1e6);
+  ColumnPlan& c = plan.column;
+  c.radius = parameters.number("radius", 0.1 * plan.spacing, 1e-5, 0.3 * plan.spacing);
+  c.height = parameters.number("height", 1.3 * plan.spacing, 4.5 * c.radius, 1e6);
+  c.flutes = parameters.integer("flutes", c.flutes, 0, 256);
+  c.segments = parameters.integer("segments", c.segments, 8, 4096);
+  c.rings = parameters.integer("rings", c.rings, 1, 4096);
+  c.leaves = parameters.integer("leaves", c.leaves, 0, 64);
+  c.uvRepeat = parameters.number("uvRepeat", c.uvRepeat, 1e-6, 1e9);
+  plan.engaged = parameters.flag("engaged", plan.engaged);
+  plan.arches = parameters.flag("arches", plan.arches);
+  plan.wallAbove = parameters.number("wallAbove", plan.wallAbove, 1e-3, 1e6);
+  plan.wallDepth = parameters.number("wallDepth", 2 * c.radius, 1e-3, 1e6);
+  const ColumnMeshes one = buildColumn(c);
+  MeshBuilder shafts, trims;
+  for (int k = 0; k < plan.columns; ++k) {
+    const Affine place = Affine::translation({(k - 0.5 * (plan.columns - 1)) * plan.spacing, 0, 0});
+    shafts.append(one.shaft, place);
+    trims.append(one.trim, place);
+  }
+  Shape shape;
+  shape.parts.push_back({"shaft", shafts.take("shaft")});
+  shape.parts.push_back({"trim", trims.take("trim")});
+  if (plan.arches && plan.columns + (plan.engaged ? 1 : -1) > 0) addWall(shape, plan);
+  return shape;
+}
+
+// Turned posts between two rails along x, standing on y = 0: slots post, rail.
+Shape makeBalustrade(ShapeParameters& parameters) {
+  const int posts = parameters.integer("posts", 12, 1, 100000);
+  const double length = parameters.number("length", 3, 1e-3, 1e6);
+  const double height = parameters.number("height", 1, 1e-3, 1e6);
+  const int segments = parameters.integer("segments", 12, 3, 4096);
+  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double low = 0.12 * height, high = 0.88 * height, depth = 0.11 * height;
+  const double r = std::min(0.075 * height, 0.45 * length / posts);
+  const std::vector<std::array<double, 2>> contour{
+      {0.90, 0.00}, {0.90, 0.10}, {0.45, 0.14}, {0.55, 0.22}, {1.00, 0.34}, {0.92, 0.45},
+      {0.55, 0.62}, {0.38, 0.78}, {0.55, 0.84}, {0.90, 0.88}, {0.90, 1.00}};
+  std::vector<std::array<double, 2>> outline{{0, low}};
+  for (const auto& p : contour) outline.push_back({p[0] * r, low + p[1] * (high - low)});
+  outline.push_back({0, high});
+  MeshBuilder one, all, rails;
+  one.revolve(creasedProfile(outline, 50, repeat), segments);
+  const Mesh post = one.take("post");
+  for (int k = 0; k < posts; ++k) {
+    all.append(post, Affine::translation({(k + 0.5) * length / posts - length / 2, 0, 0}));
+  }
+  rails.box({-length / 2, 0, -depth}, {length / 2, low, depth}, repeat);
+  rails.box({-length / 2, high, -1.15 * depth}, {length / 2, height, 1.15 * depth}, repeat);
+  Shape shape;
+  shape.parts.push_back({"post", all.take("post")});
+  shape.parts.push_back({"rail", rails.take("rail")});
+  return shape;
+}
+
+}  // namespace whit::procedural

@@ -1,0 +1,141 @@
+#include "reference/settle_coplanar.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reference/find_intersections.h"
+#include "reference/media.h"
+
+namespace whit::reference {
+
+namespace {
+
+PlacedTriangleId idOf(const Candidate& c) { return {c.triangle, c.instance}; }
+
+bool isEntered(const Scene& scene, const Candidate& c, const Vec3d& direction) {
+  const Corners corners = worldCorners(scene, c.triangle, kNoInstance);
+  Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (c.instance != kNoInstance) normal = scene.instances[c.instance].toWorld.normal(normal);
+  return dot(direction, normal) < 0;
+}
+
+// How many corners of `a` are corners of `b` as well; 0 where the hit does not lie between these.
+int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
+  constexpr double kRounding = 1e-9;
+  const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
+  int shared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool isShared = std::find(b.begin(), b.end(), a[i]) != b.end();
+    if (!isShared && weights[i] > kRounding) return 0;
+    shared += isShared;
+  }
+  return shared;
+}
+
+// Whether two triangles are neighbors in one surface, which a ray passes once through the edge or
+// corner that they share. With all corners in common they lie one on the other.
+bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
+  if (a.medium != b.medium || a.entering != b.entering) return false;
+  if (a.candidate.instance != b.candidate.instance) return false;
+  const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance),
+                others = worldCorners(scene, b.candidate.triangle, kNoInstance);
+  const int shared = cornersBetween(corners, others, a.hit);
+  return shared > 0 && shared < 3 && cornersBetween(others, corners, b.hit) == shared;
+}
+
+// Of neighbors the first.
+void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.rank < b.rank; });
+  std::vector<Place> surfaces;
+  for (const Place& place : places) {
+    const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const Place& other) {
+      return areNeighbors(scene, other, place);
+    });
+    if (!known) surfaces.push_back(place);
+  }
+  places = std::move(surfaces);
+}
+
+// By how much the distance of a hit may be off in floats: of the corners as seen from the ray's
+// start what goes along the normal counts.
+double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
+  const Corners corners = worldCorners(scene, place.candidate.triangle, place.candidate.instance);
+  Vec3d far;
+  for (const Vec3d& corner : corners) far = max(far, abs(corner - ray.origin));
+  const Vec3d n = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double error = 32 * kUnitRoundOff * dot(abs(n), far);
+  return error / std::abs(dot(n, ray.direction));
+}
+
+// Those that are no farther than the nearest one, as far as floats can tell.
+void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places) {
+  if (places.empty()) return;
+  const auto nearest =
+      std::min_element(places.begin(), places.end(),
+                       [](const Place& a, const Place& b) { return a.hit.t < b.hit.t; });
+  const double least = nearest->hit.t + distanceError(scene, ray, *nearest);
+  std::erase_if(places, [&](const Place& place) {
+    return place.hit.t - distanceError(scene, ray, place) > least;
+  });
+}
+
+// Whether light meets `a` rather than `b`: what is opaque first, and a sheet before a dielectric.
+bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
+  if (a.opaque != b.opaque) return a.opaque;
+  if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
+  const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
+  if (priorityA != priorityB) return priorityA > priorityB;
+  return a.rank > b.rank;
+}
+
+}  // namespace
+
+std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ray,
+                            const Candidate& met) {
+  std::vector<Place> places;
+  if (!scene.coplanar.any(met.triangle)) return places;
+  const auto add = [&](const PlacedTriangleId& id, std::uint32_t rank) {
+    if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
+    const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
+    if (!hit) return;
+    if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
+    // What was met is there, though edge on the rounding of either may say otherwise.
+    const bool isMet = id == idOf(met);
+    if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
+    Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false, true, rank};
+    if (effects.has(Effect::transmission)) {
+      const std::uint32_t material = scene.triangles[id.triangle].material;
+      place.medium = scene.mediumOfMaterial[material];
+      place.opaque = !scene.materials[material].passesLight();
+    }
+    place.entering = isEntered(scene, place.candidate, ray.direction);
+    places.push_back(place);
+  };
+  scene.coplanar.forEachPartnerAt(idOf(met), met.u, met.v, add);
+  if (places.empty()) return places;
+  add(idOf(met), scene.coplanar.rankOf(idOf(met)));
+  keepNearest(scene, ray, places);
+  mergeNeighbors(scene, places);
+  return places;
+}
+
+Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
+                       const Candidate& met) {
+  if (scene.coplanar.empty()) return {met, {}};
+  const std::vector<Place> places = placesAt(scene, effects, ray, met);
+  if (places.empty()) return {met, {}};
+  const Place* first = &places[0];
+  for (const Place& place : places) {
+    if (comesFirst(scene, place, *first)) first = &place;
+  }
+  Settled settled{first->candidate, first->hit, true};
+  for (const Place& place : places) {
+    if (&place == first || first->opaque || place.medium == 0) continue;
+    settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);
+  }
+  if (places.size() > 1) settled.alsoCrossed |= kSharesPlace;
+  return settled;
+}
+
+}  // namespace whit::reference

@@ -1,0 +1,81 @@
+// whit-verify: the table, its JSON and page, and the sheet of scenes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+
+namespace whit::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+Outcome runVerify(const std::vector<std::string>& words) {
+  const TemporaryFolder folder;
+  const int status = waitFor(startWhit(
+      words, folder, [] {}, WHIT_VERIFY_PROGRAM));
+  return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
+}
+
+TEST(Verify, TellsWorstAndBoundOfEveryRun) {
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "hard.html").string();
+  const Outcome outcome =
+      runVerify({"--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_TRUE(json["machine"].contains("simd"));
+  ASSERT_FALSE(json["cases"].empty());
+  for (const Json& row : json["cases"]) {
+    for (const char* key :
+         {"case", "title", "input", "worst", "bound", "margin", "simd", "packet", "holds"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+    EXPECT_EQ(row["holds"], true);
+    EXPECT_EQ(row["bound"].is_null(), row["case"] == "H16") << "reported only";
+  }
+  const std::string html = readFile(page);
+  EXPECT_NE(html.find("<td>H58"), std::string::npos);
+  EXPECT_NE(html.find("<td>yes<td>"), std::string::npos);
+  EXPECT_NE(html.find("alt=\"closed-room\" src=\"data:image/png;base64,"), std::string::npos);
+  const std::string summary = "3 cases in " + std::to_string(json["cases"].size()) +
+                              " runs: 2 hold, 0 broken, 1 reported without a bound";
+  EXPECT_NE(html.find(summary), std::string::npos);
+  EXPECT_TRUE(outcome.err.ends_with(summary + "\n")) << outcome.err;
+  EXPECT_NE(outcome.err.find(" holds "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(" reported  "), std::string::npos) << outcome.err;
+  EXPECT_EQ(html.find("http"), std::string::npos) << "needs nothing from elsewhere";
+}
+
+TEST(Verify, UnknownCasesNameTheNearest) {
+  const Outcome outcome = runVerify({"--only", "H51x"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("'H51'"), std::string::npos) << outcome.err;
+}
+
+TEST(Verify, ASheetOfAllScenes) {
+  const TemporaryFolder folder;
+  const std::string sheet = (folder.path() / "hard.png").string();
+  const Outcome outcome = runVerify({"--sheet", sheet});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("closed-room\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
+}
+
+TEST(Verify, WhitStressNamesTheProgram) {
+  const Outcome outcome = runWhit({"stress"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("whit stress is the program whit-verify now"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(Verify, HelpListsTheOptions) {
+  const Outcome outcome = runVerify({"--help"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* option : {"--only", "--json", "--html", "--sheet"}) {
+    EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
+  }
+}
+
+}  // namespace
+}  // namespace whit::cli

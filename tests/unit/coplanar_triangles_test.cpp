@@ -1,0 +1,431 @@
+// Triangles that share their place with another one in its plane.
+#include "bake/coplanar_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "pi.h"
+#include "unit/scene_builder.h"
+
+namespace whit {
+namespace {
+
+using test::finalized;
+
+constexpr int kThreads = 2;
+
+CoplanarTriangles foundAmong(const Scene& scene, int threads = kThreads) {
+  bool complete = false;
+  CoplanarTriangles found = findCoplanarTriangles(scene, threads, complete);
+  EXPECT_TRUE(complete);
+  return found;
+}
+
+// Two triangles, across the diagonal from `corner`.
+Mesh rectangle(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
+  Mesh mesh;
+  mesh.name = "rectangle";
+  mesh.positions = {Vec3f(corner), Vec3f(corner + u), Vec3f(corner + u + v), Vec3f(corner + v)};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// Of the floor z = height.
+Mesh tile(double x, double y, double width, double depth, double height = 0) {
+  return rectangle({x, y, height}, {width, 0, 0}, {0, depth, 0});
+}
+
+std::vector<Mesh> box(const Vec3d& corner, const Vec3d& size) {
+  const Vec3d x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
+  return {rectangle(corner, x, y),     rectangle(corner, y, z),     rectangle(corner, z, x),
+          rectangle(corner + z, x, y), rectangle(corner + x, y, z), rectangle(corner + y, z, x)};
+}
+
+// Meshes that may be used several times. Each has a material of its own: none is left out for lying
+// in the place of another one.
+class Builder {
+ public:
+  void add(const std::vector<Mesh>& meshes, const std::vector<Affine>& places = {Affine{}}) {
+    const auto object = static_cast<std::uint32_t>(description_.objects.size());
+    description_.objects.push_back({"object", meshes});
+    for (Mesh& mesh : description_.objects.back().meshes) {
+      mesh.materials = {static_cast<std::uint32_t>(description_.materials.size())};
+      description_.materials.emplace_back().name = std::to_string(description_.materials.size());
+    }
+    for (const Affine& place : places) description_.instances.push_back({object, place});
+  }
+  // Everything goes there.
+  void move(const Affine& map) {
+    for (Instance& instance : description_.instances) instance.toWorld = map * instance.toWorld;
+  }
+  Scene scene() const { return finalized(description_); }
+
+ private:
+  SceneDescription description_;
+};
+
+Affine farAndTurned() {
+  return Affine::translation({1e3, 2e3, -5e2}) * Affine::rotation({3, -1, 2}, 37.3);
+}
+
+std::vector<PlacedTriangleId> allOf(const Scene& scene) {
+  std::vector<PlacedTriangleId> all;
+  const auto add = [&](const Geometry& g, std::uint32_t instance) {
+    for (std::uint32_t i = 0; i < g.index.size(); ++i) {
+      all.push_back({g.firstTriangle + i, instance});
+    }
+  };
+  add(scene.geometries[0], kNoInstance);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    add(scene.geometries[scene.instances[i].geometry], i);
+  }
+  return all;
+}
+
+// The definition in coplanar_triangles.h, word by word.
+struct Placed {
+  PlacedTriangleId id;
+  Vec3d corners[3];
+  double error = 0;
+  Vec3d normal;
+};
+
+Placed placed(const Scene& scene, PlacedTriangleId id) {
+  Placed p;
+  p.id = id;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d own = test::corner(scene.triangles[id.triangle], i);
+    Vec3d size = abs(own);
+    p.corners[i] = own;
+    if (id.instance != kNoInstance) {
+      const Affine& m = scene.instances[id.instance].toWorld;
+      p.corners[i] = m.point(own);
+      size = abs(m.x) * size.x + abs(m.y) * size.y + abs(m.z) * size.z + abs(m.p);
+    }
+    p.error = std::max(p.error, 32 * std::ldexp(size.x + size.y + size.z, -24));
+  }
+  p.normal = normalized(cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0]));
+  return p;
+}
+
+bool inOnePlane(const Placed& a, const Placed& b) {
+  for (int i = 0; i < 3; ++i) {
+    const double tolerance = a.error + b.error;
+    if (std::abs(dot(b.corners[i] - a.corners[0], a.normal)) > tolerance) return false;
+    if (std::abs(dot(a.corners[i] - b.corners[0], b.normal)) > tolerance) return false;
+  }
+  return true;
+}
+
+// What the two have in common across the edge that leaves least of it.
+double commonWidth(const Placed& a, const Placed& b) {
+  double least = INFINITY;
+  for (const Placed* owner : {&a, &b}) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d edge = owner->corners[(i + 1) % 3] - owner->corners[i];
+      const Vec3d axis = normalized(cross(owner->normal, edge));
+      double lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
+      for (int which = 0; which < 2; ++which) {
+        for (const Vec3d& corner : (which == 0 ? a : b).corners) {
+          const double x = dot(corner, axis);
+          lower[which] = std::min(lower[which], x);
+          upper[which] = std::max(upper[which], x);
+        }
+      }
+      least = std::min(least, std::min(upper[0], upper[1]) - std::max(lower[0], lower[1]));
+    }
+  }
+  return least;
+}
+
+using Partners = std::vector<std::vector<PlacedTriangleId>>;  // one list for each of allOf()
+
+Partners byDefinition(const Scene& scene) {
+  std::vector<Placed> all;
+  for (const PlacedTriangleId id : allOf(scene)) all.push_back(placed(scene, id));
+  std::vector<std::vector<std::size_t>> touching(all.size());
+  std::vector<bool> overlaps(all.size()), coplanar(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (i == k || !inOnePlane(all[i], all[k])) continue;
+      const double width = commonWidth(all[i], all[k]), tolerance = all[i].error + all[k].error;
+      if (width > tolerance) overlaps[i] = true;
+      if (width > -tolerance) touching[i].push_back(k);
+    }
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!overlaps[i]) continue;
+    coplanar[i] = true;
+    for (const std::size_t k : touching[i]) coplanar[k] = true;
+  }
+  Partners partners(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const std::size_t k : touching[i]) {
+      if (coplanar[i] && coplanar[k]) partners[i].push_back(all[k].id);
+    }
+  }
+  return partners;
+}
+
+Partners partnersIn(const CoplanarTriangles& found, const Scene& scene) {
+  Partners partners;
+  for (const PlacedTriangleId id : allOf(scene)) {
+    const auto own = found.partnersOf(id);
+    partners.emplace_back(own.begin(), own.end());
+  }
+  return partners;
+}
+
+std::string textOf(const Partners& partners) {
+  std::string text;
+  for (std::size_t i = 0; i < partners.size(); ++i) {
+    if (partners[i].empty()) continue;
+    text += std::to_string(i) + ":";
+    for (const PlacedTriangleId p : partners[i]) {
+      text += " " + std::to_string(p.triangle);
+      if (p.instance != kNoInstance) text += "@" + std::to_string(p.instance);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+// Returns how many placed triangles are coplanar with others.
+std::size_t expectAsDefined(const Scene& scene) {
+  const CoplanarTriangles found = foundAmong(scene);
+  const Partners wanted = byDefinition(scene);
+  EXPECT_EQ(textOf(partnersIn(found, scene)), textOf(wanted));
+  std::vector<bool> any(scene.triangles.size());
+  std::size_t coplanar = 0;
+  const std::vector<PlacedTriangleId> all = allOf(scene);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    coplanar += !wanted[i].empty();
+    if (!wanted[i].empty()) any[all[i].triangle] = true;
+  }
+  for (std::uint32_t i = 0; i < any.size(); ++i) EXPECT_EQ(found.any(i), any[i]) << i;
+  EXPECT_EQ(found.empty(), coplanar == 0);
+  return coplanar;
+}
+
+// As built, and where planes agree to rounding only.
+void expectCoplanar(Builder builder, std::size_t coplanar) {
+  EXPECT_EQ(expectAsDefined(builder.scene()), coplanar);
+  builder.move(farAndTurned());
+  EXPECT_EQ(expectAsDefined(builder.scene()), coplanar);
+}
+
+std::string foundIn(const Builder& builder) {
+  const Scene scene = builder.scene();
+  return textOf(partnersIn(foundAmong(scene), scene));
+}
+
+TEST(CoplanarTriangles, ADecalInAFloor) {
+  Builder builder;
+  builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1)});
+  // The decal lies in the floor's first triangle, which touches the second.
+  EXPECT_EQ(foundIn(builder), "0: 1 2 3\n1: 0\n2: 0 3\n3: 0 2\n");
+  expectCoplanar(builder, 4);
+}
+
+TEST(CoplanarTriangles, WhatTheyTake) {
+  Builder builder;
+  builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1)});
+  const CoplanarTriangles found = foundAmong(builder.scene());
+  EXPECT_GT(found.bytes(), 8 * sizeof(PlacedTriangleId));
+  EXPECT_LT(found.bytes(), 2000u);
+  EXPECT_TRUE(found.any(3));
+  EXPECT_FALSE(found.any(4));
+  EXPECT_FALSE(found.any(0xfffffffe));
+  EXPECT_TRUE(found.partnersOf({0, 0}).empty());
+  EXPECT_EQ(CoplanarTriangles().bytes(), 0u);
+  EXPECT_TRUE(CoplanarTriangles().partnersOf({0, kNoInstance}).empty());
+}
+
+TEST(CoplanarTriangles, TwoBoxesSideBySide) {
+  Builder builder;
+  builder.add(box({0, 0, 0}, {1, 1, 1}));
+  builder.add(box({1, 0.25, 0.25}, {1, 0.5, 0.5}));
+  expectCoplanar(builder, 4);
+  Builder equal;
+  equal.add(box({0, 0, 0}, {1, 1, 1}));
+  equal.add(box({1, 0, 0}, {1, 1, 1}));
+  expectCoplanar(equal, 4);
+}
+
+TEST(CoplanarTriangles, ThreeLayersOfDecals) {
+  Builder builder;
+  builder.add({tile(0, 0, 9, 9), tile(1, 2, 5, 5), tile(4, 1, 4, 4), tile(4.5, 3, 1, 1)});
+  expectCoplanar(builder, 8);
+}
+
+TEST(CoplanarTriangles, ABoxOfGlassOnAFloor) {
+  Builder builder;
+  builder.add({tile(-5, -5, 20, 20)});
+  builder.add(box({1, 2, 0}, {3, 1, 2}));
+  expectCoplanar(builder, 4);
+}
+
+TEST(CoplanarTriangles, NeighborsOfWhatOverlapsAreCoplanarAsWell) {
+  Builder builder;
+  std::vector<Mesh> floor;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 6; ++y) floor.push_back(tile(x, y, 1, 1));
+  }
+  floor.push_back(tile(2.25, 2.25, 0.5, 0.5));
+  builder.add(floor);
+  // The decal, the tile below it, and all that touch its two triangles: the eight tiles around it.
+  expectCoplanar(builder, 2 + 2 + 14);
+}
+
+TEST(CoplanarTriangles, InstancesInOnePlace) {
+  Builder builder;
+  builder.add(box({0, 0, 0}, {1, 2, 3}), {Affine{}, Affine{}});
+  expectCoplanar(builder, 24);
+  const Affine place = Affine::translation({3, 4, 5}) * Affine::scaling({2, 1, 0.5});
+  builder.add(box({0, 0, 0}, {1, 2, 3}), {place, place, Affine::translation({20, 0, 0})});
+  expectCoplanar(builder, 48);
+}
+
+TEST(CoplanarTriangles, OfManyInstancesInOnePlaceFourTakePart) {
+  Builder builder;
+  builder.add(box({0, 0, 0}, {1, 2, 3}), std::vector<Affine>(7));
+  const Scene scene = builder.scene();
+  const CoplanarTriangles found = foundAmong(scene);
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    // Each face's two triangles, four times.
+    EXPECT_EQ(found.partnersOf({0, i}).size(), i < 4 ? 7u : 0u) << i;
+  }
+}
+
+TEST(CoplanarTriangles, InstancesAgainstTheWorldAndEachOther) {
+  Builder builder;
+  builder.add({tile(-10, -10, 40, 40)});
+  builder.add(box({0, 0, 0}, {1, 1, 1}),
+              {Affine{}, Affine::translation({1, 0.5, 0}), Affine::translation({9, 9, 1}),
+               Affine::translation({5, 5, -1}) * Affine::rotation({0, 0, 1}, 20)});
+  // The floor, the bottoms of two boxes, the top of the last, and two faces against each other.
+  expectCoplanar(builder, 2 + 2 + 2 + 2 + 4);
+}
+
+TEST(CoplanarTriangles, WithinAnObjectThatIsInstanced) {
+  Builder builder;
+  std::vector<Mesh> object = box({0, 0, 0}, {4, 4, 4});
+  object.push_back(tile(0.5, 2, 1, 1, 4));
+  builder.add(object, {Affine{}, Affine::translation({100, 0, 0}) * Affine::rotation({1, 2, 3}, 50),
+                       Affine::translation({0, 70, 0}) * Affine::scaling({0.1, -3, 1})});
+  expectCoplanar(builder, 3 * 4);
+}
+
+TEST(CoplanarTriangles, AboveItIsNotCoplanar) {
+  Builder builder;
+  builder.add({tile(0, 0, 10, 10), tile(6, 1, 1, 1, 1e-3)});
+  EXPECT_EQ(expectAsDefined(builder.scene()), 0u);
+}
+
+TEST(CoplanarTriangles, CrossingPlanesAndFoldedSheetsAreNot) {
+  Builder builder;
+  builder.add({tile(0, 0, 10, 10), rectangle({2, 3, -4}, {5, 0, 0}, {0, 0, 8}),
+               rectangle({2, 3, -4}, {5, 1, 0}, {1, 0, 8})});
+  builder.add({rectangle({20, 0, 0}, {1, 0, 0}, {0, 4, 0}),
+               rectangle({21, 0, 0}, {-0.99, 0, 0.05}, {0, 4, 0}),
+               rectangle({20.01, 0, 0.05}, {0.99, 0, 0.02}, {0, 4, 0})});
+  expectCoplanar(builder, 0);
+}
+
+TEST(CoplanarTriangles, NeighborsInAPlaneAreNot) {
+  Builder builder;
+  // With corners on edges of others, too.
+  builder.add({tile(0, 0, 2, 1), tile(2, 0, 1, 3), tile(0, 1, 1, 2), tile(1, 1, 1, 2)});
+  expectCoplanar(builder, 0);
+}
+
+TEST(CoplanarTriangles, ASphereIsNot) {
+  constexpr int kAround = 96, kDown = 48;
+  Mesh sphere;
+  for (int j = 0; j <= kDown; ++j) {
+    for (int i = 0; i <= kAround; ++i) {
+      const double phi = 2 * kPi * (i % kAround) / kAround, theta = kPi * j / kDown;
+      sphere.positions.push_back(Vec3f(Vec3d{std::sin(theta) * std::cos(phi),
+                                             std::sin(theta) * std::sin(phi), std::cos(theta)}));
+    }
+  }
+  for (std::uint32_t j = 0; j < kDown; ++j) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = j * (kAround + 1) + i, b = a + kAround + 1;
+      sphere.triangles.insert(sphere.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+  }
+  Builder builder;
+  builder.add({sphere});
+  EXPECT_TRUE(foundAmong(builder.scene()).empty());
+  Builder instanced;
+  instanced.add({sphere}, {Affine{}, Affine::translation({0.7, 0.1, 0})});
+  EXPECT_TRUE(foundAmong(instanced.scene()).empty());
+}
+
+TEST(CoplanarTriangles, NothingAtAll) {
+  EXPECT_TRUE(foundAmong(finalized(SceneDescription{})).empty());
+}
+
+// The corner of a rectangle and its sides, in planes and at places that many share.
+Mesh randomRectangle(std::mt19937& random) {
+  const auto below = [&](int n) {
+    return static_cast<double>(random() % static_cast<unsigned>(n));
+  };
+  const Vec3d axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto u = random() % 3, v = (u + 1 + random() % 2) % 3;
+  const Vec3d corner{below(7), below(7), below(7)};
+  return rectangle(corner, axes[u] * (1 + below(4)), axes[v] * (1 + below(4)));
+}
+
+TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
+  std::mt19937 random(5);
+  std::size_t coplanar = 0;
+  for (int round = 0; round < 12; ++round) {
+    Builder builder;
+    std::vector<Mesh> world;
+    for (int i = 0; i < 20 * (1 + round % 4); ++i) world.push_back(randomRectangle(random));
+    builder.add(world);
+    for (int object = 0; object < round % 3; ++object) {
+      const Affine turned = Affine::translation({0, 3, 1}) * Affine::rotation({0, 0, 1}, 90);
+      builder.add({randomRectangle(random), randomRectangle(random), randomRectangle(random)},
+                  {Affine{}, turned, Affine::translation({2, 0, 1})});
+    }
+    if (round % 2 == 1) builder.move(farAndTurned());
+    coplanar += expectAsDefined(builder.scene());
+  }
+  EXPECT_GT(coplanar, 500u);
+}
+
+TEST(CoplanarTriangles, ManyTilesInOnePlane) {
+  constexpr int kTiles = 200;
+  Mesh floor;
+  for (int y = 0; y <= kTiles; ++y) {
+    for (int x = 0; x <= kTiles; ++x) {
+      floor.positions.push_back({0.1f * static_cast<float>(x), 0, 0.1f * static_cast<float>(y)});
+    }
+  }
+  for (std::uint32_t y = 0; y < kTiles; ++y) {
+    for (std::uint32_t x = 0; x < kTiles; ++x) {
+      const std::uint32_t a = y * (kTiles + 1) + x, b = a + kTiles + 1;
+      floor.triangles.insert(floor.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+  }
+  Builder builder;
+  builder.add({floor});
+  EXPECT_TRUE(foundAmong(builder.scene()).empty());
+  // One decal strictly within a tile: its two triangles, the tile's, and the 14 around these.
+  builder.add({rectangle({10.02, 0, 10.02}, {0.06, 0, 0}, {0, 0, 0.06})});
+  const Scene scene = builder.scene();
+  const CoplanarTriangles found = foundAmong(scene);
+  std::size_t coplanar = 0;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) coplanar += found.any(i);
+  EXPECT_EQ(coplanar, 18u);
+  const Partners partners = partnersIn(found, scene);
+  EXPECT_EQ(textOf(partners), textOf(partnersIn(foundAmong(scene, 1), scene)));
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,59 @@
+// The tables of members in scene/members.h are complete, and scenes/README.md names what they hold.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "scene/members.h"
+
+namespace whit {
+namespace {
+
+struct Anything {
+  template <typename T>
+  operator T() const;  // NOLINT(google-explicit-constructor): stands for a field of any type
+};
+
+// The number of fields of an aggregate.
+template <typename Noun, typename... Fields>
+consteval std::size_t countFields() {
+  if constexpr (requires { Noun{Fields{}..., Anything{}}; }) {
+    return countFields<Noun, Fields..., Anything>();
+  } else {
+    return sizeof...(Fields);
+  }
+}
+
+template <typename Noun>
+constexpr std::size_t kListed = std::tuple_size_v<decltype(kMembers<Noun>)>;
+
+static_assert(countFields<Camera>() == kListed<Camera> + 1, "all but the name");
+static_assert(countFields<Material>() == kListed<Material> + 2, "all but name and pointer");
+static_assert(countFields<Light>() + 1 == kListed<Light> + 2, "the same; intensity has two names");
+static_assert(countFields<Sky>() == kListed<Sky> + 3, "all but name, kind and image");
+static_assert(countFields<Ambient>() == kListed<Ambient> + 1, "all but ofSky");
+
+template <typename Noun>
+void expectDocumented(const std::string& page) {
+  forEachMember<Noun>([&](const auto& member) {
+    if (!member.rules.inFiles) return;
+    const std::string name = std::string("`") + member.name + "`";
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+  });
+}
+
+TEST(Members, AreInTheReadme) {
+  const char* folder = std::getenv("WHIT_SOURCE_DIR");
+  ASSERT_NE(folder, nullptr);
+  std::stringstream page;
+  page << std::ifstream(std::string(folder) + "/scenes/README.md").rdbuf();
+  expectDocumented<Camera>(page.str());
+  expectDocumented<Material>(page.str());
+  expectDocumented<Light>(page.str());
+  expectDocumented<Sky>(page.str());
+  expectDocumented<Ambient>(page.str());
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,88 @@
+// Closed bodies and rays onto them.
+#pragma once
+
+#include "make/shapes/mesh_builder.h"
+#include "verify/probe.h"
+#include "verify/scene_builder.h"
+
+namespace whit::verify {
+
+// A subdivided icosahedron with corners rounded to float, and the sphere's normals if smooth.
+inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
+                       bool smooth = false) {
+  const auto [points, triangles] = procedural::icosphereMesh(level);
+  Mesh mesh;
+  for (const Vec3d& p : points) {
+    mesh.positions.emplace_back(center + p * radius);
+    if (smooth) mesh.normals.emplace_back(p);
+  }
+  mesh.triangles = triangles;
+  mesh.materials = {material};
+  return mesh;
+}
+
+// The same mesh without shared corners.
+inline Mesh unshared(const Mesh& mesh) {
+  Mesh result;
+  result.materials = mesh.materials;
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(result.positions.size());
+    for (const std::uint32_t corner : triangle) result.positions.push_back(mesh.positions[corner]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+// The plane y = 0 between -32 and 32, in 64 x 64 cells.
+inline Mesh grid() {
+  Mesh mesh;
+  mesh.materials = {0};
+  constexpr int kCells = 64, kHalf = kCells / 2;
+  for (int y = 0; y <= kCells; ++y) {
+    for (int x = 0; x <= kCells; ++x) {
+      mesh.positions.emplace_back(Vec3d(x - kHalf, 0, y - kHalf));
+    }
+  }
+  for (std::uint32_t y = 0; y < kCells; ++y) {
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
+      mesh.triangles.push_back({a, c, d});
+      mesh.triangles.push_back({a, d, b});
+    }
+  }
+  return mesh;
+}
+
+inline Scene sceneOf(Mesh mesh, const Material& material) {
+  SceneBuilder builder;
+  mesh.materials = {builder.add(material)};
+  builder.add(std::move(mesh));
+  return builder.build();
+}
+
+inline ProbeRay rayThrough(const Vec3f& origin, const Vec3f& target) {
+  return {origin, Vec3f(normalized(Vec3d(target) - Vec3d(origin)))};
+}
+
+// Rays from all around, at three radii from the center, through the inside of the sphere.
+inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::size_t n,
+                                      std::uint64_t seed) {
+  Numbers numbers(seed);
+  std::vector<ProbeRay> rays;
+  while (rays.size() < n) {
+    const Vec3f from(center + numbers.direction() * (3 * radius));
+    rays.push_back(rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius))));
+  }
+  return rays;
+}
+
+inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
+// The same for a Finding within one expression.
+inline auto described(const ProbeRay& ray) {
+  return [&ray] { return describeRay(ray); };
+}
+
+// Camera that looks down from 3 above the origin.
+inline Camera lookingDown() { return {.eye = {0, 3, 0}, .up = {0, 0, -1}, .fov = 50}; }
+
+}  // namespace whit::verify

@@ -1,0 +1,252 @@
+// H59 to H61: laws that hold bit for bit and need no oracle.
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "verify/bodies.h"
+
+namespace whit::verify {
+
+namespace {
+
+// A room with most effects: mirror, glass, smooth normals, texture, two lights.
+SceneDescription room() {
+  SceneBuilder builder;
+  Material checked = diffuseMaterial(1);
+  checked.diffuseMap = builder.add(
+      makeTexture(TexelFormat::color, 2, 2, {0x3fffffffu, 0x000003ffu, 0x0ff00000u, 0x3fffffffu}));
+  checked.mirror = Rgb(0.125f);
+  Material shiny = diffuseMaterial(0.5f);
+  shiny.specular = Rgb(0.25f);
+  const auto floor = builder.add(checked), wall = builder.add(diffuseMaterial(0.5f));
+  const auto mirror = builder.add(mirrorMaterial(0.75f)), glass = builder.add(glassMaterial(1.5f));
+  const auto glossy = builder.add(shiny);
+  builder.add(floorAt(0, 4, floor));
+  builder.add(box({-4, -1, -4}, {4, 5, 4}, wall));
+  builder.add(sphereMesh(3, {-1, 1, -0.5}, 0.9, mirror, true));
+  builder.add(sphereMesh(3, {1.1, 0.8, 0.4}, 0.75, glass, true));
+  builder.add(sphereMesh(2, {0.2, 0.5, 1.4}, 0.4, glossy));
+  Light second = lightAt({2.5f, 4.25f, 2}, 20);
+  second.intensity = {20, 15, 10};
+  builder.description.lights = {lightAt({-2.2f, 4, 2.7f}, 30), second};
+  builder.description.sky.kind = Sky::Kind::gradient;
+  builder.description.sky.zenith = {0.2f, 0.3f, 0.6f};
+  builder.description.cameras = {{.eye = {0.4f, 2, 3.9f}, .at = {0, 0.8f, 0}, .fov = 60}};
+  return builder.describe();
+}
+
+RenderOptions small(const Setup& setup) { return optionsOf(setup, {49, 31}); }
+
+Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options) {
+  const Scene scene = repaired(std::move(description));
+  return pictureOf(scene, scene.cameras[0], options);
+}
+
+// Compares pixels of pictures of odd sizes with the same pixels traced alone.
+Finding partialPackets(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = repaired(room());
+  for (const ImageSize& size : {ImageSize{1, 1}, {15, 1}, {17, 3}, {1, 257}, {16, 16}}) {
+    RenderOptions options = optionsOf(setup, size);
+    const Image whole = pictureOf(scene, scene.cameras[0], options);
+    Numbers numbers(59);
+    for (int k = 0; k < 6; ++k) {
+      const int x = static_cast<int>(numbers.in(0, size.width));
+      const int y = static_cast<int>(numbers.in(0, size.height));
+      options.crop = Crop{x, y, x + 1, y + 1};
+      countOtherPixels(finding, pictureOf(scene, scene.cameras[0], options), whole,
+                       std::to_string(size.width) + "x" + std::to_string(size.height));
+    }
+  }
+  return finding;
+}
+
+// Traces queues of 1 to 33 rays with poison behind the last one.
+Finding poisonedLanes(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = repaired(room());
+  std::vector<ProbeRay> rays = raysOnto({0, 1.5, 0}, 1, 33, 60);
+  for (ProbeRay& ray : rays) ray.origin = {0, 2.5f, 0.25f};
+  Probe whole(scene, setup, rays);
+  const std::vector<ProbeChild> expected = whole.reflections();
+  constexpr std::uint32_t kPoison = 0x7fc00000u;  // a NaN, and an index far out of range
+  for (std::size_t n = 1; n <= rays.size(); ++n) {
+    Probe probe(scene, setup);
+    // Fills the block behind the rays that follow with other rays.
+    probe.cast(std::vector<ProbeRay>(48, rays[n - 1]));
+    probe.poison(kPoison);
+    probe.cast(std::vector<ProbeRay>(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)));
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool same = probe.hits().triangle[i] == whole.hits().triangle[i] &&
+                        probe.hits().t[i] == whole.hits().t[i] && probe.ns(i) == whole.ns(i) &&
+                        probe.position(i) == whole.position(i);
+      finding.count(!same, [&] { return std::to_string(n) + " rays: " + describeRay(rays[i]); });
+    }
+    const std::vector<ProbeChild> got = probe.reflections();
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      const bool same = i < expected.size() && got[i].parent == expected[i].parent &&
+                        got[i].ray.direction == expected[i].ray.direction &&
+                        got[i].weight == expected[i].weight;
+      finding.count(!same,
+                    [&] { return "child " + std::to_string(i) + " of " + std::to_string(n); });
+    }
+  }
+  return finding;
+}
+
+Finding packetWidths(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = repaired(room());
+  const Image single = pictureOf(scene, scene.cameras[0], small({setup.simd, 1}));
+  countOtherPixels(finding, pictureOf(scene, scene.cameras[0], small(setup)), single, "packets");
+  return finding;
+}
+
+Finding schedule(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = repaired(room());
+  const Image expected = pictureOf(scene, scene.cameras[0], small(setup));
+  const auto check = [&](const std::string& what, const auto& change) {
+    RenderOptions options = small(setup);
+    change(options);
+    countOtherPixels(finding, pictureOf(scene, scene.cameras[0], options), expected, what);
+  };
+  check("second run", [](const RenderOptions&) {});
+  for (const int n : {2, 3, 8}) {
+    check(std::to_string(n) + " threads", [n](RenderOptions& options) { options.threads = n; });
+  }
+  for (const int n : {7, 8, 64}) {
+    check("tile " + std::to_string(n), [n](RenderOptions& options) { options.tile = n; });
+  }
+  for (const int n : {16, 1000, 65536}) {
+    check("queue " + std::to_string(n), [n](RenderOptions& options) { options.queue = n; });
+  }
+  check("whole frames", [](RenderOptions& options) {
+    options.batch = Batch::frame;
+    options.threads = 2;
+  });
+  return finding;
+}
+
+Vec3f scaled(const Vec3f& v, int k) {
+  return {std::ldexp(v.x, k), std::ldexp(v.y, k), std::ldexp(v.z, k)};
+}
+
+Finding scaling(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  for (const int k : {-20, -3, 1, 20}) {
+    SceneDescription d = room();
+    for (Mesh& mesh : d.objects[0].meshes) {
+      for (Vec3f& p : mesh.positions) p = scaled(p, k);
+    }
+    for (Light& light : d.lights) {
+      light.position = scaled(light.position, k);
+      light.intensity = scaled(light.intensity, 2 * k);
+      light.radius = std::ldexp(light.radius, k);
+    }
+    d.cameras[0].eye = scaled(d.cameras[0].eye, k);
+    d.cameras[0].at = scaled(d.cameras[0].at, k);
+    countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected,
+                     "times 2^" + std::to_string(k));
+  }
+  return finding;
+}
+
+// There is no glass: the winding decides whether a ray enters a surface or leaves it.
+Finding mirroring(const Setup& setup) {
+  Finding finding(0);
+  const auto opaque = [] {
+    SceneDescription d = room();
+    for (Material& m : d.materials) m.transmission = Rgb(0.0f);
+    return d;
+  };
+  SceneDescription d = opaque();
+  for (Mesh& mesh : d.objects[0].meshes) {
+    for (Vec3f& p : mesh.positions) p.x = -p.x;
+    for (Vec3f& n : mesh.normals) n = {n.x, -n.y, -n.z};  // the winding has turned as well
+  }
+  for (Light& light : d.lights) light.position.x = -light.position.x;
+  d.cameras[0].eye.x = -d.cameras[0].eye.x;
+  d.cameras[0].at.x = -d.cameras[0].at.x;
+  countOtherPixels(finding, pictureOfRoom(opaque(), small(setup)),
+                   pictureOfRoom(std::move(d), small(setup)), "mirrored", true);
+  return finding;
+}
+
+// The relative change of each pixel.
+Finding relativeChange(const Image& a, const Image& b, double bound) {
+  Finding finding(bound);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const double largest = std::max(1e-6, static_cast<double>(maxComponent(a.pixels[i])));
+    const double change = static_cast<double>(maxComponent(abs(a.pixels[i] - b.pixels[i])));
+    finding.note(change / largest, [&] { return "pixel " + std::to_string(i); });
+  }
+  return finding;
+}
+
+Finding lightOrder(const Setup& setup) {
+  SceneDescription d = room();
+  std::swap(d.lights[0], d.lights[1]);
+  // At each surface of a path one sum is in another order.
+  return relativeChange(pictureOfRoom(room(), small(setup)),
+                        pictureOfRoom(std::move(d), small(setup)), 16 * 0x1p-24);
+}
+
+Finding meshOrder(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  SceneDescription d = room();
+  std::reverse(d.objects[0].meshes.begin(), d.objects[0].meshes.end());
+  for (Mesh& mesh : d.objects[0].meshes) {
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  }
+  countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected, "reversed");
+  return finding;
+}
+
+Finding unreachableObject(const Setup& setup) {
+  Finding finding(0);
+  const Image expected = pictureOfRoom(room(), small(setup));
+  SceneDescription d = room();
+  d.objects[0].meshes.push_back(sphereMesh(3, {30, 20, -10}, 2, 1));
+  countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected,
+                   "with a far sphere");
+  return finding;
+}
+
+Finding superfluousEffects(const Setup& setup) {
+  Finding finding(0);
+  RenderOptions all = small(setup);
+  all.effects = EffectChoice::all;
+  countOtherPixels(finding, pictureOfRoom(room(), all), pictureOfRoom(room(), small(setup)),
+                   "all effects");
+  return finding;
+}
+
+constexpr Case kInvarianceCases[] = {
+    {"H59", "a pixel traced alone has the bits of the whole image",
+     "images of 1x1, 15x1, 17x3, 1x257, 16x16", Runs::packets, partialPackets},
+    {"H59a", "dead lanes do not matter", "queues of 1 to 33 rays with NaN behind them",
+     Runs::packets, poisonedLanes},
+    {"H59b", "every packet width gives the bits of single rays", "room with mirror and glass",
+     Runs::packets, packetWidths},
+    {"H60", "the same bits for any threads, tiles, queues, batches", "room with mirror and glass",
+     Runs::targets, schedule},
+    {"H61", "scaled by a power of two: the same bits", "2^-20 to 2^20", Runs::packets, scaling},
+    {"H61b", "mirrored: the mirrored picture, bit for bit", "x negated, without glass",
+     Runs::packets, mirroring},
+    {"H61d", "lights in another order", "relative change", Runs::targets, lightOrder},
+    {"H61e", "meshes and triangles in another order: the same bits", "both reversed", Runs::packets,
+     meshOrder},
+    {"H61f", "an object that no ray reaches: the same bits", "far sphere behind a wall",
+     Runs::packets, unreachableObject},
+    {"H61g", "effects that the scene has none of: the same bits", "kernels with every effect",
+     Runs::packets, superfluousEffects},
+};
+
+}  // namespace
+
+std::span<const Case> invarianceCases() { return kInvarianceCases; }
+
+}  // namespace whit::verify

@@ -1,0 +1,326 @@
+// whit-verify: runs the catalogue of hard cases on this machine and reports how close each case
+// comes to its bound, as a table, as JSON and as an HTML page.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "accuracy/report.h"
+#include "cli/app/image_output.h"
+#include "cli/app/interrupt.h"
+#include "cli/app/parse_options.h"
+#include "cli/app/program.h"
+#include "cli/app/progress_bar.h"
+#include "cli/json_report.h"
+#include "core/display.h"
+#include "core/error.h"
+#include "core/formatted.h"
+#include "core/nearest_name.h"
+#include "core/version.h"
+#include "io/atomic_file.h"
+#include "io/image/image_file.h"
+#include "io/load_scene.h"
+#include "io/paths.h"
+#include "verify/probe.h"
+
+namespace whit::verify {
+
+namespace {
+
+using cli::Json;
+
+// One run of a case.
+struct Row {
+  std::string_view family;
+  const Case* hardCase = nullptr;
+  Setup setup;
+  Finding finding;
+
+  // A case without a bound cannot be broken.
+  bool isReportedOnly() const { return std::isinf(finding.bound()); }
+  const char* result() const {
+    if (!finding.holds()) return "BROKEN";
+    return isReportedOnly() ? "reported" : "yes";
+  }
+  std::string packet() const { return setup.packet == 0 ? "auto" : std::to_string(setup.packet); }
+};
+
+// Runs the cases with these names, or all cases if there are no names, in every setup of this
+// machine that each case asks for.
+std::vector<Row> runCatalogue(const std::vector<std::string>& only, Progress* progress) {
+  std::vector<Row> rows;
+  const std::vector<Family> catalogue = families();
+  std::size_t count = 0, done = 0;
+  for (const Family& family : catalogue) count += family.cases.size();
+  for (const Family& family : catalogue) {
+    for (const Case& c : family.cases) {
+      reportProgress(progress, std::string(c.name),
+                     static_cast<double>(done++) / static_cast<double>(count));
+      if (!only.empty() && std::find(only.begin(), only.end(), c.name) == only.end()) continue;
+      for (const Setup& setup : setupsOf(c.runs)) {
+        rows.push_back({family.name, &c, setup, runCase(c, setup)});
+      }
+    }
+  }
+  return rows;
+}
+
+// For each case the run that came closest to its bound, in the order of the catalogue.
+std::vector<Row> worstRows(const std::vector<Row>& rows) {
+  const auto isWorse = [](const Finding& a, const Finding& b) {
+    return a.holds() != b.holds() ? !a.holds() : a.worst() > b.worst();
+  };
+  std::vector<Row> worst;
+  for (const Row& row : rows) {
+    if (worst.empty() || worst.back().hardCase != row.hardCase) {
+      worst.push_back(row);
+    } else if (isWorse(row.finding, worst.back().finding)) {
+      worst.back() = row;
+    }
+  }
+  return worst;
+}
+
+std::string numberText(double value) { return std::isinf(value) ? "-" : formatted("%.4g", value); }
+
+// "205 cases in 3075 runs: 199 hold, 0 broken, 6 reported without a bound".
+std::string summaryOf(const std::vector<Row>& rows) {
+  std::size_t held = 0, broken = 0, reported = 0;
+  for (const Row& row : worstRows(rows)) {
+    ++(!row.finding.holds() ? broken : row.isReportedOnly() ? reported : held);
+  }
+  std::string text = formatted("%zu cases in %zu runs: %zu hold, %zu broken",
+                               held + broken + reported, rows.size(), held, broken);
+  if (reported > 0) text += formatted(", %zu reported without a bound", reported);
+  return text;
+}
+
+std::string tableOf(const std::vector<Row>& rows) {
+  std::string text = "case   worst       bound       holds     simd   packet  what must hold\n";
+  for (const Row& row : worstRows(rows)) {
+    text += formatted("%-6s %-11s %-11s %-9s %-6s %-7s %s\n", row.hardCase->name.data(),
+                      numberText(row.finding.worst()).c_str(),
+                      numberText(row.finding.bound()).c_str(), row.result(), row.setup.simd.c_str(),
+                      row.packet().c_str(), row.hardCase->title.data());
+    if (!row.finding.holds()) text += "       input: " + row.finding.input() + "\n";
+  }
+  return text + summaryOf(rows) + "\n";
+}
+
+// Contains every run. `bound` and `margin` (bound less worst) are null for a case that is only
+// reported.
+Json jsonOf(const Machine& machine, const std::vector<Row>& rows) {
+  Json cases = Json::array();
+  for (const Row& row : rows) {
+    const double worst = row.finding.worst(), bound = row.finding.bound();
+    const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    cases.push_back({{"case", row.hardCase->name},
+                     {"title", row.hardCase->title},
+                     {"family", row.family},
+                     {"input", row.finding.input()},
+                     {"worst", finite(worst)},
+                     {"bound", finite(bound)},
+                     {"margin", finite(bound - worst)},
+                     {"simd", row.setup.simd},
+                     {"packet", row.setup.packet == 0 ? Json("auto") : Json(row.setup.packet)},
+                     {"tried", row.finding.seen()},
+                     {"holds", row.finding.holds()}});
+  }
+  return {{"machine", cli::machineJson(machine)}, {"cases", cases}};
+}
+
+// A scene of scenes/hard and its picture in linear radiance.
+struct HardScene {
+  std::string name;
+  Image picture;
+};
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return html;
+}
+
+constexpr const char* kStyle =
+    "<style>:root{color-scheme:light dark}"
+    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem}"
+    "table{border-collapse:collapse;width:100%}"
+    "th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #8884;vertical-align:top}"
+    "td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}"
+    "small{opacity:.7}code{font-size:.8em;overflow-wrap:anywhere}"
+    ".pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(10rem,1fr));gap:.6rem}"
+    "figure{margin:0}figure img{width:100%}figcaption{font-size:.85em;opacity:.8}"
+    "tr.broken td{background:#d3222233}tr.family th{padding-top:1.2rem}</style>";
+
+std::string htmlTable(const std::vector<Row>& rows) {
+  std::string html =
+      "<table><thead><tr><th>case<th>what must hold<th>worst<th>bound<th>holds<th>at<th>worst input"
+      "</tr></thead><tbody>\n";
+  std::string_view family;
+  for (const Row& row : worstRows(rows)) {
+    if (row.family != family) {
+      family = row.family;
+      html += "<tr class=family><th colspan=7>" + escaped(family) + "</th></tr>\n";
+    }
+    html += std::string("<tr") + (row.finding.holds() ? "" : " class=broken") + "><td>" +
+            escaped(row.hardCase->name) + "<td>" + escaped(row.hardCase->title) + "<br><small>" +
+            escaped(row.hardCase->construction) + "</small><td class=n>" +
+            numberText(row.finding.worst()) + "<td class=n>" + numberText(row.finding.bound()) +
+            "<td>" + row.result() + "<td>" + row.setup.simd + ", " + row.packet() + "<td><code>" +
+            escaped(row.finding.input()) + "</code></tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string htmlPage(const Machine& machine, const std::vector<Row>& rows,
+                     const std::vector<HardScene>& scenes) {
+  const Json facts = cli::machineJson(machine);
+  std::string html =
+      "<!doctype html><html lang=en><meta charset=utf-8>"
+      "<meta name=viewport content=\"width=device-width,initial-scale=1\">"
+      "<title>whit: hard cases</title>" +
+      std::string(kStyle) + "<h1>Hard cases</h1><p>";
+  for (const auto& [key, value] : facts.items()) {
+    html +=
+        escaped(key + ": " + (value.is_string() ? value.get<std::string>() : value.dump())) + "; ";
+  }
+  html += "</p><p>" + summaryOf(rows) + ".</p>\n<div class=pictures>";
+  for (const HardScene& scene : scenes) {
+    html += "<figure><img alt=\"" + escaped(scene.name) + "\" src=\"" +
+            accuracy::dataUri(encodePng(toDisplay(scene.picture, 0, ToneCurve::none))) +
+            "\"><figcaption>" + escaped(scene.name) + "</figcaption></figure>";
+  }
+  return html + "</div>\n" + htmlTable(rows) + "</html>\n";
+}
+
+constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kSheetGap = 4;
+
+// Renders every scene of scenes/hard at 320x240, in alphabetical order. Throws Error(io) when there
+// is none.
+std::vector<HardScene> renderHardScenes(Progress* progress) {
+  const std::vector<std::filesystem::path> files = hardScenes();
+  if (files.empty()) throwIo("no scenes of hard cases found; is $WHIT_SCENES set?");
+  RenderOptions options;
+  options.size = ImageSize{kWidth, kHeight};
+  options.depth = 16;
+  options.spp = 1;
+  std::vector<HardScene> scenes;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    reportProgress(progress, name,
+                   static_cast<double>(scenes.size()) / static_cast<double>(files.size()));
+    Warnings warnings;
+    const Scene scene =
+        Scene::finalize(loadScene(file.string(), LoadOptions{}, warnings), warnings);
+    scenes.push_back({name, pictureOf(scene, scene.cameras.front(), options)});
+  }
+  return scenes;
+}
+
+// Writes the pictures side by side, four a row.
+void writeSheet(const std::string& path, const std::vector<HardScene>& scenes) {
+  const int count = static_cast<int>(scenes.size());
+  const int columns = std::min(count, kColumns), rows = (count + kColumns - 1) / kColumns;
+  Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
+  for (int i = 0; i < count; ++i) {
+    const Image& picture = scenes[static_cast<std::size_t>(i)].picture;
+    const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
+    const int top = kSheetGap + i / kColumns * (kHeight + kSheetGap);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
+    }
+  }
+  const cli::WriteScope scope;
+  writePng(path, toDisplay(sheet, 0, ToneCurve::none), {});
+}
+
+// Splits the values of --only. Throws Error(usage) for the name of an unknown case.
+std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
+  std::vector<std::string> names, known;
+  for (const Family& family : families()) {
+    for (const Case& c : family.cases) known.emplace_back(c.name);
+  }
+  for (const std::string& list : lists) {
+    std::istringstream words(list);
+    for (std::string name; std::getline(words, name, ',');) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throwUsage("there is no case '" + name + "'" + didYouMean(name, known));
+      }
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+Machine thisMachine() {
+  Warnings warnings;
+  const Scene nothing = Scene::finalize({}, warnings);
+  return Renderer(nothing, RenderOptions{}).machine();
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words == std::vector<std::string>{"--version"}) {
+    std::printf("whit-verify %s\n", versionText());
+    return 0;
+  }
+  cli::CommonOptions common;
+  std::vector<std::string> only, operands;
+  std::string json, html, sheet;
+  cli::OptionList list;
+  list.group("Running");
+  list.many({"only", "H1,H2a"}, "run only these cases; may be given more than once", only);
+  list.value({"json", "FILE"}, "write the result of every run as JSON; - is standard output", json);
+  list.value({"html", "FILE.html"},
+             "write the table as a page, with pictures of the scenes in scenes/hard", html);
+  list.value({"sheet", "FILE.png"},
+             "run no case: write pictures of the scenes in scenes/hard on one sheet", sheet);
+  cli::listReportOptions(list, common);
+  list.operands("Cases", "tests/README.md has the list", 0, 0, operands);
+  const auto parsed = cli::parseOptions(
+      "whit-verify [options]",
+      "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
+      "The exit status is 1 when a case breaks its bound.",
+      list, words);
+  if (parsed == cli::Parsed::helpShown) return 0;
+  cli::requireJsonWritable(json);
+  if (!html.empty()) cli::requireWritable(html, {".html"});
+  if (!sheet.empty()) cli::requireWritable(sheet, {".png"});
+  const std::vector<std::string> names = caseNames(only);
+  auto progress = cli::makeProgressBar(common);
+  if (!sheet.empty()) {
+    const std::vector<HardScene> scenes = renderHardScenes(progress.get());
+    progress.reset();
+    writeSheet(sheet, scenes);
+    for (const HardScene& scene : scenes) std::printf("%s\n", scene.name.c_str());
+    return 0;
+  }
+  const std::vector<Row> rows = runCatalogue(names, progress.get());
+  std::vector<HardScene> scenes;
+  if (!html.empty()) scenes = renderHardScenes(progress.get());
+  progress.reset();
+  FILE* const people = json == "-" ? stderr : stdout;
+  if (people == stdout || !common.quiet) std::fprintf(people, "%s", tableOf(rows).c_str());
+  const Machine machine = thisMachine();
+  if (!json.empty()) cli::writeJson(json, jsonOf(machine, rows));
+  if (!html.empty()) {
+    const cli::WriteScope scope;
+    writeTextFile(html, htmlPage(machine, rows, scenes));
+  }
+  const bool allHold =
+      std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.finding.holds(); });
+  return static_cast<int>(allHold ? ExitStatus::done : ExitStatus::checkFailed);
+}
+
+}  // namespace
+
+}  // namespace whit::verify
+
+int main(int argc, char** argv) {
+  return whit::cli::runProgram("whit-verify",
+                               [&] { return whit::verify::run(whit::cli::wordsOf(argc, argv)); });
+}

@@ -1,0 +1,122 @@
+// Sends a few rays through single stages of the vector pipeline, on the columns that a frame uses.
+#pragma once
+
+#include <vector>
+
+#include "core/worker_pool.h"
+#include "render/renderer.h"
+#include "verify/case.h"
+
+namespace whit::verify {
+
+struct ProbeRay {
+  Vec3f origin, direction;
+  std::uint32_t media = 0;
+};
+
+struct ProbeChild {
+  ProbeRay ray;
+  Rgb weight;
+  std::uint32_t parent = 0;
+};
+
+RenderOptions optionsOf(const Setup& setup);
+RenderOptions optionsOf(const Setup& setup, const ImageSize& size);
+
+class Probe {
+ public:
+  // Compiles every effect in, so that all columns are there. `scene` must outlive the probe.
+  Probe(const Scene& scene, const Setup& setup);
+  // The same, and casts these rays.
+  Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>& rays);
+
+  // Takes the rays as the output of generateRays and runs findIntersections.
+  void cast(const std::vector<ProbeRay>& rays);
+  // Takes rays and hits as given and runs interpolateSurfels alone.
+  void load(const std::vector<ProbeRay>& rays);
+  void hit(std::size_t i, std::uint32_t triangle, float t, float u, float v);
+  void interpolate();
+  // Loads `count` rays down the z axis; ray i hits triangle i at weights of 1/4. Then interpolates.
+  void hitEach(std::uint32_t count);
+  // Makes a surfel of `material` with these normals at the origin, for kernels that do not look at
+  // geometry.
+  void surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns);
+
+  // Runs addImpulses for all surfels, however little they contribute.
+  std::vector<ProbeChild> reflections();
+  std::vector<ProbeChild> refractions();
+  // Runs findRadianceAndShadowRays and checkShadows. Returns the number of shadow rays; visible()
+  // tells which of them are not occluded.
+  std::size_t light(const Light& light);
+
+  // Overwrites every slot of every column with these bits.
+  void poison(std::uint32_t bits);
+
+  std::size_t size() const { return count_; }
+  bool isHit(std::size_t i) const { return hits_->triangle[i] != kMiss; }
+  // Returns true if ray i missed in both probes, or has the same hit bit for bit.
+  bool sameHit(const Probe& other, std::size_t i) const;
+  Vec3f position(std::size_t i) const {
+    return {surfels_->posX[i], surfels_->posY[i], surfels_->posZ[i]};
+  }
+  Vec3f ng(std::size_t i) const { return {surfels_->ngX[i], surfels_->ngY[i], surfels_->ngZ[i]}; }
+  Vec3f ns(std::size_t i) const { return {surfels_->nsX[i], surfels_->nsY[i], surfels_->nsZ[i]}; }
+  ProbeRay ray(std::size_t i) const;
+  Rgb unshadowed(std::size_t i) const {
+    return {unshadowed_->r[i], unshadowed_->g[i], unshadowed_->b[i]};
+  }
+  bool visible(std::size_t i) const { return unshadowed_->visible[i] > 0; }
+
+  const RayColumns& rays() const { return *rays_; }
+  const HitColumns& hits() const { return *hits_; }
+  const SurfelColumns& surfels() const { return *surfels_; }
+  const ShadingTables& tables() const { return renderer_.tables(); }
+
+ private:
+  void reserve(std::size_t count);
+  void endSurfels();
+  void run(const simd::Kernel& kernel);
+  std::vector<ProbeChild> childrenBy(const simd::Kernel& kernel);
+
+  Renderer renderer_;
+  FlushDenormals flush_;  // as in a frame's workers
+  FrameConstants constants_;
+  TraceMeter meter_;
+  Chunk chunk_;
+  std::size_t count_ = 0;
+  ColumnStore<RayColumns> rays_, children_;
+  ColumnStore<HitColumns> hits_;
+  ColumnStore<SurfelColumns> surfels_;
+  ColumnStore<UnshadowedColumns> unshadowed_;
+  ColumnStore<ShadowColumns> shadows_;
+};
+
+std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children);
+
+// Primary rays through the centers of these packed pixels, made by the kernel.
+ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
+                                    const CameraRays& camera);
+
+Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                FrameStats* stats = nullptr);
+
+// Counts the pixels whose bits differ. With `mirrored`, column x of `a` is column w - 1 - x of `b`.
+void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,
+                      bool mirrored = false);
+
+// Number of media on a stack of media.
+inline int mediaCount(std::uint32_t stack) {
+  int count = 0;
+  for (; stack != 0; stack >>= 8) count += (stack & 0xFFu) != 0;
+  return count;
+}
+
+// Counts the rays of a probe that hit something although they must not, or the other way round.
+void countHits(Finding& finding, const Probe& probe, bool mustHit);
+
+// Vector from the middle of the image plane to the center of a pixel.
+inline Vec3d asideOf(const CameraFrame& frame, int x, int y) {
+  return frame.right * (x + 0.5 - frame.width / 2.0) - frame.up * (y + 0.5 - frame.height / 2.0);
+}
+
+}  // namespace whit::verify

@@ -1,0 +1,384 @@
+// H71, continued: paths that leave exact spheres and go through them, and coincident spheres.
+#include "verify/balls.h"
+
+namespace whit::verify {
+
+namespace {
+
+// Rays from all around that are aimed at the whole silhouette, many of them close to the limb.
+std::vector<ProbeRay> raysOntoBall(const Ball& ball, int n, std::uint64_t seed) {
+  return randomRays(n, seed, [&](Numbers& numbers, int) {
+    const Vec3d out = numbers.direction(), e = across(out, numbers);
+    const double aside = 1 - std::pow(10, numbers.in(-6, 0));
+    return rayThrough(Vec3f(ball.point(out, 3)), Vec3f(ball.point(e, aside)));
+  });
+}
+
+constexpr int kRaysABall = 200;
+
+Finding leavingBalls(const Setup& setup) {
+  Finding finding(0);
+  for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3})) {
+    const Scene scene = ball.scene(shinyMaterial());
+    Probe probe(scene, setup, raysOntoBall(ball, kRaysABall, 76));
+    const Probe next(scene, setup, raysOf(probe.reflections()));
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      finding.count(next.isHit(i), ball.described(next.ray(i)));
+    }
+    probe.light(lightAt(Vec3f(ball.point({3, 2.5, -2}, 1)), 1));
+    for (std::size_t i = 0; i < probe.size(); ++i) {
+      if (!probe.isHit(i) || maxComponent(probe.unshadowed(i)) <= 0) continue;
+      finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
+    }
+  }
+  return finding;
+}
+
+// Returns true if a ray within the sphere hits its far side at the right distance.
+bool hitsFarSide(const Probe& probe, const Ball& ball, std::size_t i) {
+  const BallChord chord = ball.chord(probe.ray(i));
+  if (!probe.isHit(i) || enters(probe, i) || !(chord.near < 0)) return false;
+  const auto off = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / chord.far - 1);
+  return std::fabs(off) <= 1.001 * kBallRounding;
+}
+
+Finding throughBalls(const Setup& setup) {
+  Finding finding(0);
+  for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3})) {
+    const Scene scene = ball.scene(glassMaterial(1.5f));
+    Probe probe(scene, setup, raysOntoBall(ball, kRaysABall, 77)), inside(scene, setup);
+    const auto castInside = [&](const std::vector<ProbeRay>& rays) {
+      inside.cast(rays);
+      for (std::size_t i = 0; i < inside.size(); ++i) {
+        finding.count(!hitsFarSide(inside, ball, i), ball.described(rays[i]));
+      }
+    };
+    castInside(raysOf(probe.refractions()));
+    const Probe after(scene, setup, raysOf(inside.refractions()));
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      finding.count(after.isHit(i) || after.ray(i).media != 0, ball.described(after.ray(i)));
+    }
+    castInside(raysOf(inside.reflections()));
+  }
+  return finding;
+}
+
+// Thickness of a shell, relative to its outer radius.
+constexpr double kShellGap = 1e-5;
+
+struct Shell {
+  Ball outer, inner;
+  Scene scene;
+};
+
+// A shell of glass filled with air, whose priority is above that of the glass.
+Shell shellOf(float radius, float ior) {
+  const Ball outer{{0, 0, 0}, radius};
+  const Ball inner{{0, 0, 0}, static_cast<float>(double{radius} * (1 - kShellGap))};
+  SceneBuilder builder;
+  builder.add(outer.mesh(builder.add(glassMaterial(ior, 0))));
+  builder.add(inner.mesh(builder.add(glassMaterial(1, 1))));
+  return {outer, inner, builder.build()};
+}
+
+struct ShellCrossing {
+  std::uint32_t material;
+  bool entering;
+  int media;  // number of media on the stack before the crossing
+};
+constexpr ShellCrossing kThroughShell[] = {
+    {0, true, 0}, {1, true, 1}, {1, false, 2}, {0, false, 1}};
+
+// Sends rays through all four boundaries; each ray must hit them in order. errorOf(start, end) is
+// the error of a ray that has left the shell.
+template <typename ErrorOf>
+void crossShell(const Shell& shell, const Setup& setup, std::vector<ProbeRay> rays,
+                Finding& finding, const ErrorOf& errorOf) {
+  Probe probe(shell.scene, setup);
+  const std::vector<ProbeRay> start = rays;
+  for (const ShellCrossing& c : kThroughShell) {
+    probe.cast(rays);
+    for (std::size_t i = 0; i < probe.size(); ++i) {
+      const bool met = probe.isHit(i) && probe.surfels().material[i] == c.material &&
+                       enters(probe, i) == c.entering && mediaCount(rays[i].media) == c.media;
+      if (!met) finding.note(kNoBound, shell.outer.described(rays[i]));
+    }
+    rays = raysOf(probe.refractions());
+    if (rays.size() == start.size()) continue;
+    finding.note(kNoBound, [] { return "some rays ended within the shell"; });
+    return;
+  }
+  probe.cast(rays);
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    const bool gone = !probe.isHit(i) && rays[i].media == 0;
+    finding.note(gone ? errorOf(start[i], rays[i]) : kNoBound, shell.outer.described(start[i]));
+  }
+}
+
+// The index is 1: at no angle does a bit of the direction change. Rays between the silhouettes of
+// both spheres miss the inner one. An offset, which is below 2^-19 of the radius, may move a ray
+// across its silhouette, so rays next to it are left out.
+Finding straightThroughShell(const Setup& setup) {
+  Finding finding(0);
+  for (const float radius : {1e-3f, 1.0f, 1e3f}) {
+    const Shell shell = shellOf(radius, 1);
+    std::vector<ProbeRay> rays;
+    for (const ProbeRay& ray : raysOntoBall(shell.outer, 600, 78)) {
+      if (shell.inner.chord(ray).aside < 1 - 0x1p-17L) rays.push_back(ray);
+    }
+    crossShell(shell, setup, rays, finding, [](const ProbeRay& before, const ProbeRay& after) {
+      return before.direction == after.direction ? 0.0 : 1.0;
+    });
+  }
+  return finding;
+}
+
+// Rays through the center are refracted only as far as the normals are off: into glass by a third
+// of that error, out of glass by a half, at two faces each. Four directions are rounded as well.
+Finding glassShell(const Setup& setup) {
+  Finding finding(1);
+  for (const float radius : {1e-3f, 1.0f, 1e3f}) {
+    const Shell shell = shellOf(radius, 1.5f);
+    const auto rays = randomRays(400, 79, [&](Numbers& numbers, int) {
+      const Vec3f from(shell.outer.point(numbers.direction(), 3));
+      return rayThrough(from, {0, 0, 0});
+    });
+    crossShell(shell, setup, rays, finding, [&](const ProbeRay& before, const ProbeRay& after) {
+      const double normalsError = kWeightAngle + shell.outer.aside(before);
+      const double bound = 2 * (1.0 / 3 + 1.0 / 2) * 1.01 * normalsError + 4 * 4 * kBallRounding;
+      return length(Vec3d(after.direction) - Vec3d(before.direction)) / bound;
+    });
+  }
+  return finding;
+}
+
+// Rays within a ball of glass that hit its surface at sines of 0.68 to 0.9999; the critical sine is
+// 2/3.
+std::vector<ProbeRay> galleryRays(const Ball& ball, std::uint32_t medium) {
+  return randomRays(64, 80, [&](Numbers& numbers, int i) {
+    const double sine = i % 2 == 0 ? numbers.in(0.68, 1) : 1 - std::pow(10, numbers.in(-4, -1));
+    const Vec3d aside = numbers.direction(), d = across(aside, numbers);
+    return ProbeRay{Vec3f(ball.point(aside, sine)), Vec3f(d), medium};
+  });
+}
+
+// Upper bound on the change of the sine at a bounce: the ray starts at an offset from the surface
+// and behind the hit, the hit's weights turn the normal, and the direction takes a few roundings.
+double driftAt(const Probe& probe, const Ball& ball, std::size_t i) {
+  const auto offset = static_cast<double>(probe.surfels().offset[i]);
+  const auto retreat = static_cast<double>(probe.surfels().retreat[i]);
+  return (offset + retreat + ball.heightError()) / ball.r() + kWeightAngle + 8 * kBallRounding;
+}
+
+// The sine of a chord is the same at both ends, so that the bounds of all bounces so far add up.
+// The finding is the error of the sine relative to their sum.
+Finding whisperingGallery(const Setup& setup) {
+  Finding finding(1);
+  constexpr int kDepth = 64;
+  for (const Ball& ball : {Ball{}, Ball{{0, 0, 0}, 1e-5f}, Ball{{2, -1, 3}, 1}}) {
+    const Scene scene = ball.scene(glassMaterial(1.5f));
+    Probe probe(scene, setup);
+    std::vector<ProbeRay> rays = galleryRays(ball, probe.tables().materials[0].medium);
+    std::vector<double> sine, drift(rays.size());
+    for (const ProbeRay& ray : rays) sine.push_back(ball.aside(ray));
+    for (int bounce = 0; bounce < kDepth; ++bounce) {
+      probe.cast(rays);
+      const std::vector<ProbeChild> reflected = probe.reflections();
+      if (reflected.size() != rays.size() || !probe.refractions().empty()) {
+        finding.note(kNoBound, [&] { return std::to_string(bounce) + " bounces"; });
+        break;
+      }
+      for (const ProbeChild& child : reflected) {
+        const std::size_t i = child.parent;
+        drift[i] += driftAt(probe, ball, i);
+        const Vec3d n(probe.ng(i)), d(rays[i].direction);
+        const double off = length(cross(n, d)) / length(d) - sine[i];
+        const bool whole = child.weight == Rgb(1.0f) && !enters(probe, i);
+        finding.note(whole ? std::fabs(off) / drift[i] : kNoBound, ball.described(rays[i]));
+      }
+      rays = raysOf(reflected);
+    }
+  }
+  return finding;
+}
+
+// The distance behind the center, in radii, at which a ray parallel to an axis crosses that axis.
+// The ray is turned twice by the difference of both angles, and leaves at the distance from the
+// center at which it came.
+double ballFocus(double height, double ior) {
+  return height / std::sin(2 * (std::asin(height) - std::asin(height / ior)));
+}
+
+// Spherical aberration relative to the paraxial focal length and the squared height, for an index
+// of 1.5: 5/18 in third order, and a hundredth more for higher orders at heights of up to 0.1.
+constexpr double kAberration = 1.01 * 5 / 18;
+
+// The position along the axis, in radii, of the point of `ray` that is nearest to the axis.
+double crossingOf(const Ball& ball, const ProbeRay& ray, const Vec3d& axis) {
+  const Vec3d from = Vec3d(ray.origin) - Vec3d(ball.center), d(ray.direction);
+  const Vec3d side = d - axis * dot(d, axis);
+  const double t = -dot(from, side) / dot(side, side);
+  return dot(from + d * t, axis) / ball.r();
+}
+
+Finding ballLens(const Setup& setup) {
+  Finding finding(1);
+  constexpr double kIor = 1.5, kFocus = kIor / (2 * (kIor - 1));
+  for (const Ball& ball : {Ball{}, Ball{{0, 0, 0}, 1e4f}, Ball{{1, 0.5f, -1}, 1}}) {
+    const Scene scene = ball.scene(glassMaterial(static_cast<float>(kIor)));
+    const auto start = randomRays(300, 81, [&](Numbers& numbers, int) {
+      const Vec3d d = numbers.direction(), e = across(d, numbers);
+      const Vec3d from = e * std::pow(10, numbers.in(-3, -1)) - d * 2.0;
+      return ProbeRay{Vec3f(ball.point(from, 1)), Vec3f(d)};
+    });
+    Probe probe(scene, setup, start);
+    probe.cast(raysOf(probe.refractions()));
+    const std::vector<ProbeRay> out = raysOf(probe.refractions());
+    if (out.size() != start.size()) finding.note(kNoBound, [] { return "some never left"; });
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double height = ball.aside(start[i]);
+      const double found = crossingOf(ball, out[i], normalized(Vec3d(start[i].direction)));
+      // Upper bound on the error, in radii, of both points of the path, and of the two directions.
+      const double off = 2 * (kWeightAngle + 2 * ball.heightError() / ball.r());
+      const double room = 2 * off / (2 * (1 - 1 / kIor) * height);
+      const double exact = std::fabs(found / ballFocus(height, kIor) - 1) / room;
+      const double paraxial =
+          std::fabs(found / kFocus - 1) / (kAberration * height * height + room);
+      finding.note(std::max(exact, paraxial), ball.described(start[i]));
+    }
+  }
+  return finding;
+}
+
+// Two coincident spheres in the order of the scene, and which of them a ray must hit.
+struct Rivals {
+  Material first, second;
+  std::uint32_t winner;
+};
+
+std::vector<Rivals> rivals() {
+  const Material opaque = diffuseMaterial(1), glass = glassMaterial(1.5f),
+                 oil = glassMaterial(1.4f, 1);
+  return {{opaque, opaque, 1}, {opaque, glass, 0}, {glass, opaque, 1},
+          {glass, glass, 1},   {glass, oil, 1},    {oil, glass, 0}};
+}
+
+// With `apart`, each sphere is in an object of its own that has two instances. A sphere of the
+// other material comes first in that object, so that the two have other numbers there.
+Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart) {
+  SceneBuilder builder;
+  const std::uint32_t materials[] = {builder.add(two.first), builder.add(two.second)};
+  const Ball elsewhere{{ball.center.x + 50, ball.center.y, ball.center.z}, 0.5f};
+  for (const int i : {0, 1}) {
+    Object object;
+    if (apart) object.meshes.push_back(elsewhere.mesh(materials[1 - i]));
+    object.meshes.push_back(ball.mesh(materials[i]));
+    if (!apart) builder.add(object.meshes[0]);
+    if (apart) builder.place(std::move(object), {Affine{}, Affine::translation({0, 8, 0})});
+  }
+  return builder.build();
+}
+
+Finding ballsInOnePlace(const Setup& setup) {
+  Finding finding(0);
+  const Ball ball{{0.3f, -0.2f, 0.7f}, 0.9f};
+  const std::vector<ProbeRay> rays = raysOntoBall(ball, 300, 82);
+  for (const Rivals& two : rivals()) {
+    for (const bool apart : {false, true}) {
+      const Scene scene = sceneOfRivals(two, ball, apart);
+      Probe probe(scene, setup, rays);
+      for (std::size_t i = 0; i < probe.size(); ++i) {
+        const bool right = probe.isHit(i) && probe.surfels().material[i] == two.winner;
+        finding.count(!right && ball.chord(rays[i]).aside < 1, [&] {
+          return (apart ? "instances, " : "one object, ") + describeRay(rays[i]);
+        });
+      }
+    }
+  }
+  return finding;
+}
+
+// Spheres that overlap at random. Each has a second one that is coincident with it, inside it or
+// touches it. The last spheres are in instances.
+SceneBuilder manyBalls() {
+  SceneBuilder builder;
+  const std::uint32_t materials[] = {
+      builder.add(diffuseMaterial(0.7f)), builder.add(glassMaterial(1.5f)),
+      builder.add(mirrorMaterial(0.8f)), builder.add(glassMaterial(1.2f, 2))};
+  Numbers numbers(83);
+  Object object;
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    const Ball ball{Vec3f(numbers.direction() * 2.0), static_cast<float>(numbers.in(0.2, 0.9))};
+    const Vec3f beside(ball.point({1, 0, 0}, 2));
+    const Ball others[] = {ball, {ball.center, ball.radius * 0.75f}, {beside, ball.radius}};
+    for (const Mesh& mesh :
+         {ball.mesh(materials[i % 4]), others[i % 3].mesh(materials[i / 4 % 4])}) {
+      if (i < 16) builder.add(mesh);
+      if (i >= 16) object.meshes.push_back(mesh);
+    }
+  }
+  builder.place(std::move(object), {Affine{}, Affine::translation({0.5, 0.25, -0.5})});
+  builder.description.lights = {lightAt({4, 6, 5}, 60)};
+  builder.sky(0.3f);
+  return builder;
+}
+
+// Rays from outside and from inside.
+std::vector<ProbeRay> raysIntoMany() {
+  return randomRays(1500, 84, [](Numbers& numbers, int i) {
+    const Vec3d towards = numbers.direction();
+    const Vec3f target(towards * numbers.in(0, 3));
+    return rayThrough(Vec3f(numbers.direction() * (i % 2 == 0 ? 8 : 1)), target);
+  });
+}
+
+Finding ballsInPackets(const Setup& setup) {
+  Finding finding(0);
+  const Scene scene = manyBalls().build();
+  const std::vector<ProbeRay> rays = raysIntoMany();
+  const Probe single(scene, {setup.simd, 1}, rays), probe(scene, setup, rays);
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    finding.count(!single.sameHit(probe, i), described(rays[i]));
+  }
+  const Camera camera{.eye = {1, 2, 7}, .at = {0, 0, 0}};
+  const Image expected = pictureOf(scene, camera, optionsOf({setup.simd, 1}, {40, 30}));
+  for (const int tile : {7, 8, 64}) {
+    RenderOptions options = optionsOf(setup, {40, 30});
+    options.tile = tile;
+    countOtherPixels(finding, pictureOf(scene, camera, options), expected,
+                     "tiles of " + std::to_string(tile));
+  }
+  return finding;
+}
+
+constexpr Case kSpherePathCases[] = {
+    {"H71g", "no ray that leaves a sphere hits it again",
+     "reflected and shadow rays, from radii of 1e-6 to 1e6 and up to the limb", Runs::packets,
+     leavingBalls},
+    {"H71h", "a ray that enters a sphere hits its far side once",
+     "rays in balls of glass, refracted and reflected, and rays that leave; against the chord",
+     Runs::packets, throughBalls},
+    {"H71i", "two spheres with 1e-5 of their radius between them",
+     "index 1: every boundary in its order, directions bit for bit", Runs::packets,
+     straightThroughShell},
+    {"H71j", "a shell of glass, thin as 1e-5 of its radius",
+     "rays through the center: boundaries, media, and how far they turn, over the bound",
+     Runs::packets, glassShell},
+    {"H71k", "the whispering gallery: 64 total reflections at one angle",
+     "drift of the sine over that of as many bounces", Runs::packets, whisperingGallery},
+    {"H71l", "the focus of a ball lens",
+     "heights of 0.001 to 0.1 radii; against the closed form, and the paraxial focus",
+     Runs::packets, ballLens},
+    {"H71m", "which of two coincident spheres is hit",
+     "opaque before glass, then by priority, then the later; as one object and as instances",
+     Runs::packets, ballsInOnePlace},
+    {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
+     "hits and pictures that differ from those of single rays and of other tiles", Runs::packets,
+     ballsInPackets},
+};
+
+}  // namespace
+
+std::span<const Case> spherePathCases() { return kSpherePathCases; }
+
+}  // namespace whit::verify
