@@ -165,15 +165,15 @@ TEST_F(GltfMotion, BrokenChannelsAreRefused) {
   const std::string place = "3 m.gltf#/animations/0/";
   EXPECT_EQ(errorWith("\"sampler\":0", "\"sampler\":1"),
             place + "channels/0/sampler: expected an index into samplers, from 0 to 0");
-  EXPECT_EQ(errorWith("\"input\":1", "\"input\":\"x\""),
+  EXPECT_EQ(errorWith("\"input\":0", "\"input\":\"x\""),
             place + "samplers/0/input: expected an index into accessors, from 0 to 2");
-  EXPECT_EQ(errorWith("\"output\":2", "\"output\":2,\"interpolation\":\"CUBICSPLINE\""),
+  EXPECT_EQ(errorWith("\"output\":1", "\"output\":1,\"interpolation\":\"CUBICSPLINE\""),
             place + "samplers/0/output: expected 18 numbers for 2 times, found 6");
-  EXPECT_EQ(errorWith("\"SCALAR\"", "\"LIST\""), "3 m.gltf#/accessors/1/type: expected SCALAR");
+  EXPECT_EQ(errorWith("\"SCALAR\"", "\"LIST\""), "3 m.gltf#/accessors/0/type: expected SCALAR");
   // Channels of KHR_animation_pointer are left out, with or without their pointer.
   EXPECT_EQ(errorWith("\"node\":0,\"path\":\"translation\"",
                       "\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{}}"),
-            "2 --time: nothing moves in m");
+            "no error");
 }
 
 TEST_F(GltfMotion, MorphTargetsAddUp) {

@@ -43,7 +43,6 @@ TEST_F(GltfOdd, IndicesWithoutAViewAreZerosButForSparseOnes) {
 
 TEST_F(GltfOdd, BuffersThatNobodyUsesNeedNoData) {
   GltfBuilder b;
-  const std::string text = b.json(oneMesh(triangle(b)));
   const std::string whole = replaced(b.json(oneMesh(triangle(b))), "}],\"bufferViews\"",
                                      "},{\"byteLength\":9}],\"bufferViews\"");
   EXPECT_EQ(triangleCount(loadText(whole)), 1u);
