@@ -117,13 +117,13 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
       "click 30 244\nwait 5 frames\nclick 100 289\nclick 60 313 130 313\n"         // the lamp
-      "click 30 370\nwait 5 frames\nclick 60 439 20 439\nclick 110 391 140 391\n"  // the mirror
+      "click 30 370\nwait 5 frames\nclick 60 415 90 415\nclick 110 391 140 391\n"  // the mirror
       "key H\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   for (const char* edited : {"/lights/0/position=", "/lights/0/intensity=",
-                             "/materials/mirror/mirror=", "/materials/mirror/diffuse="}) {
+                             "/materials/mirror/specular=", "/materials/mirror/diffuse="}) {
     EXPECT_NE(lines[0].find(std::string("--set '") + edited), std::string::npos) << lines[0];
   }
   EXPECT_EQ(lines[0].find("/materials/floor"), std::string::npos) << lines[0];
