@@ -188,7 +188,7 @@ HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, MF valid, size_t i
 
 struct Surface {
   V3 position, edge1, edge2;
-  V3 spans;      // what edges add to the error of a position, per axis; of no use on instances
+  V3 spans;      // sum of the edges' sizes, per axis
   V3 magnitude;  // of all that went into the position
   VF across;     // by so many roundings it may be off, also along the surface
   MF inDoubt;    // more than that may have gone into what rays that start there meet again
@@ -220,13 +220,13 @@ HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelCol
   const FloatTag d;
   const V3 edges = s.spans, n = Abs3(s.ng);
   const VF point = SumOf(s.magnitude), sides = SumOf(edges);
-  const VF most = hn::Mul(point, hn::Set(d, 0x1p-19f));
+  const VF most = hn::MulAdd(point, hn::Set(d, 0x1p-19f), hn::Mul(sides, hn::Set(d, 0x1p-20f)));
   const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
   const VF along = hn::MulAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
                               hn::MulAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
   const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
   const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
-  hn::Store(hn::IfThenElse(s.inDoubt, most, hn::Min(along, most)), d, surfels.offset + i);
+  hn::Store(hn::IfThenElse(s.inDoubt, most, along), d, surfels.offset + i);
   hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.retreat + i);
 }
 
@@ -245,6 +245,7 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   s.magnitude =
       Select3(placed, Add3(TransformVector(abs, s.magnitude), Abs3(p.origin)), s.magnitude);
   s.position = Select3(placed, Add3(TransformVector(m, s.position), p.origin), s.position);
+  s.spans = Select3(placed, TransformVector(abs, s.spans), s.spans);
   s.edge1 = Select3(placed, TransformVector(m, s.edge1), s.edge1);
   s.edge2 = Select3(placed, TransformVector(m, s.edge2), s.edge2);
   s.ng = Select3(placed, NormalizeOr(TransformVector(normal, s.ng), s.ng), s.ng);

@@ -141,8 +141,9 @@ inline std::optional<double> alongRay(const Place<SurfelRow>& p) {
   const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
   return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
 }
-// By the corners, which may be far larger than the place that a ray found; of an instance the
-// offset is 32 units in the last place of all that went into the position.
+// By the corners, which may be far larger than the place that a ray found. Of an instance the
+// offset is 32 units in the last place of all that went into the position, and 16 of its edges,
+// whose products with the weights are rounded too.
 inline double byMagnitude(const Place<SurfelRow>& p) {
   if (const auto found = alongRay(p)) return *found;
   if (const auto sphere = sphereAt(p)) {

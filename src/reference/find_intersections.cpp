@@ -69,6 +69,11 @@ Vec3d magnitudeInWorld(const Vec3d& sum, const Affine* toWorld) {
          abs(toWorld->p);
 }
 
+Vec3d spansInWorld(const Vec3d& spans, const Affine* toWorld) {
+  if (!toWorld) return spans;
+  return abs(toWorld->x) * spans.x + abs(toWorld->y) * spans.y + abs(toWorld->z) * spans.z;
+}
+
 double sumOf(const Vec3d& v) { return v.x + v.y + v.z; }
 
 // Whether the triangle is so narrow that in floats its normal may be turned.
@@ -94,29 +99,34 @@ std::optional<Vec3d> pointOnRay(const Placement& place, double t, const Ray& ray
   return point - normal * dot(point - place.inPlane, normal);
 }
 
-// The position, and how far from it rays start, in the arithmetic of floats. What a point is added
-// up from is off by an ulp or two of itself along each axis (pbrt-v4, section 6.8.5), the edges and
-// what Embree makes of them by some more. Of that only what goes along the normal counts for the
-// offset, and 2^-6 of an ulp of all, for a start must not lie in the plane, nor is the normal
-// exact. The point is off across the normal as well, which the retreat makes good: half of the way
-// that the ray has come is clear. `inDoubt`: on the way through an instance's space the axes are
-// mixed, and of several surfaces in one place another one may be larger.
+// The position, and how far from it rays start, in the arithmetic of floats. The bound on the
+// distance between the plane as Embree computes it and the start has three parts. The products that
+// a point is added up from are rounded by an ulp or two of themselves along each axis (pbrt-v4,
+// section 6.8.5). Embree subtracts a ray's origin from the corners and takes t from products of
+// those differences, so its plane is off by some ulps of the edges. Only what these errors
+// contribute along the normal counts, plus 2^-6 of an ulp of everything, because a start must not
+// lie in the plane and the normal is rounded as well. Near the origin of a large triangle the
+// second part is the largest by far, so no bound may rest on the point's coordinates alone.
+// Across the normal the point is off as well; the retreat makes that good, because half of the way
+// that the ray has come is known to be clear. Where the errors of several axes mix, which is so in
+// an instance's space and where other surfaces lie in the same place (`inDoubt`), all of them
+// count.
 void placeSurfel(const Placement& place, double t, const Ray& ray, const Affine* toWorld,
                  bool inDoubt, Surfel& s) {
   const Vec3d point = magnitudeInWorld(place.magnitude, toWorld);
   s.position = place.position;
   if (toWorld) s.position = toWorld->point(s.position);
-  s.offset = 32 * kUnitRoundOff * sumOf(point);
+  const Vec3d edges = spansInWorld(place.spans, toWorld), n = abs(s.geometricNormal);
+  s.offset = kUnitRoundOff * (32 * sumOf(point) + 16 * sumOf(edges));
   s.retreat = std::min(s.offset, t) / 2;
   if (inDoubt || toWorld || place.isNarrow) return;
-  const Vec3d edges = place.spans, n = abs(s.geometricNormal);
   double across = sumOf(point * 2.0 + edges);
   if (const auto onRay = pointOnRay(place, t, ray, s.geometricNormal)) {
     s.position = *onRay;
     across = 2 * sumOf(abs(s.position)) + 8 * t + 2 * dot(n, edges);
   }
   const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
-  s.offset = std::min(s.offset, kUnitRoundOff * along);
+  s.offset = kUnitRoundOff * along;
   s.retreat = std::min(s.retreat, kUnitRoundOff * across);
 }
 

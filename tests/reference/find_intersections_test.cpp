@@ -97,15 +97,16 @@ TEST(Surfel, OffsetBoundsTheRounding) {
   EXPECT_DOUBLE_EQ(middle.offset, offset);
 }
 
-// Where other surfaces lie in the same place, and no more than that anywhere.
-TEST(Surfel, OffsetIsAtMostThatOfAllMagnitudes) {
+// Where other surfaces lie in the same place, all magnitudes count: those of the point (7) and of
+// both edges (4 and 4 + 4).
+TEST(Surfel, OffsetIsThatOfAllMagnitudesWhereOthersLie) {
   SceneBuilder builder;
   builder.add(test::floorAt(3, 2, 0));
   const Scene scene = builder.build();
   const Surfel s =
       makeSurfel(scene, EffectSet::all(), {0}, {6, 0, 0}, {{-2, 9, 2}, {0, -1, 0}}, {}, true);
-  EXPECT_DOUBLE_EQ(s.offset, 32 * 7 / 16777216.0);
-  EXPECT_DOUBLE_EQ(s.retreat, 16 * 7 / 16777216.0);
+  EXPECT_DOUBLE_EQ(s.offset, (32 * 7 + 16 * 12) / 16777216.0);
+  EXPECT_DOUBLE_EQ(s.retreat, (16 * 7 + 8 * 12) / 16777216.0);
 }
 
 Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {

@@ -7,8 +7,8 @@
 namespace whit::test {
 namespace {
 
-// 32 u times what goes into the point: of the middle, |x| + |y| + |z| of the corners by weight,
-// scaled by 2, and the translation.
+// 32 u times the magnitudes that make up the point (|x| + |y| + |z| of the corner, scaled by 2, and
+// the translation), and 16 u times the two edges, 4 and 4 + 4 long by axes, scaled by 2.
 TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
   for (const double far : {0.0, 1.0, 1e3, 1e6}) {
     SceneBuilder builder;
@@ -17,7 +17,7 @@ TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
     builder.place({"floor", {mesh}}, {carried, Affine()});
     const Scene scene = builder.build();
     ASSERT_EQ(scene.instances.size(), 2u);
-    const double wanted = 0x1p-19 * (2 * (2 + 3 + 2) + 2.5 * far);
+    const double wanted = 0x1p-19 * (2 * (2 + 3 + 2) + 2.5 * far) + 0x1p-20 * 2 * (4 + 4 + 4);
     for (const std::string& target : simd::availableTargets()) {
       KernelSurfels kernel(scene, target);
       kernel.hit(0, 0, {0, -1, 0}, 0, 0);

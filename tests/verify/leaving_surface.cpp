@@ -203,32 +203,48 @@ bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   return enters <= leaves;
 }
 
-// The ulps of the floor's corners are a sixteenth of a unit, but the coordinates of the points that
-// the camera sees are of the order of 1.
+Mesh turned(Mesh mesh, const Affine& turn) {
+  for (Vec3f& p : mesh.positions) p = Vec3f(turn.vector(Vec3d(p)));
+  return mesh;
+}
+
+// The floor is so large that its corners' ulps are a sixteenth of a unit, but where it is seen its
+// points are of the order of 1. A tilted floor needs offsets in proportion to its size: up to 1000
+// times the box, its shadow is still where it belongs.
 Finding shadowOnLargeFloors(const Setup& setup) {
   constexpr double kUnsure = 0.01;  // next to the box and to the shadow's edge; pixels are larger
+  constexpr float kLargestTilted = 1e3f;
   Finding finding(0);
-  for (const float half : {10.0f, 1e3f, 1e5f, 1e6f}) {
-    SceneBuilder builder;
-    const auto white = builder.add(diffuseMaterial(0.8f));
-    builder.add(floorAt(0, half, white));
-    builder.add(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white));
-    builder.description.lights = {lightAt({2, 3, 1}, 30)};
-    Camera camera{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
-    RenderOptions options = optionsOf(setup, {64, 48});
-    const Image image = pictureOf(builder.build(), camera, options);
-    const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        const Vec3d way = frame.forward + asideOf(frame, x, y);
-        const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
-        if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
-        const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
-        if (!hidden && meetsUnitBox(at, {2, 3, 1}, kUnsure)) continue;
-        finding.count((image.at(x, y).x > 0) == hidden, [&] {
-          return "floor " + hexText(double{half}) + ", pixel " + std::to_string(x) + "," +
-                 std::to_string(y);
-        });
+  for (const double degrees : {0.0, 30.0, 137.0}) {
+    const Affine turn = Affine::rotation({1, 0.3, 0.5}, degrees);
+    const auto there = [&](const Vec3d& p) { return Vec3f(turn.vector(p)); };
+    for (const float half : {10.0f, 1e3f, 1e5f, 1e6f}) {
+      if (degrees > 0 && half > kLargestTilted) break;
+      SceneBuilder builder;
+      const auto white = builder.add(diffuseMaterial(0.8f));
+      builder.add(turned(floorAt(0, half, white), turn));
+      builder.add(turned(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white), turn));
+      builder.description.lights = {lightAt(there({2, 3, 1}), 30)};
+      const Camera upright{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
+      Camera camera = upright;
+      camera.eye = there(Vec3d(upright.eye));
+      camera.at = there(Vec3d(upright.at));
+      camera.up = there(Vec3d(upright.up));
+      const RenderOptions options = optionsOf(setup, {64, 48});
+      const Image image = pictureOf(builder.build(), camera, options);
+      const CameraFrame frame = makeCameraFrame(upright, image.width, image.height);
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const Vec3d way = frame.forward + asideOf(frame, x, y);
+          const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
+          if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
+          const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
+          if (!hidden && meetsUnitBox(at, {2, 3, 1}, kUnsure)) continue;
+          finding.count((image.at(x, y).x > 0) == hidden, [&] {
+            return "floor " + hexText(double{half}) + ", tilted by " + std::to_string(degrees) +
+                   ", pixel " + std::to_string(x) + "," + std::to_string(y);
+          });
+        }
       }
     }
   }
@@ -314,8 +330,8 @@ constexpr Case kLeavingSurfaceCases[] = {
     {"H2", "the same far from the origin", "distance 1e2 to 1e6, radius down to 1e-4 of it",
      Runs::packets, farFromOrigin},
     {"H2b", "the shadow of a box on floors of any size",
-     "half of 10 to 1e6 units; pixels that are not as the box and the lamp have it", Runs::packets,
-     shadowOnLargeFloors},
+     "half of 10 to 1e6 units, to 1e3 tilted; pixels that are not as the box and the lamp have it",
+     Runs::packets, shadowOnLargeFloors},
     {"H2c", "a shade next to its lamp, far from the origin",
      "16 float steps apart, 2^10 to 2^18 away; pixels that are lit", Runs::packets,
      shadeNextToItsLamp},
