@@ -52,7 +52,7 @@ class CoplanarFinder {
   // Triangles that overlap others in their plane. For Among::moving at least one of the two moves.
   Orders overlapping(Among which);
   // The triangles that overlap others, and the ones of `touching` that touch one of these.
-  CoplanarTriangles find(Orders overlapping, Among touching);
+  CoplanarTriangles find(const Orders& overlapping, Among touching);
 
  private:
   bool isAmong(Among which, std::uint32_t instance) const {
@@ -207,7 +207,7 @@ Orders CoplanarFinder::overlapping(Among which) {
   return found;
 }
 
-CoplanarTriangles CoplanarFinder::find(Orders overlapping, Among touching) {
+CoplanarTriangles CoplanarFinder::find(const Orders& overlapping, Among touching) {
   if (overlapping.empty()) return {};
   const auto ofList = [](const FacetSpace&, const TriangleGroup& a, const TriangleGroup& b) {
     return (a.list == nullptr) != (b.list == nullptr);
@@ -387,7 +387,7 @@ void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrde
   still.all = moving.empty();
   moving.insert(moving.end(), still.triangles.begin(), still.triangles.end());
   sortUnique(moving);
-  scene.coplanar = finder.find(std::move(moving), still.all ? Among::still : Among::all);
+  scene.coplanar = finder.find(moving, still.all ? Among::still : Among::all);
   scene.coplanar.rankBy(scene, order);
 }
 

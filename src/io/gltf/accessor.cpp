@@ -27,11 +27,11 @@ enum GltfComponent : std::uint64_t {
   kFloat = 5126
 };
 
-constexpr std::pair<std::string_view, std::size_t> kComponents[] = {
+constexpr std::pair<std::string_view, std::size_t> kComponentsOfType[] = {
     {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
 
 std::size_t componentsIn(std::string_view type) {
-  return std::find_if(std::begin(kComponents), std::end(kComponents),
+  return std::find_if(std::begin(kComponentsOfType), std::end(kComponentsOfType),
                       [&](const auto& known) { return known.first == type; })
       ->second;
 }

@@ -120,9 +120,9 @@ std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layo
 
 // The node's, or its mesh's.
 std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
-  const std::string node = document_.list("nodes")[placed.node]["name"].text();
-  const std::string mesh = document_.list("meshes")[placed.mesh]["name"].text();
+  std::string node = document_.list("nodes")[placed.node]["name"].text();
   if (!node.empty()) return node;
+  std::string mesh = document_.list("meshes")[placed.mesh]["name"].text();
   return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
 }
 
