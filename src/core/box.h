@@ -15,7 +15,7 @@ struct Box {
     lower = min(lower, p);
     upper = max(upper, p);
   }
-  // Of eight; bit k of `i` says which end of axis k.
+  // Corner i of eight: bit k of `i` chooses the lower or the upper end of axis k.
   Vec3f corner(int i) const {
     return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
   }

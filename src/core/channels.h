@@ -1,4 +1,5 @@
-// What a picture can keep beside its radiance (--channels): what the ray of a pixel meets first.
+// The extra output channels of a picture (AOVs, --channels): properties of the first hit of each
+// pixel's ray.
 #pragma once
 
 #include <array>
@@ -77,7 +78,7 @@ class ChannelSet {
 ChannelSet parseChannels(const std::string& commaSeparated);
 std::string namesOf(ChannelSet channels);  // joined by commas
 
-// Of what is not there: objects, materials and triangles where nothing was met.
+// The number of objects, materials and triangles where the ray hit nothing.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
 // All channels of a pixel but the count of its rays. What stands here is that of a pixel whose ray
@@ -103,16 +104,16 @@ class ChannelLayers {
   ChannelSet channels() const { return channels_; }
   std::size_t pixels() const { return pixels_; }
   std::size_t bytes() const;
-  // What the channels take a pixel.
+  // Memory of the channels for one pixel.
   static std::size_t bytesPerPixel(ChannelSet channels);
 
-  // Of a channel that is there and is of that type.
+  // The channel must exist and have this type.
   std::span<float> floats(Channel channel) { return floats_[index(channel)]; }
   std::span<const float> floats(Channel channel) const { return floats_[index(channel)]; }
   std::span<std::uint32_t> numbers(Channel channel) { return numbers_[index(channel)]; }
   std::span<const std::uint32_t> numbers(Channel channel) const { return numbers_[index(channel)]; }
 
-  // Those that are there, of the pixel of this index.
+  // Stores the values of all existing channels for the pixel with this index.
   void keep(std::size_t pixel, const ChannelValues& values);
   // Copies all channels of `count` pixels from others, which have the same channels.
   void copy(const ChannelLayers& from, std::size_t first, std::size_t count, std::size_t to);

@@ -11,9 +11,9 @@ namespace whit {
 
 enum class ExitStatus { done = 0, checkFailed = 1, usage = 2, badScene = 3, io = 4, limit = 5 };
 
-// What an error knows of its place, each empty where it does not: the file; the line ("12", "12:5")
-// or JSON pointer ("/lights/0") in it, or the thing of a scene without a file ("light 'lamp'"); and
-// what was expected there.
+// The place of an error; a member is empty if it is unknown. The members are the file, the line
+// ("12", "12:5") or JSON pointer ("/lights/0") in it or the element of a scene without a file
+// ("light 'lamp'"), and the content that was expected there.
 struct ErrorPlace {
   std::string file, place, expected;
 };
@@ -37,7 +37,7 @@ class Error : public std::runtime_error {
 // `where` is "file", "file:line" or "file#/json/pointer"; `what` says what was expected there.
 [[noreturn]] void throwBadScene(const std::string& where, const std::string& what);
 [[noreturn]] inline void throwIo(const std::string& what) { throw Error(ExitStatus::io, what); }
-// Of a file that cannot be read or written.
+// Reports a file that cannot be read or written.
 [[noreturn]] inline void throwIo(const std::string& file, const std::string& what) {
   throw Error(ExitStatus::io, what, {file, "", ""});
 }

@@ -17,7 +17,8 @@
 
 namespace whit {
 
-// What a renderer has to rebuild when an option changes; each level includes those before it.
+// The part of a renderer that has to be rebuilt when an option changes. Each level includes the
+// levels before it.
 enum class Rebuild {
   nothing,  // the option is read by each frame, or does not concern the renderer
   frame,    // the plan of the following frames

@@ -21,7 +21,7 @@ int srgbCode(double linear);
 inline constexpr int kSrgbSteps = 4095;
 int srgbCodeByTable(float linear);
 
-// What vector encoders look up.
+// The lookup tables of the vector encoders.
 struct SrgbTables {
   std::array<float, 257> least;  // the least float of each code; least[256] is out of reach
   std::array<std::int32_t, kSrgbSteps + 1> codeOfStep;  // of the cheaper encoding

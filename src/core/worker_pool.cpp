@@ -17,7 +17,7 @@ namespace whit {
 WorkerPool::WorkerPool(int workers, Denormals denormals)
     : workers_(workers), denormals_(denormals), start_(workers), finish_(workers) {
   const auto turnBack = [&] {
-    // Those who have come go home; the others are not waited for.
+    // The workers that have started leave the barrier; nobody waits for the missing ones.
     for (int i = static_cast<int>(threads_.size()) + 1; i < workers; ++i) start_.arrive_and_drop();
     sendHome();
   };

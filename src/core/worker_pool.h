@@ -12,7 +12,7 @@
 
 namespace whit {
 
-// Whether the workers set denormals to zero.
+// Treatment of denormal numbers by the workers.
 enum class Denormals { kept, flushed };
 
 // Two barriers a run; nobody spins for ever, so a stolen core costs its share and no more.

@@ -1,4 +1,5 @@
-// What else there is to see of a frame than its colors: for finding out, not for speed.
+// Debug views of a frame, for inspection and not for speed: depth, normals, albedo, ray counts,
+// cost.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo"
 
 struct DebugFrame {
   FrameStats stats;  // of one worker, who was looked at all the time
-  // What the colors stand for, for people: "rays a pixel, from 1 to 23".
+  // Describes the colors to people: "rays a pixel, from 1 to 23".
   std::string legend;
   AmountScale scale;                 // of those views that have one
   std::vector<WatchedPixel> pixels;  // of the window
@@ -41,10 +42,10 @@ AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int
 void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
                const AmountScale& scale, DisplayImage& display);
 std::string legendOf(DebugView view, const AmountScale& scale);
-// What was seen of a pixel, with its unit: "5.3 rays a sample".
+// The value of a pixel with its unit: "5.3 rays a sample".
 std::string textOf(DebugView view, const WatchedPixel& pixel, int samples);
 
-// Of views with a scale: its color at that share of the way from low to high, and the amount there.
+// Views with a scale have a color and an amount at each share of the way from low to high.
 bool hasScale(DebugView view);
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share);
 double amountAt(DebugView view, const AmountScale& scale, double share);

@@ -1,4 +1,4 @@
-// What was seen of each pixel, as a picture.
+// Draws one value per pixel as a picture in false colors.
 #pragma once
 
 #include <string>

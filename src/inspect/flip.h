@@ -8,7 +8,7 @@
 
 namespace whit {
 
-// What FLIP sees of one image.
+// The filtered channels that FLIP computes from one image.
 struct FlipSide {
   std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
   std::vector<float> edge, point;  // magnitudes of the features
@@ -19,7 +19,7 @@ FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height);
 // FLIP per pixel of two images of the same size.
 std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b);
 
-// The same of two encoded images of the same size.
+// Computes FLIP for two encoded images of the same size.
 std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b);
 
 }  // namespace whit

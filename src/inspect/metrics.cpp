@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kRelativeEpsilon = 1e-2;
 
-// What is measured on linear values. Pixels that are not finite in either image are only counted:
-// one of them would make every mean meaningless.
+// Measures linear values. Pixels that are not finite in either image are only counted, because one
+// of them would make every mean meaningless.
 void measureLinear(const Image& a, const Image& b, ImageDifference& difference) {
   double squares = 0, relative = 0, sumA = 0, sumB = 0;
   std::uint64_t values = 0;

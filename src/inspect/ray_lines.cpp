@@ -10,7 +10,7 @@ namespace whit {
 
 namespace {
 
-// Of primary rays only the end counts: the eye may be far away.
+// Only the end of a primary ray counts, because the eye may be far away.
 Box extentOf(const RayTree& tree) {
   Box box;
   for (const RayNode& n : tree.nodes) {

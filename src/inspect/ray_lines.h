@@ -10,8 +10,7 @@
 
 namespace whit {
 
-// What a line stands for: a ray of that kind; of those that only ask whether something is in
-// between, one that is blocked or is not.
+// The meaning of a line: its kind of ray, and for rays that only test visibility, blocked or not.
 struct RayLook {
   RayKind kind = RayKind::primary;
   bool blocked = false;

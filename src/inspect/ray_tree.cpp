@@ -197,7 +197,7 @@ bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
                      [&](std::size_t child) { return tree.nodes[child].kind == kind; });
 }
 
-// What the surface would have sent on, by the reference.
+// The impulses that the surface would have sent, according to the reference.
 struct Wanted {
   reference::Impulses impulses;
   reference::Crossing crossing;
@@ -226,7 +226,7 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
           crossing, scattered};
 }
 
-// Of what the surface would send on, and does not.
+// The reason for which the surface does not send an impulse that it could send.
 PathEnd endOf(const RenderOptions& options, const RayNode& n) {
   if (n.depth >= options.depth) return PathEnd::depth;
   return options.roulette > 0 ? PathEnd::roulette : PathEnd::cutoff;

@@ -15,7 +15,7 @@
 
 namespace whit {
 
-// What a light, or one of its samples, adds to a surfel's radiance.
+// The contribution of a light, or of one of its samples, to a surfel's radiance.
 struct LightContribution {
   std::uint32_t light = 0, sample = 0;
   Vec3d origin, toLight;  // of the shadow ray: it reaches from one to their sum
@@ -45,7 +45,7 @@ struct RayNode {
   std::vector<LightContribution> lights;
   RgbD local;     // of emission, ambient and lights
   RgbD radiance;  // with what its children brought back
-  // Of impulses of each kind; of samples of a lobe, where none goes on.
+  // The end of the path for each kind of impulse. For sampled lobes it is set if no sample goes on.
   std::array<PathEnd, kRayKindCount> ends{};
   std::vector<std::size_t> children;
 
@@ -70,8 +70,8 @@ RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film,
 RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x,
                            int y);
 
-// What a node's own radiance counts at the eye: the product of the weights as far as there. The
-// mean over the samples is not part of it.
+// The factor by which a node's own radiance counts at the eye: the product of the weights along the
+// path. The mean over the samples is not part of it.
 RgbD weightAtEye(const RayTree& tree, std::size_t node);
 
 // For each node of `a` its counterpart in `b`, by kind and order among siblings; kNoCounterpart
@@ -81,7 +81,7 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
 
 bool meetsTheSame(const RayNode& a, const RayNode& b);  // surface, or nothing
 bool seesTheSame(const RayNode& a, const RayNode& b);   // of the lights: those that are not hidden
-// Whether both meet and see the same and send on as many impulses.
+// True if both nodes hit and see the same surfaces and lights and send the same number of impulses.
 bool agree(const RayNode& a, const RayNode& b);
 
 }  // namespace whit

@@ -35,7 +35,7 @@ struct Compared {
   Feature feature = Feature::always;
 };
 
-// What the tables say of the stage, and the columns that they do not know.
+// The quantities of the stage from the tables, and the columns that the tables do not list.
 template <typename Row>
 std::vector<Compared<Row>> comparedAt(Stage stage) {
   const std::vector<Quantity<Row>> known = quantitiesOf(static_cast<const Row*>(nullptr));
@@ -127,7 +127,7 @@ class StageComparer : public StageObserver {
   std::vector<StageDifference> rows;
 
  private:
-  // Whether the stage's rows have as many slots as they need.
+  // True if the rows of the stage have as many slots as they need.
   bool enough(Stage stage) const {
     return std::any_of(rows.begin(), rows.end(), [&](const StageDifference& row) {
       return row.stage == stage && row.slots > kSlotsPerStage;

@@ -1,6 +1,7 @@
-// What whit compare --stages compares of each stage, and how far a vector step may be from its
-// twin. The tables at the end are all that it knows about columns. One without an entry is compared
-// by itself: whole numbers have to be equal, others within kRoundedLimit.
+// The quantities of each stage that `whit compare --stages` compares, and the largest allowed
+// difference between a vector step and the scalar reference. The tables at the end contain all
+// knowledge about columns. A column without an entry is compared by itself: whole numbers have to
+// be equal, others within kRoundedLimit.
 #pragma once
 
 #include <algorithm>
@@ -78,7 +79,7 @@ double byOne(const Place<Row>&) {
   return 1;
 }
 
-// What twins are asked for is no question.
+// The shadow slot is an index and is not compared.
 inline double byNothing(const Place<ShadowRow>&) { return kNotHere; }
 
 inline double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.eye)); }
@@ -125,7 +126,8 @@ inline std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
   return reference::sphereInWorld(p.world.scene, candidate.triangle, candidate.instance);
 }
 inline Vec3d axesOf(const Affine& map) { return abs(map.x) + abs(map.y) + abs(map.z); }
-// What a position found along the ray is made of (placeSurfel); none where the corners make it.
+// The magnitude of a position that placeSurfel found along the ray; none where it follows from the
+// corners.
 inline std::optional<double> alongRay(const Place<SurfelRow>& p) {
   const double t = double{p.chunk.hits.t[p.slot]};
   const Corners c = cornersAt(p);
@@ -183,8 +185,8 @@ inline double ofSurfels(const Place<RadianceRow>& p) {
 // difference.
 inline double byPointOfLight(const Chunk& chunk) { return chunk.lightSamples > 1 ? 4 : 1; }
 
-// What the radiance would be without the cosine to the light's point, whose rounding error is
-// absolute. An ulp of the half vector, over the width of the lobe, is how much a highlight moves.
+// The radiance without the cosine at the light's point, because the rounding error of the cosine is
+// absolute. A highlight moves by an ulp of the half vector over the width of the lobe.
 inline double byGrazing(const Place<UnshadowedRow>& p) {
   if (p.chunk.lightIsAmbient()) return 0;
   const Light& light = *p.chunk.light;
@@ -194,7 +196,7 @@ inline double byGrazing(const Place<UnshadowedRow>& p) {
   const double scale = byPointOfLight(p.chunk) * std::max({p.twin.r, p.twin.g, p.twin.b}) /
                        (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   if (light.kind != Light::Kind::spot) return scale;
-  // Likewise the cosine to the cone's axis, over the width of its edge.
+  // The cosine to the cone's axis has an absolute error too, relative to the width of its edge.
   const SpotCone cone = coneOf(light);
   return scale * std::max(1.0, 2 * cone.scale / std::max(std::sqrt(cone.falloff(l)), 1e-4));
 }
@@ -211,7 +213,7 @@ inline double byBothEnds(const Place<ShadowRow>& p) {
 inline std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }
 inline std::vector<std::string> rgb(const std::string& s) { return {s + "R", s + "G", s + "B"}; }
 
-// Of the rows of each kind.
+// The quantities of each kind of row.
 inline std::vector<Quantity<RayRow>> quantitiesOf(const RayRow*) {
   using enum Stage;
   // And what the cutoff counts of it.

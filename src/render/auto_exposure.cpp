@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLongSide = 64, kDepth = 8;
 constexpr double kMiddle = 0.3;  // what the mean of the surfaces becomes
-// What is no brighter than this share of the surfaces' pixels stays below white.
+// This share of the surfaces' pixels stays below white.
 constexpr double kBrightShare = 0.93, kBright = 0.95;
 // For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
 // before a gray sky is meant to be dark.

@@ -147,7 +147,7 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
 
 ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
                           int threads) {
-  // What rays that miss read, masked; a scene may be empty.
+  // Records that masked lanes read for rays that miss; a scene may be empty.
   static const TriangleRecord nowhere{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}, 0};
   static const NormalRecord flat{};
   static const ColorRecord white{{1, 1, 1, 1, 1, 1, 1, 1, 1}};

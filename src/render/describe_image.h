@@ -1,4 +1,4 @@
-// What an image says about itself.
+// The metadata that an image file carries.
 #pragma once
 
 #include <string>

@@ -18,9 +18,9 @@ struct Frame {
   std::size_t firstSample = 0;  // those before it were traced for the probes, or are in `sums`
   std::size_t endSample = 0;    // the first that is not traced
   Film* film = nullptr;
-  // Of adaptive sampling: where the first samples go, or whence their sum comes.
+  // Adaptive sampling stores its first samples here, or takes their sum from here.
   ProbeSamples* probes = nullptr;
-  // Of accumulating: whence the sums of the samples before come, and where they go.
+  // Accumulation takes the sums of the earlier samples from here and stores the new sums here.
   SampleSums* sums = nullptr;
   // Part of the frame's work: sees the chunks of all workers, at the same time.
   StageObserver* observer = nullptr;

@@ -1,4 +1,4 @@
-// What the options say about a frame's camera and film.
+// Camera and film of a frame, as the options ask for them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a frame cost, by stage, step and kind of ray.
+// Times and counters of a frame, by stage, step and kind of ray.
 #pragma once
 
 #include <array>

@@ -13,7 +13,8 @@ namespace whit {
 // A box around all surfaces of dielectrics, instances included; empty without any.
 Box dielectricBounds(const Scene& scene);
 
-// Whether a parallel camera's rays may start in different media. Conservative: it compares boxes.
+// True if the rays of a parallel camera may start in different media. The test is conservative
+// because it compares boxes.
 bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.

@@ -10,7 +10,7 @@ namespace whit {
 
 namespace {
 
-// Whether the chunk is of the sample whose channels are kept.
+// True if this chunk belongs to the sample whose channels are stored.
 bool isKept(const Chunk& c) {
   const ChannelTarget& target = c.frame->channels;
   return target.layers && target.sample == c.sampleNumber;

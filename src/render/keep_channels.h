@@ -6,7 +6,7 @@
 
 namespace whit {
 
-// Of the surfels of depth 0, all channels but the rays.
+// Stores all channels of the surfels of depth 0 except the ray counts.
 void keepChannels(Chunk& c);
 
 // Rays are counted where they are traced, and the counts follow the way of the radiance: each ray

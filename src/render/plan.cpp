@@ -96,7 +96,7 @@ Step embreeStep(const char* name, const char* call, StepFunction run, const simd
   return step;
 }
 
-// Whether shadow rays start and travel as proofs take for granted.
+// True if shadow rays start and travel as the proofs of the shadow cache assume.
 bool canDecide(const Plan& plan, const RenderOptions& options) {
   return plan.effects.has(Effect::shadows) && options.robust && !plan.features.has(Feature::lift) &&
          options.shading.offset == OffsetMethod::bound;
@@ -274,7 +274,7 @@ class Planner {
     plan_.impulses.push_back(std::move(step));
   }
 
-  // What is no kernel of its own is counted with the one whose columns it amends.
+  // A step that is no kernel is counted with the kernel whose columns it amends.
   static Step amendingStep(const char* name, const simd::Kernel& after, StepFunction run,
                            Parts reads, Parts writes) {
     return {.name = name,

@@ -42,14 +42,14 @@ struct Step {
   // same with less code, or without that is left out.
   std::uint32_t wants = 0;
   StepFunction otherwise = nullptr;
-  // Of steps that write children: how many a surfel has at the most, where the eye sees it and
-  // further on, and of which kind.
+  // For steps that write children: the kind of the children, and upper bounds on their number per
+  // surfel, for primary hits and for deeper ones.
   RayKind childKind = RayKind::reflection;
   std::size_t childrenAtEye = 0, childrenBeyond = 0;
   std::vector<KernelUse> kernels;  // what it consists of
   bool endsStage = false;          // no other step of its stage follows
 
-  // What runs for a chunk with these material flags; null: nothing.
+  // The function that runs for a chunk with these material flags; null if none runs.
   StepFunction functionFor(std::uint32_t materialFlags) const {
     return wants == 0 || (materialFlags & wants) != 0 ? run : otherwise;
   }

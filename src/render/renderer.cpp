@@ -69,7 +69,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   buildMs_ = stopwatch.ms();
 }
 
-// What follows from where everything is.
+// Computes everything that follows from the positions of geometry, cameras and lights.
 void Renderer::lookAround() {
   accel_->setEnclosed(false);
   lookedFrom_.reset();

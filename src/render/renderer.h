@@ -26,7 +26,7 @@
 
 namespace whit {
 
-// What the pipeline runs on, after "auto" has been resolved.
+// The machine that the pipeline runs on, after "auto" has been resolved.
 struct Machine {
   std::string simd;    // kernel target: avx3, avx2, sse4, sse2, neon, scalar
   std::string embree;  // version and ISA, "3.13.5 avx2"
@@ -56,7 +56,8 @@ class Renderer {
   // a worker of its own; no more of them than machine().threads.
   FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers);
 
-  // The same image by the scalar reference, its candidates from this renderer's Embree scene.
+  // Renders the same image with the scalar reference, which takes its candidates from this
+  // renderer's Embree scene.
   FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
 
   // For frames to come: all that changes neither the acceleration structure nor the workers is
@@ -64,8 +65,8 @@ class Renderer {
   // Error(usage) when alpha masks, spheres or instances would come or go, which are built in. Not
   // while rendering.
   void setOptions(const RenderOptions& options);
-  // Whether setOptions() is enough for frames with these options. Otherwise they need a renderer of
-  // their own: what differs is part of the acceleration structure or of the workers.
+  // True if setOptions() suffices for frames with these options. Otherwise they need another
+  // renderer, because the acceleration structure or the workers differ.
   bool canSetOptions(const RenderOptions& options) const;
 
   // For frames to come: random numbers of their own, so that pictures of several seeds have noise
@@ -90,7 +91,8 @@ class Renderer {
   void expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns = 1);
   // Looks at parts of triangles where shadow rays found no verdict. Not while rendering.
   FillReport fillVerdicts(const FillLimits& limits = {});
-  // What rays asked for until now, and was not looked at. Not while rendering.
+  // Drops the requests of rays for cells of the shadow cache that were not computed yet. Must not
+  // be called while a frame is rendered.
   void forgetAskedVerdicts();
   bool decidesShadows() const { return verdicts_ && !lightsWithVerdicts(plan_).empty(); }
   std::uint64_t verdictBytes() const { return verdicts_ ? verdicts_->bytes() : 0; }

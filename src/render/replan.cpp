@@ -1,4 +1,4 @@
-// What may change from frame to frame: options, materials and lights.
+// Changes between frames: options, materials and lights.
 #include "core/error.h"
 #include "core/option_table.h"
 #include "render/build_tables.h"
@@ -8,7 +8,7 @@ namespace whit {
 
 namespace {
 
-// What the acceleration structure has built in of a plan's effects.
+// The effects of a plan that are built into the acceleration structure.
 EffectSet builtIn(const Plan& plan) {
   constexpr EffectSet kBuiltIn =
       EffectSet().with(Effect::alphaMasks).with(Effect::instances).with(Effect::spheres);

@@ -1,4 +1,4 @@
-// What the samples of pixels have added up to, for pictures that get more of them over time.
+// Sums of the samples of each pixel, for pictures that gain samples over time.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct SampleSum {
   double squares = 0;  // of the samples' mean channel, linear radiance
 };
 
-// Of the pixels of a window; nothing has been added yet.
+// The sums of a window's pixels; they start empty.
 class SampleSums {
  public:
   explicit SampleSums(const Crop& window)

@@ -8,9 +8,9 @@
 
 namespace whit {
 
-// Those that the materials of `tables` use, with mip levels where lookups are trilinear, made by
-// `threads` together. Throws Error(limit) when they hold more texels than a 31-bit index
-// reaches, borders counted, or one has a side beyond kTextureSideLimit.
+// Adds the textures that the materials of `tables` use, with mip levels where lookups are
+// trilinear. `threads` threads share the work. Throws Error(limit) if they hold more texels than a
+// 31-bit index reaches, borders included, or if a texture has a side beyond kTextureSideLimit.
 void addTextures(const Scene& scene, EffectSet effects, TextureFilter filter, int threads,
                  ShadingTables& tables);
 

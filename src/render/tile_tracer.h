@@ -46,7 +46,7 @@ class TileTracer {
 
   void traceSamples(const Frame& frame, const Watch& watch);
   void addSample(const Frame& frame);
-  // Of the samples before these, and of those that will follow.
+  // Loads the sums of the earlier samples.
   void takeUpSums(const Frame& frame);
   void leaveSums(const Frame& frame);
   void keepProbeCodes(const Frame& frame);

@@ -10,13 +10,13 @@ namespace {
 // Proving a part takes as long as tracing so many shadow rays, or twice as many (whit bench
 // --ab-verdicts).
 constexpr double kRaysAProof = 400;
-// Of cameras that move: for so many frames at the most a part is counted on to stay in view.
+// A part is expected to stay in view for at most this many frames of a moving camera.
 constexpr std::size_t kFramesInView = 96;
 // Measured in films along sponza-mirror's path: with 53 samples of pixels for each triangle they
 // lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 4
 // %.
 constexpr double kSamplesATriangle = 250;
-// Of many samples of one view, one is spent on asking.
+// Of many samples of one view, one is spent on collecting requests.
 constexpr std::size_t kFewestFrames = 2 * VerdictSchedule::kTurns, kFewestSamples = 32;
 constexpr double kMostCounted = 255;
 
@@ -66,7 +66,7 @@ void VerdictSchedule::frameDone() {
   fill(static_cast<double>(std::min(run_.frames - done_, kFramesInView)));
 }
 
-// What was asked for is expected so many times more.
+// Each request is expected to occur this many more times.
 void VerdictSchedule::fill(double repeats) {
   const double least = std::ceil(kRaysAProof / repeats);
   if (least <= kMostCounted) {

@@ -8,7 +8,7 @@
 
 namespace whit {
 
-// What a run of frames may ask for.
+// The frames and samples of a run that may use the shadow cache.
 struct VerdictRun {
   std::size_t frames = 1;       // to come, of neighboring views
   std::size_t pixels = 0;       // of each
@@ -20,7 +20,7 @@ double samplesThatPay(const Scene& scene);
 
 class VerdictSchedule {
  public:
-  // Of so many tiles one asks in each frame.
+  // One tile of this many collects requests in each frame.
   static constexpr std::uint32_t kTurns = 8;
 
   // `renderer` must outlive it. Nothing happens where tables would not pay, or --verdicts says off.

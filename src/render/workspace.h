@@ -12,7 +12,7 @@
 
 namespace whit {
 
-// Of each set of columns, all depths together; 0 where the plan has no use for it.
+// Memory of each set of columns over all depths; 0 if the plan does not use the set.
 struct BufferBytes {
   std::size_t rays = 0, radiance = 0, hits = 0, surfels = 0, unshadowed = 0, shadows = 0;
   std::size_t rayCounts = 0;
@@ -31,7 +31,7 @@ class Workspace {
   void reserveCodes(std::size_t pixels);
   // Begins depth 0's queue with a ray a pixel.
   void startQueue(std::size_t rays);
-  // Whether rays of the depth's queue are left to be taken in hand.
+  // True if the queue of this depth has rays left.
   bool hasMore(int depth) const { return level(depth).cursor < level(depth).count; }
   // Takes the queue's next chunk in hand: its columns, without children.
   void takeChunk(int depth, Chunk& chunk);

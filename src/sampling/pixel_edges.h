@@ -10,16 +10,17 @@
 
 namespace whit {
 
-// What a pixel's first ray meets. Nothing at all: the defaults.
+// The surface that a pixel's first ray hits. The defaults stand for a miss.
 struct PixelSurface {
   static constexpr std::uint32_t kNothing = 0xffffffffu;
   std::uint32_t material = kNothing, instance = kNothing;
   Vec3f position, normal;  // in the world; the geometric normal, towards the viewer
 };
 
-// Whether neighboring pixels show the same smooth surface: material and instance agree, the
-// normals by 5 degrees, and so does the direction from one point to the other with their planes.
-// What lies behind or beside an edge does not, at any scale, even of the same material.
+// True if neighboring pixels show the same smooth surface: material and instance agree, the normals
+// agree within 5 degrees, and the direction from one point to the other lies in both planes within
+// 5 degrees. A surface behind or beside an edge fails the last test at any scale, even if its
+// material is the same.
 bool onSameSurface(const PixelSurface& a, const PixelSurface& b);
 
 // The pixels of `window` and `more` on each side, as far as the image reaches.

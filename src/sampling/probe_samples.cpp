@@ -24,7 +24,8 @@ int largestDifference(std::uint32_t a, std::uint32_t b) {
   return largest;
 }
 
-// Of the probes of the pixel at (dx, dy) from another, the one nearest to that one's center.
+// Among the probes of the pixel at (dx, dy) relative to another pixel, the one nearest to that
+// other pixel's center.
 std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   std::size_t nearest = 0;
   float least = std::numeric_limits<float>::infinity();

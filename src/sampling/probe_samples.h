@@ -13,7 +13,7 @@
 
 namespace whit {
 
-// Of one pixel.
+// The probes of one pixel.
 struct PixelProbes {
   std::array<std::uint32_t, kProbeSamples> codes{};  // as displayed: r | g << 8 | b << 16
   RgbD total;  // their sum, or their mean: for who goes on with more samples
@@ -28,7 +28,8 @@ class ProbeSamples {
 
   PixelProbes& at(int x, int y) { return samples_[index(x, y)]; }
   const PixelProbes& at(int x, int y) const { return samples_[index(x, y)]; }
-  // Of a pixel with probes, when its eight neighbors have theirs.
+  // True if the probes of this pixel and of its eight neighbors differ. All of them must have
+  // probes.
   bool differ(int x, int y, int contrast) const;
   std::size_t bytes() const { return samples_.capacity() * sizeof(PixelProbes); }
 

@@ -67,7 +67,8 @@ constexpr UnitPoint lobePoint(std::uint32_t path, const LobeSampling& sampling, 
   return {static_cast<float>(u >> 8) * 0x1p-24f, static_cast<float>(v >> 8) * 0x1p-24f};
 }
 
-// Likewise of a light with a radius, at every depth: all samples of a light are of one surfel.
+// The sampling of a light with a radius at any depth: all samples of the light belong to one
+// surfel.
 constexpr LobeSampling lightSampling(int depth, std::uint32_t count, std::uint32_t sample) {
   return depth > 0 ? LobeSampling{count, 0, 0}
                    : LobeSampling{count, sample * count, sample * kSampleStep};

@@ -1,4 +1,5 @@
-// What proofs about shadow rays and triangles (verdicts/caster.h) leave room for.
+// Rounding errors that the proofs about shadow rays and triangles (shadow_cache/caster.h) allow
+// for.
 #pragma once
 
 namespace whit {

@@ -1,6 +1,6 @@
-// What the steps of a frame run on: a chunk of one depth's queue of rays, with the columns that
-// belong to it and what is the same for all chunks of the frame. Kernels, calls into Embree and the
-// reference's twins are functions of it and of nothing else.
+// The argument of all steps of a frame: a chunk of one depth's queue of rays, its columns, and the
+// constants of the frame. Kernels, calls into Embree and the functions of the scalar reference
+// depend on it and on nothing else.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct ChannelTarget {
   std::uint32_t sample = 0;
 };
 
-// The same for all chunks of a frame, and read-only while it is rendered.
+// Constants of a frame, which all chunks share; read-only while it is rendered.
 struct FrameConstants {
   const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
@@ -86,7 +86,7 @@ struct WrongVerdict {
 // In place of a light's number: the ambient light.
 inline constexpr std::uint32_t kAmbientLight = 0xffffffffu;
 
-// What tracing adds up to.
+// Counters and times of tracing.
 struct TraceMeter {
   std::array<RayTally, kRayKindCount> tally{};
   DecidedShadows shadows;
@@ -125,7 +125,7 @@ struct Chunk {
   std::size_t childCount = 0;
   std::array<Segment, kSegmentLimit> childSegments{};  // of them, in order
   std::size_t childSegmentCount = 0;
-  // Of the chunk whose children these rays are.
+  // Radiance of the chunk whose children these rays are.
   RadianceColumns parentRadiance;
 
   // A number a ray where rays are counted, and those of the chunk whose children these rays are.
@@ -140,7 +140,7 @@ struct Chunk {
   const RenderOptions& options() const { return frame->options; }
 
   bool lightIsAmbient() const { return lightNumber == kAmbientLight; }
-  // Whether rays find out what is visible of the light in hand.
+  // True if rays are traced to find the visible part of the current light.
   bool tracesShadows() const { return lightIsAmbient() || has(Feature::shadows); }
 
   // Rays to one light travel close together, those about normals do not.

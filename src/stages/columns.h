@@ -142,7 +142,7 @@ inline constexpr std::uint32_t kMiss = 0xffffffffu;
 inline constexpr std::uint32_t kEntering = 1;  // the ray hit the outside of the surface
 inline constexpr std::uint32_t kHidden = 2;    // inside a dielectric of higher priority: not there
 
-// The same columns, `first` slots further on.
+// Returns the same columns, starting `first` slots later.
 template <typename Columns>
 Columns advanced(const Columns& columns, std::size_t first) {
   Columns result = columns;

@@ -1,5 +1,6 @@
-// What a step reads and writes of its chunk. Builds without NDEBUG hold steps to it
-// (render/contract_check.h); plans are checked for steps that read what none has written.
+// The parts of a chunk that a step reads and writes. Builds without NDEBUG check that steps keep to
+// it (render/contract_check.h), and plans are checked for steps that read a part which no earlier
+// step has written.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
-// What a frame has use for, found out once by its plan. This is the one answer to "is it on?" for
-// whole calls: a set of columns belongs to a feature and is there only with it, and steps ask their
-// chunk (`chunk.has(Feature::cones)`). Code in the lanes of a kernel that is there for some effects
-// only is chosen when the kernel is compiled, by template bits (simd/kernels.h). Nothing
-// else is asked: neither null columns nor empty tables.
+// Feature flags of a plan, found once for all frames. Whole calls test these and nothing else,
+// neither null columns nor empty tables: a set of columns belongs to a feature and exists only with
+// it, and steps ask their chunk (`chunk.has(Feature::cones)`). Code in the lanes of a kernel that
+// only some effects need is chosen at compile time by template bits (simd/kernels.h).
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ inline constexpr Lobe kDiffuseLobe{
     0x5851f42du};
 inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
 
-// Whether frames with these effects sample any.
+// True if frames with these effects sample any lobe.
 constexpr bool samplesLobes(EffectSet effects) {
   return std::any_of(kLobes.begin(), kLobes.end(),
                      [&](const Lobe& lobe) { return effects.has(lobe.effect); });

@@ -67,7 +67,7 @@ constexpr const RayKindRow& rowOf(RayKind kind) {
 inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,
                                           RayKind::indirect};
 
-// Of the rays that ask whether a surface sees a light, or ambient light.
+// The kind of the rays that test if a surface sees a light, or the ambient light.
 constexpr RayKind shadowKind(bool ofAmbientLight) {
   return ofAmbientLight ? RayKind::occlusion : RayKind::shadow;
 }

@@ -95,7 +95,7 @@ struct ShadingTables {
   // faces.
   const NormalRecord* normals = nullptr;
   int normalStride = 0;  // floats
-  // Likewise, of ones: white.
+  // One record a triangle, or with a stride of 0 a single one of ones, which stands for white.
   const ColorRecord* colors = nullptr;
   int colorStride = 0;                    // floats
   const UvRecord* secondUvs = nullptr;    // none: no material's flags name them

@@ -1,6 +1,6 @@
-// What is known beforehand of one light's shadows, as kernels read it. A triangle of the world is
-// divided into parts, 2^n a side by its barycentric weights, and a part that needs it into cells.
-// Filled by verdicts/verdict_tables.h, between frames.
+// The shadow cache of one light, as kernels read it. A triangle of the world is divided into parts,
+// 2^n a side by its barycentric weights, and a part that needs it into cells. The cache is filled
+// between frames (shadow_cache/verdict_tables.h).
 #pragma once
 
 #include <cstdint>
@@ -32,12 +32,12 @@ inline constexpr float kVerdictRim = 0x1p-8f;
 // lifted by is less, but on slivers.
 inline constexpr float kVerdictReach = 0x1p-20f;
 
-// Of all parts of a triangle: unknown where none is decided, lit or dark where all are so, mixed
-// where it takes a look at the parts. Two bits each.
+// The state of all parts of a triangle together, two bits each: unknown if none is decided, lit or
+// dark if all are, mixed if the parts have to be looked up.
 inline constexpr int kTrianglesAWord = 16;
 
 struct VerdictView {
-  // So many triangles a word.
+  // kTrianglesAWord triangles a word.
   const std::uint32_t* triangles = nullptr;
   // A word a triangle: the number of its first part, shifted by kPartBits; kNoParts.
   const std::uint32_t* first = nullptr;
