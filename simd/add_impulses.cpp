@@ -47,7 +47,7 @@ HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
           c.has(Feature::transmission)};
 }
 
-// What both kinds of impulse need of a vector of surfels.
+// The values that both kinds of impulse need for a vector of surfels.
 struct ImpulseLanes {
   MF live;        // the surfel has an impulse of the kind in question
   MF dielectric;  // and bounds a medium
@@ -66,7 +66,7 @@ HWY_INLINE VF LeastElevation(const ImpulseJob& job, VF elevation) {
   return hn::Min(hn::Mul(hn::Set(d, 0.9f), elevation), hn::Set(d, 0.01f));
 }
 
-// Of the surfels at i, where the material's flags have `kWanted`.
+// Loads the surfels at i, masked to those whose material's flags have `kWanted`.
 template <uint32_t kWanted>
 HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   const FloatTag d;
@@ -108,8 +108,8 @@ HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, const V3& mirror, V
   return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), mirror);
 }
 
-// What a dielectric lets through of the light that Fresnel's law does not reflect: the coat comes
-// first.
+// The share of the light that a dielectric transmits, of what Fresnel's law does not reflect. The
+// coat comes first.
 HWY_INLINE V3 TransmittanceUnder(const V3& coat, const V3& transmission) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(transmission);
@@ -122,7 +122,7 @@ HWY_INLINE V3 TransmittanceUnder(const V3& coat, const V3& transmission) {
   return Mul3(transmission, {share(coat.x), share(coat.y), share(coat.z)});
 }
 
-// Of the surfels at i, the share that is there.
+// The coverage of the surfels at i.
 HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
   const FloatTag d;
   return job.coverage ? hn::Load(d, job.surfels.coverage + i) : hn::Set(d, 1.0f);
@@ -239,7 +239,8 @@ void AddReflections(Chunk& c) noexcept {
   c.childCount = count;
 }
 
-// What AddSamples() asks of a lobe: its samples, and the lanes that take more than one.
+// The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
+// one.
 struct GlossySamples {
   static constexpr const Lobe& kLobe = kGlossyLobe;
 

@@ -23,7 +23,7 @@ class ReflectedAmbient {
         half_(Broadcast3((tables_.ambient.up - tables_.ambient.down) * 0.5f)),
         indirect_((c.materialFlags & kMaterialDiffuses) != 0) {}
 
-  // Of the surfels at i, those that a ray has hit.
+  // The ambient light at the surfels from i on; `hit` masks the lanes whose ray hit a surface.
   HWY_INLINE V3 At(size_t i, MF hit) const {
     const FloatTag d;
     const VF ny = hn::Load(d, surfels_.nsY + i);

@@ -1,4 +1,4 @@
-// What surrounds Embree in checkShadows: shadow rays into packets, and visibility out of them.
+// The kernels around Embree in checkShadows: shadow rays into packets, and visibility out of them.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -116,8 +116,8 @@ struct LookUps {
 constexpr auto kUnknown = static_cast<int32_t>(Verdict::unknown);
 constexpr auto kMixed = static_cast<int32_t>(Verdict::mixed);
 
-// Of whole triangles. In the rim of one it takes a look at its parts, whose rims are narrower.
-// Returns whether any ray has more to ask for than to be traced.
+// Looks up whole triangles. A ray in the rim of a triangle looks up the triangle's parts, whose
+// rims are narrower. Returns true if any ray needs more than to be traced.
 HWY_INLINE bool LookUpTriangles(const Chunk& c, const VerdictView& view, size_t begin, size_t end,
                                 LookUps& looked) {
   const FloatTag d;
@@ -146,8 +146,8 @@ HWY_INLINE bool LookUpTriangles(const Chunk& c, const VerdictView& view, size_t 
   return !hn::AllTrue(di, hn::Eq(any, hn::Zero(di)));
 }
 
-// Of the rays that whole triangles do not decide. Those whose triangles have no verdict look for
-// their parts only to note them.
+// Looks up the parts for the rays that whole triangles do not decide. Rays whose triangles are
+// unknown look for their parts only to request them.
 HWY_INLINE void FindParts(const Chunk& c, const VerdictView& view, bool asks, size_t begin,
                           size_t end, LookUps& looked) {
   const IntTag di;
@@ -213,7 +213,8 @@ HWY_INLINE void LookUpCells(const VerdictView& view, size_t count, LookUps& look
   }
 }
 
-// Whether rays start as near to the points of their weights as verdicts allow (kVerdictReach).
+// True in lanes whose rays start as near to the points of their weights as the shadow cache
+// requires (kVerdictReach).
 HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3& start) {
   using R = TriangleRecord;
   const FloatTag d;
@@ -274,7 +275,7 @@ HWY_INLINE void KeepRest(const ShadowColumns& rays, MF kept, size_t i, size_t& c
   count += rest.Count();
 }
 
-// What is decided, of the rays [begin, end); the others are written from `count` on.
+// Removes the decided rays of [begin, end); the others are written from `count` on.
 HWY_INLINE void TakeDecided(Chunk& c, size_t begin, size_t end, const LookUps& looked,
                             size_t& count) {
   const FloatTag d;

@@ -1,5 +1,5 @@
-// What surrounds Embree in findIntersections: rays into packets, hits out of them, and from hits to
-// surfels.
+// The kernels around Embree in findIntersections: rays into packets, hits out of packets, and
+// surfels from hits.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -53,7 +53,7 @@ PacketKernels FindPacketKernels() {
   return {PackRays, PackShadowRays, UnpackHits, UnpackVisibility};
 }
 
-// What vertex colors multiply, as the flags of the lanes' materials say.
+// The factors by which vertex colors multiply each color of a material, according to its flags.
 struct Tints {
   V3 diffuse, specular, emission;
 };
@@ -168,7 +168,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);
 }
 
-// What the vector at i has queued.
+// Applies the textures that the vector at i has queued.
 HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, size_t slot,
                               size_t i) {
   const SurfelColumns& surfels = job.surfels;
@@ -233,7 +233,8 @@ StepFunction FindInterpolateSurfels(size_t index) {
   return kVariants[index];
 }
 
-// Of the vector at i what mapOf(materials) names, to be looked up by the first texture coordinates.
+// Queues the map that mapOf(materials) names for the vector at i, looked up by the first texture
+// coordinates.
 template <typename MapOf>
 HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&& mapOf,
                              MapQueue& queue) {

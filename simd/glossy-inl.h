@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// What all samples of a vector of surfels have in common.
+// The values that all samples of a vector of surfels share.
 struct GlossyLobes {
   V3 view;
   V3 x, y, z;  // the frame of incidence: z is the shading normal, the view lies over x

@@ -71,7 +71,7 @@ struct Kernel {
   HWY_EXPORT(Find##Name);        \
   StepFunction find##Name(std::size_t index) { return HWY_DYNAMIC_DISPATCH(Find##Name)(index); }
 
-// Of the chosen target; `index` as in Kernel::variant.
+// Each of these returns a variant for the chosen target; `index` is that of Kernel::variant.
 StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);
 StepFunction findLookUpRoughness(std::size_t index);
@@ -117,8 +117,9 @@ inline constexpr Kernel kLookUpCoverage{"lookUpCoverage",   Stage::findIntersect
                                         findLookUpCoverage, {Part::rays, Part::hits, Part::surfels},
                                         {Part::surfels},    {}};
 
-// Of surfels between vertex normals that differ: how far shadow rays start above the facet, into
-// the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).
+// Computes how far shadow rays start above the facet, for surfels between vertex normals that
+// differ, into the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II,
+// chapter 4).
 inline constexpr Kernel kLiftShadowOrigins{"liftShadowOrigins",   Stage::findIntersections,
                                            findLiftShadowOrigins, {Part::hits, Part::surfels},
                                            {Part::surfels},       {}};
@@ -141,8 +142,8 @@ inline constexpr Kernel kFindRadianceAndShadowRays{
     {Part::unshadowed, Part::shadows},
     EffectSet().with(Effect::glossy).with(Effect::spotLights).with(Effect::directionalLights)};
 
-// Likewise one sample of the ambient light, and a ray of the length of its occlusion for each slot
-// that reflects some: also without Feature::shadows.
+// Writes one sample of the ambient light, and for each slot that reflects some of it a ray as long
+// as the occlusion radius, with or without Feature::shadows.
 inline constexpr Kernel kFindAmbientAndOcclusionRays{
     "findAmbientAndOcclusionRays",     Stage::findRadianceAndShadowRays,
     findFindAmbientAndOcclusionRays,   {Part::rays, Part::surfels},
@@ -248,14 +249,15 @@ struct PacketKernels {
   void (*packRays)(const RayColumns& rays, std::size_t n, float reach, const PacketWords& to);
   void (*packShadowRays)(const ShadowColumns& rays, std::size_t n, float reach,
                          const PacketWords& to);
-  // Of scenes without instances: a triangle's number is that of its class's first one plus its own.
+  // For scenes without instances: a triangle's number is the number of its class's first triangle
+  // plus its own.
   void (*unpackHits)(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
                      const HitColumns& hits);
   // visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
   void (*unpackVisibility)(const PacketWords& from, std::size_t n, const std::uint32_t* slot,
                            float* visible);
 };
-// Of the chosen target.
+// Returns the kernels for the chosen target.
 PacketKernels findPacketKernels();
 
 // Radiance of n slots to packed codes r | g << 8 | b << 16 | 255 << 24.

@@ -1,5 +1,5 @@
-// What arrives from a light of any kind. `kBits` are the effects that the kernel is compiled for:
-// the code of kinds that it has no bit of is not there.
+// Light that arrives from a light source of any kind. `kBits` are the effects that the kernel is
+// compiled for; the code for other kinds is left out.
 #if defined(WHIT_SIMD_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_LIGHT_INL_H_
 #undef WHIT_SIMD_LIGHT_INL_H_
@@ -51,7 +51,8 @@ class LightLanes {
     return Sub3(position_, from);
   }
 
-  // Whether the cone reaches that far aside; not exact, where it has almost fallen off to nothing.
+  // True in lanes that the cone reaches. The test is not exact where the light has almost fallen
+  // off to nothing.
   HWY_INLINE MF Within(MF live, const V3& toLight, VF distanceSquared) const {
     if constexpr (kSpots) {
       if (!spot_) return live;
@@ -62,13 +63,13 @@ class LightLanes {
     return live;
   }
 
-  // What the intensity is divided by at this distance.
+  // The area by which the intensity is divided at this distance.
   HWY_INLINE VF Area(VF distanceSquared) const { return hn::Max(distanceSquared, radiusSquared_); }
 
-  // Of lights with a radius a point for each lane: the way to it, and what the intensity is divided
-  // by (the scalar twin, with its source: viewOf in
-  // src/reference/find_radiance_and_shadow_rays.cpp). Not inlined: frames whose lights are points
-  // shall not carry it along.
+  // A point on a light with a radius for each lane: the vector to it, and the area by which the
+  // intensity is divided (the scalar reference, with its source, is viewOf in
+  // src/reference/find_radiance_and_shadow_rays.cpp). It is not inlined, so that frames whose
+  // lights are points do not pay for it.
   struct View {
     V3 toPoint;
     VF area;
@@ -99,7 +100,8 @@ class LightLanes {
             hn::IfThenElse(outside, area, Area(squared))};
   }
 
-  // What a surface receives of the intensity; `nl` is the cosine at it, `l` the direction.
+  // The share of the intensity that a surface receives; `nl` is the cosine at the surface, `l` the
+  // direction.
   HWY_INLINE VF Falloff(VF nl, const V3& l, VF area) const {
     if constexpr (kDirectional) {
       if (directional_) return nl;

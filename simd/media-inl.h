@@ -62,7 +62,7 @@ HWY_INLINE VU CurrentMedium(const ShadingTables& tables, VU stack) {
   return best;
 }
 
-// Of the medium that counts.
+// The index of refraction of the medium on top of the stack by priority.
 HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
   return GatherMember<offsetof(MediumRecord, ior)>(
       tables.media.data(), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));

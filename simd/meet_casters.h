@@ -1,6 +1,6 @@
-// What triangles do to the shadow rays of a convex receiver, several at a time: the proofs of
-// verdicts/caster.h and the shafts of verdicts/shaft.h, in double and operation for operation as
-// their scalar twins there compute them.
+// Tests of several triangles at a time against the shadow rays of a convex receiver: the proofs of
+// shadow_cache/caster.h and the shafts of shadow_cache/shaft.h, in double and with the same
+// operations as the scalar code there.
 #pragma once
 
 #include <array>
@@ -63,8 +63,8 @@ struct alignas(64) CasterBlock {
 // A bit a triangle of the block.
 using CasterBits = std::uint8_t;
 
-// What is asked about `blocks` blocks of casters: of those in `asked`, `met` becomes those that
-// rays of the receiver may meet. `opaque` may hide it.
+// A question about `blocks` blocks of casters: `met` receives those of `asked` that rays of the
+// receiver may hit. An `opaque` one may hide the receiver.
 struct CasterQuestion {
   const CasterBlock* blocks = nullptr;
   std::size_t count = 0;
@@ -87,7 +87,7 @@ struct CasterKernels {
   // left.
   bool (*passCasters)(const CasterQuestion& question, const ShaftSides& shaft);
 };
-// Of the chosen target.
+// Returns the kernels for the chosen target.
 CasterKernels findCasterKernels();
 
 }  // namespace whit::simd

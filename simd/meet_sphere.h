@@ -23,7 +23,7 @@ struct SphereHits {
 // be anything. A ray's hit does not depend on the width.
 using SphereMeeter = void (*)(const SphereInverse& sphere, const float* words, std::size_t width,
                               const int* valid, const float* after, const SphereHits& to);
-// Of the chosen target.
+// Returns the kernel for the chosen target.
 SphereMeeter findMeetSphere();
 
 }  // namespace whit::simd

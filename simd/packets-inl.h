@@ -25,7 +25,7 @@ HWY_INLINE float* WordsOf(const PacketWords& packets, size_t ray) {
   return packets.first + ray / kWidth * packets.stride + ray % kWidth;
 }
 
-// What packets take of either kind of rays; tFar is null where rays have no end.
+// The columns that packets read for either kind of rays; tFar is null where rays have no end.
 struct RaySource {
   const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
 };

@@ -127,8 +127,8 @@ class Records {
   LaneAddresses addresses_;
 };
 
-// The same where lanes often read the same record (a packet on one surface): then one scalar load
-// and a broadcast serve instead of a fetch for each lane. What dead lanes get is some record's.
+// Loads records where lanes often read the same one (a packet on one surface): one scalar load and
+// a broadcast then replace a fetch for each lane. Dead lanes receive some record.
 template <class Record>
 class SharedRecords {
  public:

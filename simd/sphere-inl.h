@@ -21,8 +21,8 @@ struct SphereLanes {
   V3 unit;       // the point
 };
 
-// Of the vector of hits at i. The scalar twin of the weights is spherePoint in
-// src/scene/sphere.cpp.
+// Loads the spheres of the vector of hits at i. The scalar reference of the weights is spherePoint
+// in src/bake/sphere.cpp.
 HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                                    VI number, size_t i) {
   using R = SphereRecord;
@@ -107,7 +107,7 @@ HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLan
   put(zero, w.w2);
 }
 
-// Whether anything is looked up by the texture coordinates of a sphere.
+// True if any map is looked up by the texture coordinates of a sphere.
 HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
                           const TriangleLanes& t) {
   constexpr size_t kFlags = offsetof(MaterialRecord, flags);

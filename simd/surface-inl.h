@@ -47,7 +47,7 @@ HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
   return {a.x, a.y, a.z, a.w, b.z, b.w};
 }
 
-// What the hits are of.
+// The triangles of a vector of hits, and the lanes that hit one.
 struct HitLanes {
   MF valid;
   VI triangle;  // some triangle where nothing was hit
@@ -128,8 +128,8 @@ HWY_INLINE Corners LoadNormals(const ShadingTables& tables, VI triangle) {
   return LoadCorners(tables.normals, tables.normalStride, triangle);
 }
 
-// Of the vertices: the first corner's and what the others add to it, so that one color at all
-// corners is that color exactly.
+// Interpolates vertex colors as the first corner's color plus the differences of the others, so
+// that one color at all corners is reproduced exactly.
 HWY_INLINE V3 VertexColor(const ShadingTables& tables, VI triangle, VF u, VF v) {
   static_assert(sizeof(ColorRecord) == 9 * sizeof(float));
   const auto [c0, c1, c2] = LoadCorners(tables.colors, tables.colorStride, triangle);
@@ -174,7 +174,7 @@ HWY_INLINE PlacementLanes LoadPlacements(const ShadingTables& tables, VI instanc
   return p;
 }
 
-// What the hits are on, where that is an instance.
+// The instances that the lanes hit, and the lanes that hit one.
 struct InstanceHits {
   MF placed;
   VI instance;
@@ -254,8 +254,8 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   s.inDoubt = hn::Or(s.inDoubt, placed);
 }
 
-// Of a triangle that is larger than its distance from the ray's start the weights say less than the
-// distance does: there the ray's point, moved into the plane, is the position.
+// On a triangle that is larger than its distance from the ray's start, the weights are less precise
+// than the distance. There the position is the ray's point, moved into the plane.
 HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF distance, size_t i,
                           Surface& s) {
   const FloatTag d;

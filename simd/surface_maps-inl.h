@@ -115,7 +115,7 @@ struct MapQueue {
   HWY_ALIGN float between[TexelQueue::kRays];
 };
 
-// What waits for texels, of one block of rays.
+// The texture lookups of one block of rays that wait for their texels.
 struct BlockTextures {
   MapQueue diffuse, specular, emission, normal;
   HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
@@ -181,7 +181,7 @@ HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoi
               at.u, at.v, slot, queue.level);
 }
 
-// What waits at `slot`, filtered: `filter` makes a value of a footprint.
+// Filters the lookups that wait at `slot`; `filter` computes a value from a footprint.
 template <class Filter>
 HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot,
                         const Filter& filter) {
@@ -241,7 +241,7 @@ HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block,
          surfels.nsY, surfels.nsZ, i);
 }
 
-// What it takes to look maps up by either set of coordinates, of scenes that have two.
+// The inputs of map lookups by either set of coordinates, in scenes that have two.
 struct MapHits {
   UvLanes first;
   VI triangle, material;
@@ -296,9 +296,9 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
   StoreFrame(frame, space.flip, slot, block);
 }
 
-// Of scenes with second texture coordinates: what has been queued by the first ones, where the
-// material asks for its own, once more. Not inlined, and from the start: other frames shall not
-// carry it along.
+// Queues maps again that the material looks up by the second texture coordinates, in scenes that
+// have them. The function is not inlined and starts from the hits, so that other frames do not pay
+// for it.
 template <uint32_t kBits>
 HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
   const FloatTag d;

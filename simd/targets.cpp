@@ -39,7 +39,7 @@ constexpr std::int64_t namedTargets() {
 }
 static_assert((HWY_TARGETS & ~namedTargets()) == 0, "a compiled target has no name for --simd");
 
-// What the CPU has, whatever has been chosen since.
+// The targets of this CPU, whichever target has been chosen since.
 std::int64_t detectedTargets() {
   static const std::int64_t detected = [] {
     hwy::SetSupportedTargetsForTest(0);

@@ -74,8 +74,8 @@ HWY_INLINE VF TileOf(VF x) {
   return hn::Floor(hn::MulAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
 }
 
-// Of whole numbers from 0 to 2^23, without the care that others take: the low bits of what 2^23 is
-// added to.
+// Converts whole numbers from 0 to 2^23 without the care for other numbers: the result is the low
+// bits of the sum with 2^23.
 HWY_INLINE VI IndexOf(VF whole) {
   const FloatTag d;
   const IntTag di;

@@ -1,4 +1,5 @@
-// What surfels send to the viewer without any light's help, and the sky where rays left the scene.
+// Radiance that surfels send to the viewer without a light source, and the sky where rays left the
+// scene.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -19,7 +20,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   const SurfelColumns surfels = c.surfels;
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
-  // Of a chunk in which nothing emits, no surfel needs its material.
+  // No surfel needs its material in a chunk where nothing emits.
   const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
   const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
   const bool coverage = c.has(Feature::coverage);

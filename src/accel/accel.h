@@ -49,7 +49,7 @@ class RayLog {
   std::vector<Stream> streams_;
 };
 
-// What a single ray meets; the numbers are those of HitColumns.
+// The hit of a single ray; the numbers are those of HitColumns.
 struct Hit {
   std::uint32_t triangle = kMiss, instance = kMiss;
   float t = 0, u = 0, v = 0;

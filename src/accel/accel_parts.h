@@ -1,4 +1,4 @@
-// What an Accel holds. Not in accel.h, so that nobody else sees Embree.
+// The members of an Accel. They are not in accel.h, so that no other file sees Embree.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Accel::Parts {
   int shadowPacket(bool coherent) const {
     return coherent && embree.coherentAnyHitMayHang(packet) ? 8 : packet;
   }
-  // Whether Embree is to lead packets of this width through its BVH several at a time.
+  // True if Embree should lead packets of this width through its BVH several at a time.
   bool together(int width, bool coherent) const {
     return coherent && embree.streamWidth() == width;
   }

@@ -14,8 +14,8 @@ namespace whit {
 using AlphaMaps = std::vector<std::unique_ptr<AlphaMap>>;
 AlphaMaps makeAlphaMaps(const Scene& scene);
 
-// What a lookup reads of a masked triangle: half a cache line, where its record for shading is a
-// whole one.
+// The members of a masked triangle that a lookup reads: half a cache line, where its record for
+// shading takes a whole one.
 struct alignas(32) MaskedTriangle {
   float uv[6];
   std::uint32_t mask;  // index into MaskedGeometry::masks
@@ -48,8 +48,8 @@ bool isOpaqueAt(const Mask& mask, float s, float t) noexcept {
 
 // The masked triangles of one Embree geometry, in its order.
 struct MaskedGeometry {
-  // Those of scene.triangles from `first` to before `end`. `maps` must outlive it; where they are
-  // empty there are no masks.
+  // Takes the triangles of scene.triangles from `first` to before `end`. `maps` must outlive it;
+  // where they are empty there are no masks.
   MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first, std::uint32_t end);
 
   std::vector<MaskedTriangle> triangles;
@@ -57,12 +57,12 @@ struct MaskedGeometry {
   bool anyMask = false, anySingleSided = false;
 };
 
-// Whether its back is passed.
+// True if rays pass the back of this triangle.
 inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitive) noexcept {
   return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
 }
 
-// The same of the triangle's point (u, v).
+// True if the triangle's point (u, v) is cut away.
 template <float Mask::*kCutoff>
 bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
                 float v) noexcept {

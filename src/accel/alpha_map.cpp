@@ -16,8 +16,8 @@ struct AxisTexels {
   float fraction;
 };
 
-// Of numbers that an int holds. The library's own is a call where no instruction for it may be
-// assumed.
+// Floor of numbers that an int can hold. The library's function is a call where no instruction for
+// it may be assumed.
 int floorOf(float x) noexcept {
   const int towardsZero = static_cast<int>(x);
   return towardsZero - static_cast<int>(x < static_cast<float>(towardsZero));

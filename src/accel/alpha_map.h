@@ -14,7 +14,7 @@ class AlphaMap {
  public:
   explicit AlphaMap(const Texture& texture);
 
-  // Whether the bilinear alpha at texture coordinates (u, v) is at least `cutoff`.
+  // True if the bilinear alpha at texture coordinates (u, v) is at least `cutoff`.
   bool isOpaqueAt(float u, float v, float cutoff) const noexcept;
 
  private:

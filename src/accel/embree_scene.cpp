@@ -26,8 +26,8 @@ bool reportBuild(void* user, double fraction) {
   }
 }
 
-// Whether the ray of this lane meets the triangle from behind: where an instance is met, both are
-// as in its object.
+// True if the ray of this lane hits the triangle from behind. On an instance, ray and triangle are
+// in the space of its object.
 bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
   RTCHitN* const hit = args.hit;
   RTCRayN* const ray = args.ray;
@@ -38,7 +38,7 @@ bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
          0;
 }
 
-// The same as below for rays that pass the backs of single-sided surfaces.
+// Filters hits for rays that pass the backs of single-sided surfaces.
 void filterBySide(const RTCFilterFunctionNArguments* args) {
   const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
@@ -81,7 +81,8 @@ std::string deviceConfiguration(const AccelOptions& options) {
   return text;
 }
 
-// What the machine does not have is the user's choice; all else is that something ran out.
+// A missing instruction set is the user's choice; every other failure means that a resource ran
+// out.
 [[noreturn]] void throwNoDevice(const AccelOptions& options) {
   const RTCError error = rtcGetDeviceError(nullptr);
   const std::string what = "Embree has no device for '" + deviceConfiguration(options) + "'";

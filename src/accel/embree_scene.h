@@ -17,7 +17,7 @@ namespace whit {
 // Ray masks: shadow rays do not see triangles that cast no shadow.
 inline constexpr unsigned kSeenMask = 1, kShadowMask = 2;
 
-// What Embree counts references to, given back by whoever lets go of it.
+// Owner of an object whose references Embree counts; it releases its reference.
 template <auto release>
 struct Release {
   template <typename T>
@@ -53,7 +53,7 @@ class EmbreeScene {
   const std::uint32_t* triangleBase(std::size_t placed) const {
     return &triangleBase_[placed * kTriangleClasses];
   }
-  // Of a hit, as Embree tells it: the instance's id, which is RTC_INVALID_GEOMETRY_ID in the world.
+  // The instance of a hit from Embree's instance id, which is RTC_INVALID_GEOMETRY_ID in the world.
   std::uint32_t instanceOf(unsigned id) const {
     return isInWorld(id) ? kMiss : id - kFirstInstanceId;
   }
@@ -67,7 +67,7 @@ class EmbreeScene {
   // coherent (rtcIntersectNM), 0: none. That takes packets as wide as the CPU, and was measured on
   // AVX2 only: a twentieth less time inside Embree.
   int streamWidth() const { return streamWidth_; }
-  // Whether rtcOccluded16 may never return when its rays are said to be coherent. For AVX-512 and
+  // True if rtcOccluded16 may never return when its rays are said to be coherent. For AVX-512 and
   // scenes of instances, Debian's Embree 3.13.5 is compiled such that the mask of rays left to
   // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): where the
   // stack held something else than zero before, its loop has no end. Packets of 8 are safe, and so
@@ -95,8 +95,8 @@ class EmbreeScene {
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries
-  // Of a scene that moves, whose world is an instance: so that it is not built anew with the
-  // others.
+  // The top-level scene of a scene that moves. The world is an instance in it, so that it is not
+  // built again with the other instances.
   SceneHandle top_;
   std::vector<std::uint32_t> instanced_;  // the geometries of the instances that are there
   bool instances_ = true;

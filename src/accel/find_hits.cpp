@@ -30,7 +30,8 @@ void store(const Hit& hit, const HitRange& range, std::size_t i) {
   if (range.instances) hits.instance[i] = hit.instance;
 }
 
-// What scenes with instances need besides: which of them was hit, and its triangles' numbers.
+// The additional output of scenes with instances: the instance that was hit, and the numbers of its
+// triangles.
 template <int kWidth>
 void storeInstances(const EmbreeScene& scene, const HitGroup<kWidth>& group, std::size_t n,
                     const HitColumns& hits) {
@@ -111,15 +112,15 @@ void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
   }
 }
 
-// Whether a hit is so near that the ray may start in its plane (scene/eye_in_plane.h), if the
-// cosine between ray and normal is at least 2^-10.
+// True if a hit is so near that the ray may start in its plane (bake/eye_in_plane.h), if the cosine
+// between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;
   const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
   return static_cast<int>(t[i] <= kNear * size);
 }
 
-// Of primary rays: the nearest triangle that they do not start in. Robust traversal accepts hits at
+// Finds the nearest triangle that a primary ray does not start in. Robust traversal accepts hits at
 // a distance of 0, whatever the direction.
 void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) noexcept {
   const HitColumns& hits = range.hits;

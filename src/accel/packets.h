@@ -46,8 +46,8 @@ constexpr std::size_t packetsFor(std::size_t rays) {
   return (rays + kWidth - 1) / kWidth;
 }
 
-// What all rays of a packet have. Embree's robust traversal accepts hits at tnear, so the origin
-// must not lie on the surface: it has been moved off by its error bound.
+// Sets the members that all rays of a packet share. Embree's robust traversal accepts hits at
+// tnear, so the origin must not lie on the surface: it has been moved off by its error bound.
 template <int kWidth, typename Ray>
 void setConstants(Ray& ray, unsigned mask) {
   for (int lane = 0; lane < kWidth; ++lane) {
@@ -68,7 +68,7 @@ void forgetHits(RayHit* packets, std::size_t count) {
   }
 }
 
-// Those of so many rays are live, and the others of the last packet are not.
+// The valid mask: only the first `count` lanes of the last packet are active.
 template <int kWidth>
 void setLanes(Lanes<kWidth>* lanes, std::size_t rays) {
   for (std::size_t i = 0; i < packetsFor<kWidth>(rays) * kWidth; ++i) {

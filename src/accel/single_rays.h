@@ -19,7 +19,7 @@ Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& directio
 bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, float tFar,
                 bool coherent = false) noexcept;
 
-// Of columns.
+// Takes the rays from columns.
 template <typename Columns>
 Vec3f originAt(const Columns& c, std::size_t i) {
   return {c.orgX[i], c.orgY[i], c.orgZ[i]};

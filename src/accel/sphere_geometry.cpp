@@ -20,7 +20,7 @@ static_assert(offsetof(RTCRayHit8, ray) + offsetof(RTCRay8, tnear) ==
 static_assert(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, instID) ==
               kInstanceColumn * 8 * sizeof(float));
 
-// Of a dielectric; nobody asks for more.
+// The highest priority of a dielectric; the description allows no more.
 constexpr int kHighest = std::numeric_limits<int>::max() - 2;
 
 simd::SphereInverse inverseOf(const Affine& map) {
@@ -38,8 +38,8 @@ simd::SphereInverse inverseOf(const Affine& map) {
   return inverse;
 }
 
-// Of spheres in one place the highest is met: what is opaque before a sheet, that before a
-// dielectric, then by priority.
+// Among coincident spheres the one of the highest rank is hit: an opaque one before a sheet, a
+// sheet before a dielectric, and dielectrics by priority.
 int rankOf(const Material& material) {
   if (!material.passesLight()) return std::numeric_limits<int>::max();
   return material.boundsMedium() ? std::min(material.priority, kHighest) : kHighest + 1;
@@ -91,9 +91,9 @@ std::uint32_t SphereGeometry::numberOf(const Met& met) const {
   return scene_.geometries[geometry].firstTriangle + met.primitive;
 }
 
-// Whether a sphere is met rather than what the ray has met at the same distance, if that is a
-// sphere, too, be it one of another geometry: of equals the later. So it does not matter which is
-// asked first.
+// True if a sphere is chosen instead of the sphere that the ray has hit at the same distance,
+// possibly in another geometry: among equals the later one in the scene. So the order of the tests
+// does not matter.
 bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
   if (other.geometry != sphere.geometry) return false;
   const std::uint32_t own = numberOf(sphere), its = numberOf(other);

@@ -8,7 +8,8 @@ namespace whit {
 
 namespace {
 
-// So many bits a triangle that few of those that are alone in their place share one.
+// The hash table has this many bits per triangle, so that few triangles that are alone in their
+// place share a bit.
 constexpr std::uint64_t kBitsPerTriangle = 32;
 
 // The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
@@ -21,7 +22,7 @@ std::uint64_t mixed(std::uint64_t x) {
 // Both zeros are the same place.
 std::uint64_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }
 
-// The same for any order of the corners.
+// The key is the same for any order of the corners.
 std::uint64_t keyOf(const PlacedTriangle& t) {
   std::uint64_t sum = t.material;
   for (const Vec3f& p : t.corners) {
@@ -34,7 +35,7 @@ bool isBefore(const Vec3f& a, const Vec3f& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
 
-// Whether its corners go round the other way than in their order.
+// True if the corners run in the opposite direction.
 bool isTurned(const PlacedTriangle& t) {
   const auto& [a, b, c] = t.corners;
   const bool odd = isBefore(b, a) != isBefore(c, a);

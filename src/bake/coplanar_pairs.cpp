@@ -58,7 +58,7 @@ struct Node {
   std::uint32_t level = 0, number = 0;
 
   bool isTriangle() const { return group && level == 0; }
-  // Of two nodes the one of greater height is taken apart first.
+  // The node of greater height is split first.
   std::uint32_t height() const { return group ? level : level + 64; }
   bool operator==(const Node& other) const {
     return group == other.group && level == other.level && number == other.number;

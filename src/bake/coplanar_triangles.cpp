@@ -16,7 +16,8 @@ namespace whit {
 
 namespace {
 
-// Of instances of one object in exactly one place so many take part.
+// At most this many coincident instances of one object are searched for overlaps; more would make
+// the search quadratic.
 constexpr int kInstancesInOnePlace = 4;
 
 using Orders = std::vector<std::uint64_t>;  // of placed triangles, ascending, each once
@@ -95,7 +96,8 @@ BoxTree treeOf(const FacetSpace& space, const Orders& list) {
   return BoxTree(boxes);
 }
 
-// Those of one object that have as many before them in their place as take part.
+// The instances that have kInstancesInOnePlace earlier instances of the same object in the same
+// place.
 std::vector<bool> instancesInHeaps(const Scene& scene) {
   const auto placeOf = [](const InstanceRecord& i) {
     const auto& [x, y, z, p] = i.toWorld;
@@ -336,7 +338,7 @@ void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
   for (std::size_t i = 0; i < partners_.size(); ++i) ranks_[i] = rankOf(partners_[i]);
 }
 
-// That of the triangle, or the free one where it would be.
+// The slot of the triangle, or the free slot where it would be stored.
 std::size_t CoplanarTriangles::slotOf(PlacedTriangleId id) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = hashOf(id) & mask;

@@ -40,9 +40,9 @@ RgbD coatReflectance(const Material& material, double c) {
   return normal + (grazing - normal) * schlickTerm(c);
 }
 
-// What a dielectric lets through of the light that Fresnel's law does not reflect. The coat comes
-// first: it takes what the transmission leaves, and of that only what is missing, in proportion, so
-// that the glass keeps its hue.
+// The share of the light that a dielectric transmits, of what Fresnel's law does not reflect. The
+// coat comes first: it takes what the transmission leaves, and beyond that only the missing part,
+// in proportion, so that the glass keeps its hue.
 RgbD transmittanceUnder(const RgbD& coat, const Material& material) {
   const RgbD transmission(material.transmission);
   const double largest = maxComponent(transmission);
@@ -77,7 +77,7 @@ struct LobeChild {
   int rays = 1;  // that share the lobe
 };
 
-// That which its path says it is; none: it is no sample of a lobe.
+// The sample of the lobe that its path says it is; none if it is no sample of a lobe.
 std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, RayKind kind,
                                       const Surfel& surfel) {
   if (!chunk.has(Feature::streams)) return std::nullopt;
@@ -146,8 +146,8 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
 
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
   const double u = static_cast<double>(at.u), v = static_cast<double>(at.v);
-  // Of a unit sphere instead of the stretched one: facets that mirror the view into the cap above
-  // the plane that it grazes.
+  // The view for a unit sphere instead of the stretched one: facets that mirror the view into the
+  // cap above the plane that it grazes.
   const Vec3d seen = normalized(Vec3d(view.x * alpha, view.y * alpha, view.z));
   const double fall = v * (1 + seen.z);  // how far below the pole
   const double radius = std::sqrt(std::max(0.0, fall * (2 - fall)));

@@ -23,7 +23,7 @@ struct Impulse {
 struct Impulses {
   Impulse reflected, refracted;
 
-  // None, of a kind that is there for samples of a lobe alone.
+  // Returns an empty impulse for a kind that exists for samples of a lobe only.
   Impulse of(RayKind kind) const {
     return kind == RayKind::reflection   ? reflected
            : kind == RayKind::refraction ? refracted
@@ -88,8 +88,8 @@ inline constexpr std::array kSampledLobes{
                 [](const Surfel&, const LobeSampling& s) { return static_cast<int>(s.count); },
                 indirectImpulse}};
 
-// Whether an impulse of this contribution is traced, whose path has this number: by --cutoff, or by
-// Russian roulette at --roulette (sampling/random_streams.h).
+// True if an impulse of this contribution on the path with this number is traced: by --cutoff, or
+// by Russian roulette at --roulette (sampling/random_streams.h).
 bool survives(const RenderOptions& options, double contribution, std::uint32_t path);
 // By how much its weight grows then, and its contribution.
 double growthOfSurvivors(const RenderOptions& options, double contribution);

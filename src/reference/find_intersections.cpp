@@ -40,7 +40,7 @@ Edges edgesOf(const TriangleRecord& t) {
   return {triple(t.position + 3) - p0, triple(t.position + 6) - p0};
 }
 
-// The same in texture space.
+// The edges in texture space.
 struct TextureEdges {
   double du1, dv1, du2, dv2;
   double determinant() const { return du1 * dv2 - du2 * dv1; }
@@ -62,7 +62,7 @@ Vec3d magnitudeOnSphere(const Affine& map, const Vec3d& unit) {
   return abs(map.x) * q.x + abs(map.y) * q.y + abs(map.z) * q.z + abs(map.p);
 }
 
-// The same in the world.
+// The magnitudes in the world.
 Vec3d magnitudeInWorld(const Vec3d& sum, const Affine* toWorld) {
   if (!toWorld) return sum;
   return abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z +
@@ -76,13 +76,13 @@ Vec3d spansInWorld(const Vec3d& spans, const Affine* toWorld) {
 
 double sumOf(const Vec3d& v) { return v.x + v.y + v.z; }
 
-// Whether the triangle is so narrow that in floats its normal may be turned.
+// True if the triangle is so narrow that its normal may be turned by rounding to float.
 bool isNarrow(const Edges& e) {
   const Vec3d area = abs(cross(e.e1, e.e2));
   return sumOf(area) <= 0x1p-14 * sumOf(abs(e.e1)) * sumOf(abs(e.e2));
 }
 
-// What a position follows from, in the space of the geometry.
+// The inputs of a position, in the space of the geometry.
 struct Placement {
   Vec3d position, magnitude;
   Vec3d spans;    // along the edges, or of a sphere kSphereSpan of its axes
@@ -130,7 +130,8 @@ void placeSurfel(const Placement& place, double t, const Ray& ray, const Affine*
   s.retreat = std::min(s.retreat, kUnitRoundOff * across);
 }
 
-// What textures see of a hit: on a triangle, or on one that touches the sphere in place of it.
+// The triangle and weights by which textures are looked up: those of the hit, or of a triangle that
+// touches the sphere.
 struct Textured {
   TriangleRecord triangle;
   TriangleHit hit;
@@ -238,8 +239,8 @@ void placeOnSphere(const TriangleRecord& record, const TriangleHit& hit, const R
   placeSurfel(place, hit.t, ray, toWorld, inDoubt, s);
 }
 
-// Of the vertices: the first corner's and what the others add to it, so that one color at all
-// corners is that color exactly.
+// Interpolates vertex colors as the first corner's color plus the differences of the others, so
+// that one color at all corners is reproduced exactly.
 RgbD vertexColor(const ColorRecord& record, const TriangleHit& hit) {
   const RgbD c0 = triple(record.color);
   const RgbD there =

@@ -59,12 +59,12 @@ struct TexturePoint {
 };
 TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
-// Whether an alpha mask has cut a hole where the ray meets the triangle; `forShadows`: one that
+// True if an alpha mask has cut a hole where the ray hits the triangle; `forShadows`: a hole that
 // light falls through (Material::shadowCutoff, coverageCutoff).
 bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
              bool forShadows = false);
 
-// Whether the ray passes the triangle, which it meets from behind, because it is single-sided.
+// True if the ray passes the triangle because it hits the back of a single-sided surface.
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
               const Vec3d& direction);
 

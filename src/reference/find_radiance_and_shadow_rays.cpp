@@ -20,8 +20,8 @@ double shadowReach(const Light& light) {
   return double{kShadowReach};
 }
 
-// What a surfel sees of a light: the way to a point of it, and what the intensity is divided by for
-// the biradiance that all of it would bring from there.
+// The view of a light from a surfel: the vector to a point of it, and the area by which the
+// intensity is divided for the biradiance that the whole light would bring from there.
 struct LightView {
   Vec3d toPoint;
   double area = 1;

@@ -35,13 +35,13 @@ struct LightArrival {
 LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Light& light,
                                const ShadingChoices& choices = {}, const LightPoint& point = {});
 
-// Likewise of ambient light, as if all of it came from the direction drawn by the cosine to the
-// shading normal at `at`: whatever is nearer than the ambient light's occlusion holds it off, and
-// the surface itself. Nothing where the surfel reflects none.
+// The arrival of ambient light, as if all of it came from the direction drawn by the cosine to the
+// shading normal at `at`. It is occluded by anything nearer than the occlusion radius and by the
+// surface itself. Nothing arrives where the surfel reflects none.
 LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
                             const ShadingChoices& choices, const UnitPoint& at);
 
-// Of the chunk's slot, from the point of its light that is in hand.
+// The arrival at the chunk's slot from the current point of its light.
 LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot);
 
 // The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light

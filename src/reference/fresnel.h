@@ -1,5 +1,5 @@
-// What a smooth dielectric interface does to light: Fresnel's and Snell's laws, in a form that
-// keeps its precision where the two refractive indices are close or equal.
+// Fresnel's and Snell's laws at a smooth dielectric interface, in a form that keeps its precision
+// where the two refractive indices are close or equal.
 #pragma once
 
 #include "core/shading_choices.h"

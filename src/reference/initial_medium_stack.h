@@ -12,7 +12,7 @@ namespace whit::reference {
 MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
                               const Vec3d& point);
 
-// Whether the point lies in the surface of a dielectric: rays that start there are in one medium or
+// True if the point lies in the surface of a dielectric: rays that start there are in one medium or
 // the other, each by its direction.
 bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& intersector,
                       const Vec3d& point);

@@ -1,5 +1,5 @@
-// What the reference asks about geometry. It may be answered by Embree or by brute force; either
-// way the reference computes t, u, v and the hit point again in double from the corners.
+// The interface through which the reference queries geometry. Embree or brute force may answer;
+// either way the reference computes t, u, v and the hit point again in double from the corners.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class Intersector {
   // Told of each impulse that is followed, and of what it brought back before its weight counts.
   virtual void began(const Impulse&, RayKind) const {}
   virtual void ended(const RgbD& /*radiance*/) const {}
-  // Whether something that casts shadows lies at 0 < t < tFar (direction not normalized).
+  // True if a surface that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };
 

@@ -5,8 +5,8 @@
 
 namespace whit::reference {
 
-// Of image.window: what rays through the sample nearest to the center of each pixel meet, through
-// the center itself with adaptive sampling.
+// Stores the channels of image.window: the first hits of the rays through the sample nearest to the
+// center of each pixel, or through the center itself with adaptive sampling.
 void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
                   const Settings& settings, const Image& image, ChannelLayers& layers);
 

@@ -74,7 +74,7 @@ class Tracer {
   // Through any place in the pixel, from the top left, whose rays are those of this sample.
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
-  // What the ray through a place in the pixel meets; not how many rays follow.
+  // The first hit of the ray through this place in the pixel, without the ray counts.
   ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const;
 
  private:

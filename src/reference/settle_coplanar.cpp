@@ -32,8 +32,8 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   return shared;
 }
 
-// Whether two triangles are neighbors in one surface, which a ray passes once through the edge or
-// corner that they share. With all corners in common they lie one on the other.
+// True if two triangles are neighbors in one surface, which a ray passes once through the edge or
+// corner that they share. With all corners in common they lie on each other instead.
 bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
   if (a.medium != b.medium || a.entering != b.entering) return false;
   if (a.candidate.instance != b.candidate.instance) return false;
@@ -43,7 +43,7 @@ bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
   return shared > 0 && shared < 3 && cornersBetween(others, corners, b.hit) == shared;
 }
 
-// Of neighbors the first.
+// Keeps the first of neighboring triangles.
 void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.rank < b.rank; });
@@ -68,7 +68,7 @@ double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
   return error / std::abs(dot(n, ray.direction));
 }
 
-// Those that are no farther than the nearest one, as far as floats can tell.
+// Keeps the places that are no farther than the nearest one, as far as floats can tell.
 void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places) {
   if (places.empty()) return;
   const auto nearest =
@@ -80,7 +80,7 @@ void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places)
   });
 }
 
-// Whether light meets `a` rather than `b`: what is opaque first, and a sheet before a dielectric.
+// True if light hits `a` rather than `b`: an opaque surface first, and a sheet before a dielectric.
 bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
   if (a.opaque != b.opaque) return a.opaque;
   if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
@@ -100,7 +100,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
     if (!hit) return;
     if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
-    // What was met is there, though edge on the rounding of either may say otherwise.
+    // The triangle that was hit is there, although rounding may deny it for edge-on triangles.
     const bool isMet = id == idOf(met);
     if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
     Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false, true, rank};

@@ -12,7 +12,7 @@ namespace whit::reference {
 // From the unit sphere to the world; `instance`: kNoHit, or that which carries the sphere.
 Affine sphereInWorld(const Scene& scene, std::uint32_t number, std::uint32_t instance);
 
-// None, one or two, with t > 0, the nearer first.
+// Returns none, one or two hits with t > 0, the nearer one first.
 std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fromUnit);
 
 // The one that the candidate stands for, computed again.

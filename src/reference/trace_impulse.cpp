@@ -122,7 +122,7 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
   return sum / rays;
 }
 
-// What an impulse brings back, if it is worth following.
+// The radiance that an impulse brings back, if it is worth following.
 RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
                     RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;

@@ -17,8 +17,8 @@ struct TriangleHit {
 // the plane or the triangle has no area.
 std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
 
-// The same, but only hits on the triangle, border included, with t > 0. Nothing slips between
-// triangles that share an edge or a corner (Woop, Benthin and Wald 2013, "Watertight ray/triangle
+// Returns only hits on the triangle, border included, with t > 0. Nothing slips between triangles
+// that share an edge or a corner (Woop, Benthin and Wald 2013, "Watertight ray/triangle
 // intersection"; border hits count for every triangle that they touch).
 std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corners);
 

@@ -10,7 +10,8 @@
 
 namespace whit::reference {
 
-// What twins know of the frame besides their chunk: what kernels have in float tables.
+// The inputs of reference functions besides their chunk: the scene, of which kernels have float
+// tables.
 struct World {
   const Scene& scene;
   EffectSet effects;              // of the plan

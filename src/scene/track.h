@@ -16,8 +16,8 @@ struct Track {
   bool rotation = false;
   std::size_t components = 3;
   std::vector<double> times;  // seconds, increasing, at least one
-  // So many components a key; cubic: for each key the tangent before it, the value, and the tangent
-  // behind it, per second.
+  // One group of components for each key; with cubic interpolation three groups: the tangent before
+  // the key, the value, and the tangent behind it, per second.
   std::vector<double> values;
 };
 

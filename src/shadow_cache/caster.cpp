@@ -15,7 +15,7 @@ LightPoint LightPoint::of(const Light& light) {
   return {Vec3d(light.position), false};
 }
 
-// What rounding may add, the rays' starts having been moved as well.
+// The largest errors by rounding, for rays whose starts have been moved as well.
 struct Caster::Bounds {
   double away = 0;  // of the farthest vertex from a ray's start
   double way = 0;   // the longest way to the light

@@ -1,12 +1,11 @@
-// What one triangle does to all shadow rays from a receiver to a light: proofs that hold for what
-// Embree's robust traversal computes in single precision, not only for exact rays.
-//
+// Proofs about one triangle and all shadow rays from a receiver to a light. They hold for the
+// numbers that Embree's robust traversal computes in single precision, not only for exact rays.
 // Embree's robust test ("modified Pluecker", kernels/geometry/triangle_intersector_pluecker.h) has,
-// with corners a, b, c relative to the ray's origin O and its direction D, three edge
-// functions D.(a x b), D.(b x c), D.(c x a), all of one sign where the line meets the triangle, and
-// the distance (a.N) / (D.N), N the normal. With D = L - O each of these numbers is linear in O:
-// over a convex receiver its extremes lie at the corners. What rounding may add to each is bounded
-// by 2^-24 times the lengths that went into it; the bounds below leave room beside that.
+// with corners a, b, c relative to the ray's origin O and its direction D, three edge functions
+// D.(a x b), D.(b x c), D.(c x a), all of one sign where the line hits the triangle, and the
+// distance (a.N) / (D.N), N the normal. With D = L - O each of these numbers is linear in O: over a
+// convex receiver its extremes lie at the corners. Rounding may add at most 2^-24 times the lengths
+// that went into each number; the bounds below leave room beside that.
 #pragma once
 
 #include <array>
@@ -61,7 +60,7 @@ class Caster {
   static Range over(const Receiver& receiver, const Linear& number);
   // Towards the light from the receiver's corners, times the normal.
   Range slope(const Receiver& receiver) const;
-  // Of the corners' distances from the rays, times the length of these: an upper bound.
+  // An upper bound on the products of the corners' distances from the rays and the rays' lengths.
   double farthest(const Receiver& receiver) const;
 
   struct Bounds;

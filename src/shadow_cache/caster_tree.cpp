@@ -41,7 +41,7 @@ Box boxOfTriangle(const TriangleRecord& record) {
   return box;
 }
 
-// Of all triangles and spheres of a geometry, in its own space.
+// The bounding box of all triangles and spheres of a geometry, in its own space.
 Box boxOfGeometry(const Scene& scene, const Geometry& geometry) {
   Box box;
   for (const Vec3f& p : geometry.position) box.add(p);

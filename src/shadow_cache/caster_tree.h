@@ -1,5 +1,6 @@
-// What casts shadows, in boxes: to gather what a shaft of shadow rays may meet. Of one light, for
-// each triangle's box is grown by its influence there.
+// Bounding boxes of the surfaces that cast shadows, to gather those that a shaft of shadow rays may
+// hit. There is one tree for each light, because each triangle's box is grown by its influence
+// there.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct CasterList {
   std::uint64_t bytes() const;
 };
 
-// What a shaft may meet: a triangle if it comes nearer than `growth` to it.
+// A triangle that a shaft may hit if it comes nearer than `growth` to it.
 struct Candidate {
   CasterRef caster;
   float growth = 0;
@@ -42,7 +43,7 @@ class CasterTree {
  public:
   CasterTree(const Scene& scene, const CasterList& list, const LightPoint& light);
 
-  // Those whose boxes the shaft does not surely miss.
+  // Gathers the triangles whose boxes the shaft does not surely miss.
   void gather(const simd::CasterKernels& kernels, const simd::RoundedShaft& shaft,
               std::vector<Candidate>& found) const;
   std::uint64_t bytes() const;

@@ -13,7 +13,7 @@ using simd::kNoCaster;
 
 namespace {
 
-// So many triangles in a shaft are not looked at one by one: the part is mixed.
+// A shaft with more triangles than this is not examined further: the part is mixed.
 constexpr std::size_t kMostCasters = 1 << 14;
 constexpr std::size_t kInBlock = CasterBlock::kCasters;
 
@@ -84,7 +84,7 @@ class PartDecider {
     return true;
   }
 
-  // Of all cells; `receiver` is the part.
+  // Decides all cells; `receiver` is the part.
   void decideAll(const WeightSquare& square, const Receiver& receiver) {
     const Shaft shaft(receiver, world_.light, world_.list.size);
     world_.tree.gather(world_.kernels, shaft.rounded(), scratch_.gathered);
@@ -146,8 +146,8 @@ class PartDecider {
     gathered.resize(kept);
   }
 
-  // Of what is left, into blocks what rays may meet. Returns the number of a triangle that hides
-  // the part, or else its own.
+  // Collects the remaining triangles that rays may hit into blocks. Returns the number of a
+  // triangle that hides the part, or else the part's own triangle.
   std::uint32_t keepMet(const Receiver& receiver) {
     const auto& gathered = scratch_.gathered;
     CasterBlock block{};
@@ -170,12 +170,12 @@ class PartDecider {
     return self_;
   }
 
-  // What may be in the way: of the blocks those asked[blocks..), and boxes[begin, end).
+  // Possible occluders: the blocks asked[blocks..), and boxes[begin, end).
   struct InTheWay {
     std::size_t blocks, begin, end;
   };
 
-  // Of `side` cells from (column, row) on. What may be in the way meets them for all that is known.
+  // Decides `side` cells from (column, row) on, which the given occluders may hide.
   Verdict decideBetween(const WeightSquare& square, int side, int column, int row, bool any,
                         const InTheWay& way) {
     if (!any) return set(side, column, row, Verdict::lit);

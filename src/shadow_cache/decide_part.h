@@ -8,7 +8,7 @@
 
 namespace whit {
 
-// Of the whole part, or where its cells do not share one, of these.
+// The state of a whole part, or of its cells if they do not share one.
 struct PartVerdict {
   Verdict whole = Verdict::unknown;
   bool divided = false;
@@ -33,18 +33,18 @@ struct CasterBlocks {
 
 // A worker's own memory.
 struct PartScratch {
-  // What has hidden other parts of late: likely to hide the next one.
+  // Triangles that have hidden other parts recently and are likely to hide the next one.
   simd::CasterBlock hiders{};
   std::array<std::uint32_t, simd::CasterBlock::kCasters> hiderNumbers{};
   std::size_t hidden = 0;  // that added one to them
   std::vector<Candidate> gathered;
-  // Of them those that may meet the part, and boxes among them.
+  // The triangles that may hide the part, and boxes among them.
   CasterBlocks casters;
   std::vector<std::uint32_t> boxes;     // one depth after the other
   std::vector<simd::CasterBits> asked;  // of the blocks, likewise
 };
 
-// What stands in the way of a light's rays.
+// The possible occluders of a light's rays.
 struct ShadowWorld {
   const Scene& scene;
   const CasterList& list;

@@ -11,8 +11,8 @@ namespace {
 constexpr double kRim = kVerdictRim * (1 - 0x1p-6);
 // Per axis to Euclidean, with what the kernel's own interpolation may be off.
 constexpr double kReach = kVerdictReach * 1.7320508 * 1.5;
-// Of the product of the lengths of two edges: less than this is a sliver's area (as the kernels'
-// GeometricNormal, with room).
+// A triangle is a sliver if its area is less than this share of the product of two edge lengths (as
+// in the kernels' GeometricNormal, with room).
 constexpr double kSliverArea = 0x1p-10;
 
 struct Weights2 {
@@ -24,7 +24,7 @@ struct Polygon {
   std::size_t count = 0;
 };
 
-// What of the polygon has a positive `distance`, which is linear.
+// The part of the polygon that has a positive `distance`, which is linear.
 template <typename Distance>
 Polygon cut(const Polygon& polygon, const Distance& distance) {
   Polygon rest;

@@ -18,8 +18,8 @@ class Shaft {
   // For kernels that test many boxes, or triangles.
   simd::RoundedShaft rounded() const;
   const simd::ShaftSides& sides() const { return sides_; }
-  // Whether it surely passes the box by, or the triangle by more than `distance` (the twin of the
-  // kernels').
+  // True if the shaft surely misses the box, or the triangle by more than `distance` (the scalar
+  // reference of the kernels).
   bool misses(const Box& box) const;
   bool misses(const TriangleRecord& triangle, double distance) const;
 

@@ -31,7 +31,7 @@ bool isNear(const Vec3f& lower, const Vec3f& upper) {
   return maxComponent(max(abs(lower), abs(upper))) < kLargest;
 }
 
-// Whether proofs hold for the scene's coordinates.
+// True if the proofs hold for the scene's coordinates.
 bool inRange(const Scene& scene) {
   return isNear(scene.lower, scene.upper) &&
          std::all_of(scene.instances.begin(), scene.instances.end(), [](const auto& instance) {
@@ -113,7 +113,7 @@ struct VerdictTables::OfLight {
   static std::size_t wordsFor(std::size_t triangleCount) {
     return triangleCount / kTrianglesAWord + 1;
   }
-  // What it takes but for the cells.
+  // Memory of the tables without the cells.
   static std::uint64_t fixedBytes(std::size_t triangleCount, std::size_t partCount,
                                   std::size_t casters) {
     return wordsFor(triangleCount) * sizeof(std::uint32_t) +
@@ -145,7 +145,8 @@ struct VerdictTables::OfLight {
     if (whole == Verdict::mixed) ++mixed;
     parts[part] = static_cast<std::uint32_t>(whole);
   }
-  // Of a triangle's parts, that are the `count` from `begin` on (VerdictView::triangles).
+  // Updates the state of a triangle (VerdictView::triangles) from its `count` parts from `begin`
+  // on.
   void sumUp(std::uint32_t triangle, std::size_t begin, std::size_t count) {
     const std::uint32_t first = parts[begin];
     bool alike = true, any = false;
@@ -160,7 +161,7 @@ struct VerdictTables::OfLight {
     std::uint32_t& word = triangles[triangle / kTrianglesAWord];
     word = (word & ~(3u << shift)) | sum << shift;
   }
-  // Whether next to nothing is decided, so that looking for verdicts costs more than they save.
+  // True if so few parts are decided that filling the cache costs more than it saves.
   bool idle() const { return seen >= kTried && mixed > seen - seen / kLeastUse; }
 
   static constexpr auto kUnknownWord = static_cast<std::uint32_t>(Verdict::unknown);
@@ -257,7 +258,7 @@ std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool,
   return asked.size();
 }
 
-// Of the triangles of these parts, which are in order.
+// Updates the states of the triangles of these parts, which are in order.
 void VerdictTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::uint32_t triangle = parts_.owner[parts[i]], word = parts_.first[triangle];

@@ -27,8 +27,8 @@ struct VerdictParts {
   double finest = 0;                 // cells with edges of no more are not divided
   std::size_t count() const { return owner.size(); }
 
-  // None where the scene has too many triangles, or coordinates that proofs do not reach: its own,
-  // or those of its rays in the space of an instance.
+  // Returns none if the scene has too many triangles, or coordinates out of the range of the
+  // proofs: its own, or those of its rays in the space of an instance.
   static VerdictParts of(const Scene& scene);
 };
 
@@ -38,7 +38,7 @@ struct FillLimits {
   std::size_t mostParts = SIZE_MAX;  // of each light
 };
 
-// What filling has brought.
+// The result of filling the cache.
 struct FillReport {
   double ms = 0;            // wall-clock
   std::uint64_t parts = 0;  // looked at
@@ -63,9 +63,9 @@ class VerdictTables {
 
   // Looks at the parts that rays have missed. Not while a frame is traced.
   FillReport fill(WorkerPool& pool, const FillLimits& limits = {});
-  // What was asked for, and has not been looked at. Not while a frame is traced.
+  // Drops the requests that were not computed yet. Must not be called while a frame is traced.
   void forgetAsked();
-  // What is known of lights that are not where they were any more. Not while a frame is traced.
+  // Drops the cached shadows of lights that have moved. Must not be called while a frame is traced.
   void forgetMovedLights();
 
   std::uint64_t bytes() const;
