@@ -9,7 +9,7 @@ namespace whit {
 
 namespace {
 
-// Of corners 1 and 2 of a triangle.
+// The weights of corners 1 and 2 of a triangle.
 struct Weights {
   double u, v;
 };
@@ -25,7 +25,7 @@ std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corne
     double a = p.v - q.v, b = q.u - p.u, c = p.u * q.v - p.v * q.u;
     const double inside = a * opposite.u + b * opposite.v + c;
     const double size = std::copysign(std::max({std::abs(a), std::abs(b), std::abs(c)}), inside);
-    // Of an edge whose inner side is lost in rounding nothing is outside.
+    // An edge whose inner side is lost in rounding has nothing outside.
     if (!(std::abs(inside) > kRounding * std::abs(size))) continue;
     a /= size, b /= size, c /= size;
     c += std::abs(a) * off.u + std::abs(b) * off.v + 3 * kRounding;
@@ -37,7 +37,7 @@ std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corne
 }  // namespace
 
 CoveredPart coveredPart(const Facet& on, const Facet& of) {
-  // Of rays' hits, whose weights are floats.
+  // Rounding of the hits' weights, which are floats.
   constexpr double kRounding = 0x1p-12;
   const Vec3d e1 = on.corners[1] - on.corners[0], e2 = on.corners[2] - on.corners[0];
   const double area = dot(cross(e1, e2), on.normal);

@@ -1,4 +1,4 @@
-// What one triangle covers of another one in its plane.
+// The part of a triangle that another triangle in its plane covers.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ struct CoveredPart {
     const auto isInside = [&](const Edge& e) { return e.a * u + e.b * v + e.c >= 0; };
     return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
   }
-  // Of a square, from its corner of the least weights: false only if it holds no point of it.
+  // Tests a square, given by its corner of the least weights. False only if the square holds no
+  // point of the part.
   bool meets(float u, float v, float side) const {
     const auto isInside = [&](const Edge& e) {
       return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;

@@ -9,7 +9,8 @@ namespace whit {
 // True if the eye lies in the triangle's plane, up to the rounding of the eye's coordinates.
 bool liesInPlane(const Vec3d& eye, const Corners& corners);
 
-// The same for a surface of the scene, by its number: a triangle's plane, or a sphere.
+// True if the eye lies in a surface of the scene, given by its number: a triangle's plane, or a
+// sphere.
 bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
                    std::uint32_t instance);
 

@@ -23,8 +23,8 @@ Interval extentOf(const Facet& facet, const Vec3d& origin, const Vec3d& axis) {
   return {std::min({x, y, z}), std::max({x, y, z})};
 }
 
-// Whether every strip along an edge of `a` that holds both triangles' common part is wider than
-// `width`. Below zero: no edge leaves a gap as wide as that.
+// True if every strip along an edge of `a` that holds both triangles' common part is wider than
+// `width`. With a `width` below zero: no edge leaves a gap as wide as that.
 bool haveInCommon(const Facet& a, const Facet& b, double width) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d& origin = a.corners[i];

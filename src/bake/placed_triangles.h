@@ -19,7 +19,8 @@ inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
   return count;
 }
 
-// None where a corner is missing or lies beyond what can be traced: nothing is validated yet.
+// Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
+// validated yet.
 inline std::optional<Corners> placed(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
                                      const Affine& toWorld) {
   Corners corners;

@@ -13,7 +13,7 @@ namespace whit {
 
 class Scene;
 
-// Of a triangle where it stands; less is earlier.
+// The place of a triangle in the order in which the author wrote the scene; less is earlier.
 struct WrittenPlace {
   std::uint64_t rank = 0;      // Instance::rank + Mesh::rank
   std::uint32_t instance = 0;  // in SceneDescription::instances
@@ -27,7 +27,7 @@ struct WrittenPlace {
 
 // Filled while the scene is baked.
 struct SceneOrder {
-  // Of a geometry the triangles from this number on, up to those of the next mesh.
+  // The triangles of a geometry from this number on, up to those of the next mesh.
   struct PlacedMesh {
     std::uint32_t firstTriangle = 0;
     std::uint32_t instance = 0;  // of the world; others are placed by InstanceRecord::written

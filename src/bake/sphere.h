@@ -45,8 +45,8 @@ std::array<double, 2> sphereUv(const Vec3d& unit);
 // corner, is moved to the origin: along its edges texture coordinates grow as they do on the
 // sphere.
 TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v);
-// Of the sum of what the unit vectors become, per axis: in the place of a triangle's edges where
-// the error of a position is bounded.
+// The share of the unit vectors' images, summed per axis, that stands in the place of a triangle's
+// edges where the error of a position is bounded.
 inline constexpr float kSphereSpan = 0.25f;
 // The edges' length in texture coordinates.
 inline constexpr float kTouchingEdge = 0x1p-4f;

@@ -21,7 +21,7 @@ Film blockFilm(const Film& whole, const Crop& block);
 // place. Room for the display must be there. Blocks may be placed by several threads.
 void place(const Film& block, Film& whole);
 void place(const Crop& block, const Rgb* pixels, const std::uint8_t* rgba, Film& whole);
-// The same of a block's channels, which are those of the whole film.
+// Copies a block's channels, which are those of the whole film.
 void place(const Crop& block, const ChannelLayers& channels, Film& whole);
 
 }  // namespace whit

@@ -16,8 +16,8 @@
 
 namespace whit {
 
-// What all values of one file share. Numbers may be written "$name", "$name*0.5" or "$name/2", with
-// a parameter's name.
+// The data that all values of one file share. Numbers may be written "$name", "$name*0.5" or
+// "$name/2", with a parameter's name.
 struct JsonDocument {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   std::string file;
   Json root;

@@ -173,7 +173,7 @@ SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
   return readScene(document, options, context);
 }
 
-// Of a model, whose lights are there: as if a scene file gave them with the settings.
+// Reads the settings of a model, whose lights are there, as if a scene file contained them.
 std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
                                     const std::string& file, SceneContext& context) {
   for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {

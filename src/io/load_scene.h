@@ -51,8 +51,8 @@ struct SceneText {  // NOLINT(bugprone-exception-escape): moving Json does not t
 SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
 
-// What is read as a scene's description, settings and parameters in their places; none of a model
-// without a scene file.
+// The document that is read as a scene's description, with settings and parameters in their places;
+// none for a model without a scene file.
 std::optional<JsonDocument> readDocument(const std::string& name, const LoadOptions& options);
 JsonDocument readDocument(const SceneText& text, const LoadOptions& options);
 

@@ -42,23 +42,23 @@ class Model {
   // for the other maps of the file.
   virtual TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                                     TextureLoader& textures) = 0;
-  // What the model holds, its shared meshes being bodies of their own in `layout`. `materials` has
-  // the scene's index for each of materials().
+  // The content of the model; its shared meshes are bodies of their own in `layout`. `materials`
+  // has the scene's index for each of materials().
   virtual Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) = 0;
   // Adds the file's own cameras and lights. Asked of a model that is a scene by itself.
   virtual void addView(SceneDescription&) {}
-  // Those of the file, whatever the instant.
+  // The animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
 };
 
-// Whether openModel() reads such a file, by its extension (any case).
+// True if openModel() reads such a file, by its extension (any case).
 bool isModelFile(const std::filesystem::path& path);
 std::string modelExtensions();  // ".gltf, .obj"
 // By the extension, at an instant. `rules` and what else is given here outlive the model.
 std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
                                  MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 
-// Those that it chooses from, each in the file of its format.
+// The readers that openModel() chooses from, each in the file of its format.
 std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
                                 MemoryBudget& budget, Warnings& warnings, const Instant& instant);
 std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,

@@ -11,7 +11,7 @@ namespace whit {
 // Throws Error(io) if it cannot be read, limit beyond maxBytes, badScene where a Git LFS pointer
 // stands in for it.
 std::string readFile(const std::filesystem::path& path, std::uint64_t maxBytes);
-// The same without the mark that some editors put before UTF-8. Refuses UTF-16.
+// Reads text without the mark that some editors put before UTF-8. Refuses UTF-16.
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxBytes);
 // At most so many bytes.
 std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);

@@ -10,7 +10,7 @@ namespace whit {
 
 namespace {
 
-// What the level of the supplied light is about, which the studio goes with as it is.
+// The usual level of the supplied light, which the studio's brightness suits.
 constexpr double kUsualLevel = 0.5;
 constexpr double kDimmest = 1.0e-6, kBrightest = 1.0e6;
 

@@ -1,5 +1,5 @@
-// What a model lacks that comes without a scene file: light, a sky, a view. And the sky that was
-// asked for in place of a scene's own.
+// Supplies a model that comes without a scene file with light, a sky and a view, and replaces a
+// scene's sky by the one that was asked for.
 #pragma once
 
 #include "io/scene/scene_context.h"
@@ -10,9 +10,9 @@ namespace whit {
 // way and is lit by lights as well.
 inline constexpr double kAmbientOfSky = 0.4;
 
-// Of a model whose own lights and cameras are there. The sky is the studio, unless none or another
-// was asked for, as bright as it goes with the lights. `model` is what light and view are made for:
-// the same scene, or where it moves the scene at rest.
+// Completes a model whose own lights and cameras are there. The sky is the studio, unless none or
+// another was asked for, as bright as it suits the lights. `model` is the scene that light and view
+// are made for: the same scene, or where it moves the scene at rest.
 void supplyView(SceneContext& context, const SceneDescription& model);
 
 // If one was asked for (LoadOptions::sky).

@@ -36,7 +36,7 @@ class TextureLoader {
   // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
   // use gives the same slot again; emission is color where the file cannot go beyond 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
-  // The same of an image that a program hands over; `source` has no path.
+  // Adds an image that a program hands over; `source` has no path.
   std::int32_t add(const GivenImage& image, const TextureSource& source, TextureUse use);
   // A texture that `make` computes, beside the rest.
   std::int32_t add(std::function<Texture()> make);
@@ -47,7 +47,7 @@ class TextureLoader {
   void addEnvironment(const std::string& path, EnvironmentImage& image);
   // `change` is called by finish() when all textures are there, before they are numbered.
   void whenDone(std::function<void(SceneDescription&)> change);
-  // What an image may take that is decoded now; the budget that textures are charged to.
+  // The limits of an image that is decoded now, and the budget that textures are charged to.
   ImageLimits limits() const;
 
   // Waits for all images, moves them to scene.textures and replaces the slots in its materials by

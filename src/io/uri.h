@@ -9,7 +9,7 @@ namespace whit {
 // RFC 3986, section 2.1.
 std::string percentDecoded(std::string_view uri);
 bool isDataUri(const std::string& uri);
-// What a data URI of any type holds (RFC 2397; base64: RFC 4648, padded or not). Throws badScene at
+// Decodes a data URI of any type (RFC 2397; base64: RFC 4648, padded or not). Throws badScene at
 // `where`.
 std::string dataOfUri(const std::string& uri, const std::string& where);
 

@@ -66,7 +66,7 @@ decltype(auto) guarded(Body&& body) {
   }
 }
 
-// The same for long work: `body` is given the progress to report to, or null.
+// Guards long work: `body` is given the progress to report to, or null.
 template <typename Body>
 decltype(auto) guarded(const Progress& callback, Body&& body) {
   CallbackProgress progress(callback);

@@ -27,7 +27,7 @@ struct Scene::Data {
   // Loads and bakes.
   static std::shared_ptr<Data> read(SceneSource source, const whit::LoadOptions& load, bool strict,
                                     whit::Progress* progress);
-  // What settings are put into; none of a model without a scene file.
+  // The document that settings are put into; none for a model without a scene file.
   std::optional<JsonDocument> document() const;
 };
 

@@ -218,10 +218,10 @@ class Image {
   std::span<const float> rgb() const;
   // 8-bit sRGB after exposure and tone curve: r, g, b, 255 of each pixel, in the same order.
   std::span<const std::uint8_t> srgb() const;
-  // What set("channels", "depth,object") has kept beside them, of the surface that the sample
-  // nearest to a pixel's center meets first; scenes/README.md says what each is, its unit and its
-  // value where nothing is met. Views of the image's own memory: one value after the other of each
-  // pixel, in the same order.
+  // A channel that set("channels", "depth,object") has asked for: a property of the surface that
+  // the sample nearest to a pixel's center hits first. scenes/README.md lists each channel, its
+  // unit and its value where nothing is hit. Data is a view of the image's own memory: one value
+  // after the other of each pixel, in the same order.
   struct Channel {
     std::string_view name;                     // "depth"
     std::vector<std::string_view> components;  // "Z", "distance"; so many values a pixel
@@ -242,8 +242,8 @@ class Image {
   std::unique_ptr<Data> data_;
 };
 
-// What a frame cost. Milliseconds of wall-clock time; the stages add up to the frame but for what
-// no worker spends in a stage, and are empty for the scalar reference.
+// Statistics of a frame. Times are milliseconds of wall-clock time. The stages add up to the frame
+// without the time that no worker spends in a stage; they are empty for the scalar reference.
 struct FrameStatistics {
   struct Stage {
     std::string_view name;  // "generateRays" to "updateImage"

@@ -5,8 +5,8 @@
 
 namespace whit {
 
-// What white surfaces look like that the lights reach, shadows left out: the mean, over their area,
-// of the logarithm of irradiance / pi. 0 where no light reaches any.
+// The mean brightness of white surfaces that the lights reach, shadows left out: the mean, over
+// their area, of the logarithm of irradiance / pi. 0 where no light reaches any.
 double lightLevel(const SceneDescription& scene);
 
 }  // namespace whit

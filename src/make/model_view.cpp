@@ -24,7 +24,7 @@ constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
                                        {-1.0, 0.4, 0.5},
                                        {-0.5, 0.4, -1.0},
                                        {0.3, 1.5, 0.5}}};
-// Of what the best side shows, what is enough to prefer a more usual one.
+// A more usual side is preferred if it shows this share of what the best side shows.
 constexpr double kEnough = 0.6;
 
 struct Bounds {
@@ -99,8 +99,8 @@ double distanceTo(const Corners& t, const Vec3d& point, const Vec3d& direction) 
   return determinant > 0 ? distance : -distance;
 }
 
-// Whether fronts are what is met in three quarters of all directions, for a room may have a
-// skylight. The winding number alone also has two floors, one on the other, for a room.
+// True if rays in three quarters of all directions hit fronts; a room may have a skylight. The
+// winding number alone would also take two floors, one above the other, for a room.
 bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
   constexpr std::size_t kDirections = 32, kWalls = 24;
   std::array<Vec3d, kDirections> directions;
@@ -122,7 +122,7 @@ bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
   return static_cast<std::size_t>(walls) >= kWalls;
 }
 
-// Whether most of the places in the middle are: some may be in what stands there.
+// True if most of the places in the middle see walls; some may lie inside objects.
 bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   constexpr double kAside = 0.3, kFlattest = 0.05;
   constexpr std::size_t kPlaces = 7, kMostOutside = 2;

@@ -8,7 +8,7 @@ namespace whit {
 struct ModelView {
   Vec3d center;
   double radius = 0;  // of the sphere around its bounds; 0: there is nothing to see
-  // Whether the model is a closed room: from its middle nearly everything that is seen is a front.
+  // True if the model is a closed room: from its middle nearly all rays hit fronts.
   bool inside = false;
   Camera camera;
   Vec3d ceiling;  // in a room, where a lamp would hang

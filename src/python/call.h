@@ -42,7 +42,7 @@ class Calls {
       if (areEnding()) waitForTheEnd();
       ++underWay;
     }
-    // What the call returned or raised would meet an interpreter that is taken down.
+    // The call must not return or raise into an interpreter that is shutting down.
     ~Entry() {
       if (--depth > 0) return;
       --underWay;
@@ -52,7 +52,7 @@ class Calls {
     Entry& operator=(const Entry&) = delete;
   };
 
-  // Whether the work of this thread is to end.
+  // True if the work of this thread must end.
   static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
   // Ends them all, as far as they tell of their progress; `atexit` calls it.
   static void end() {
@@ -97,7 +97,7 @@ class Onlooker {
       return false;
     }
   }
-  // What Python's own code has raised meanwhile.
+  // Rethrows an exception that Python's own code has raised meanwhile.
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }
@@ -120,7 +120,7 @@ class Onlooker {
   std::exception_ptr thrown_;
 };
 
-// What `body` returns, called without the GIL and given what to tell of its progress.
+// Calls `body` without the GIL, with a progress to report to, and returns its result.
 template <typename Body>
 auto call(const py::object& function, Body&& body) {
   const Calls::Entry entry;
@@ -136,7 +136,7 @@ auto call(const py::object& function, Body&& body) {
   }
 }
 
-// The same of what takes no time.
+// Calls `body` likewise, for work that takes no time.
 template <typename Body>
 auto call(Body&& body) {
   try {

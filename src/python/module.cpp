@@ -161,7 +161,7 @@ std::map<std::string, double> animationsOf(Session& session) {
 }
 
 void defineSession(py::module_& module) {
-  // Of a scene, asked in its turn.
+  // Queries a scene while no other thread uses it.
   const auto asked = [](auto member) {
     return [member](Session& session) {
       return session.ask([&](const api::Scene& scene) { return (scene.*member)(); });

@@ -30,7 +30,7 @@ class Session {
  public:
   explicit Session(api::Scene scene) : renderer_(std::move(scene)) {}
 
-  // What the scene says of itself.
+  // Returns the answer of a question about the scene.
   template <typename Question>
   auto ask(const Question& question) {
     const Turn turn(*this);

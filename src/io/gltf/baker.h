@@ -23,14 +23,14 @@ struct GltfBakeImages {
 // One for each GltfBakedMap that there is; the largest image's size, the others stretched to it.
 using GltfBaked = std::vector<std::optional<Texture>>;
 
-// Of diffuse and specular; whether there is one of alpha is seen from the image.
+// Tests the maps of diffuse and specular. The need for an alpha map follows from the image.
 bool wantsBaked(const GltfMaterial& material, GltfBakedMap map);
 
 // Fills `means` in as well. Throws Error(limit) where the textures are larger than `limits` allow.
 GltfBaked bake(const GltfMaterial& material, const GltfBakeImages& images,
                const ImageLimits& limits, GltfMeans& means);
 
-// Of codes 0 to 1; a gray image has one for r, g and b, a missing alpha is 1.
+// Means of codes, scaled to 0 to 1. A gray image has one mean for r, g and b; a missing alpha is 1.
 struct ChannelMean {
   float mean = 0;
   bool varies = false;

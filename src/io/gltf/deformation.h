@@ -20,7 +20,7 @@ struct GltfDeformation {
   std::shared_ptr<const Rig> skeleton;  // in the space of the document; none: no skin
   std::vector<Deformation::Joint> joints;
 
-  // Whether the mesh stays as it was modelled.
+  // True if the mesh is not deformed.
   bool none() const;
 };
 

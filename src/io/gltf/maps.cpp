@@ -176,7 +176,7 @@ std::int32_t GltfMapMaker::roughnessOf(const GltfMaterial& m,
   })[0];
 }
 
-// Of factors that a Material has no map for.
+// Multiplies means into factors that have no map in a Material.
 void GltfMapMaker::addMeans(const GltfMaterial& m, const std::shared_ptr<GltfMeans>& means,
                             TextureLoader& textures) const {
   const auto add = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*mean,

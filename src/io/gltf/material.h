@@ -38,7 +38,7 @@ struct GltfMaterial {
     bool bySecond(const GltfTexture& map) const { return areTwo() && map.uv == second; }
   };
   Coordinates coordinates() const;
-  // Whether the maps of diffuse and specular reflectance depend on the metalness of each texel.
+  // True if the maps of diffuse and specular reflectance depend on the metalness of each texel.
   bool mixesMetal() const {
     return metallic > 0 && (metallicRoughnessMap.exists() || (baseMap.exists() && metallic < 1));
   }
@@ -50,7 +50,7 @@ struct GltfMaterial {
     return (specularMap.exists() || specularColorMap.exists()) && metallic < 1 &&
            maxComponent(f0(Rgb(1.0f), 1)) > 0;
   }
-  // Whether the map of specular reflectance holds all of it.
+  // True if the map of specular reflectance holds all of it.
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
   // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
   const GltfTexture& surfaceMap() const;

@@ -67,7 +67,7 @@ bool isUsable(const Affine& a) {
   return std::abs(a.determinant()) > kSmallestSine * length(a.x) * length(a.y) * length(a.z);
 }
 
-// What a node has where its tracks do not say.
+// The transform of a node where its animation tracks do not replace it.
 struct NodePlace {
   Vec3d translation;
   Quaternion rotation{0, 0, 0, 1};

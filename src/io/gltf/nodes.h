@@ -25,8 +25,8 @@ inline constexpr int kGltfDepthLimit = 256;
 // lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
 
-// What a mesh, a camera or a light is carried by: nodes that move, a parent before its children.
-// They refer to it by index, kNoNode standing for the scene.
+// The nodes that move, a parent before its children. Meshes, cameras and lights refer to their node
+// by index; kNoNode stands for the scene.
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
   Affine toMover;  // of a skinned mesh the identity: its joints place it

@@ -8,7 +8,7 @@
 
 namespace whit {
 
-// What maps hold on average, as far as the factors of a Material depend on it.
+// The means of maps that the factors of a Material depend on.
 struct GltfMeans {
   Rgb base{1, 1, 1};
   float metallic = 1, roughness = 1, transmission = 1;

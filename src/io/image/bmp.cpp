@@ -15,7 +15,7 @@ enum Compression : std::uint32_t { kNone = 0, kRuns8 = 1, kRuns4 = 2, kMasks = 3
 
 constexpr std::uint32_t kFileHeaderBytes = 14, kCoreHeaderBytes = 12, kInfoHeaderBytes = 40;
 
-// Of 256 codes for what the bits of a mask hold; 0 where it is empty.
+// The shift and scale that bring the bits of a mask to 256 codes; 0 for an empty mask.
 struct Mask {
   std::uint32_t bits = 0;
   std::uint8_t of(std::uint32_t pixel) const {

@@ -112,8 +112,8 @@ std::vector<float> readParts(const std::string& path, const Box2i& data, const L
   return values;
 }
 
-// The same of an image stored as luminance and subsampled chroma, whose conversion OpenEXR only
-// offers in half precision.
+// Reads an image stored as luminance and subsampled chroma, whose conversion OpenEXR only offers in
+// half precision.
 std::vector<float> readLumaChroma(const std::string& path, const Box2i& data, std::size_t channels,
                                   const ImageLimits& limits) {
   const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));

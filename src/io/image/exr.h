@@ -14,8 +14,8 @@ namespace whit {
 // than the file holds, and what OpenEXR throws.
 std::vector<Imf::Header> readExrHeaders(const std::string& path);
 
-// What the library takes, at most, for the chunks of a file of this header that it has in work: as
-// they are stored, as they are decoded, and twice that again while it undoes the compression.
+// Upper bound on the library's memory for the chunks of a file with this header that it processes
+// at a time: stored, decoded, and twice that again while it undoes the compression.
 std::uint64_t exrChunkBytes(const Imf::Header& header);
 
 }  // namespace whit

@@ -18,7 +18,7 @@
 namespace whit {
 namespace {
 
-// What values of these types take. The library reads as much, whatever an attribute says.
+// The size of values of these types. The library reads as much, whatever an attribute says.
 std::optional<std::uint32_t> fixedSize(const std::string& type) {
   static const std::map<std::string, std::uint32_t> sizes = {{"box2f", 16},
                                                              {"box2i", 16},

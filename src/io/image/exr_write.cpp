@@ -55,7 +55,7 @@ bool inHalf(ExrStorage storage) {
   return storage == ExrStorage::half || storage == ExrStorage::dwaa;
 }
 
-// What is not a number stays that.
+// A NaN stays a NaN.
 half nearestHalf(float value) {
   return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
 }

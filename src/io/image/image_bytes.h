@@ -30,7 +30,7 @@ class ImageBytes {
     need(1);
     return file_[at_++];
   }
-  // Of so many bytes, the lowest first.
+  // Reads a number of this many bytes, the lowest first.
   std::uint32_t number(int bytes) {
     std::uint32_t value = 0;
     for (int i = 0; i < bytes; ++i) value |= std::uint32_t{next()} << (8 * i);

@@ -16,7 +16,7 @@ namespace whit {
 void checkImageSize(const std::string& path, std::int64_t width, std::int64_t height,
                     std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
-// The same, and then holds so much of the limits' budget.
+// Checks the limits likewise, and then holds the image's memory in the limits' budget.
 [[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
                                    std::uint64_t bytesPerPixel, const ImageLimits& limits);
 

@@ -38,12 +38,12 @@ struct RawImage {
 // cannot be understood, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
-// The same for a file that is in memory; PNG, JPEG, BMP or Radiance HDR. `name` is for errors.
+// Decodes a file that is in memory: PNG, JPEG, BMP or Radiance HDR. `name` is for errors.
 RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
                         const ImageLimits& limits, Warnings& warnings);
 
-// Whether the file holds linear light without an upper bound (Radiance HDR, OpenEXR), by its first
-// bytes; not where it cannot be read.
+// True if the file holds linear light without an upper bound (Radiance HDR, OpenEXR), by its first
+// bytes; false where it cannot be read.
 bool holdsRadiance(const std::string& path);
 
 // As linear RGB: 8-bit codes decoded from sRGB, gray spread to three channels, alpha dropped. EXR
@@ -82,7 +82,7 @@ struct DeepImage {
   int width = 0, height = 0, channels = 1;
   std::vector<std::uint16_t> values;
 };
-// The same of 16 bits; `isSrgb`: three values are sRGB colors.
+// Writes 16 bits per channel; `isSrgb`: three values are sRGB colors.
 void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
               const ImageMetadata& metadata);
 // The text chunks of a PNG that has been decoded to its end. Throws Error(io) if it cannot be read,

@@ -1,4 +1,4 @@
-// What an EXR has beside its colors: channels with names of their own, "depth.Z".
+// The channels of an EXR beside its colors, with names of their own: "depth.Z".
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct ImageLayer {
   std::vector<std::uint32_t> numbers;
 };
 
-// Of an EXR's first part, all that are no colors (R, G, B, A, or Y, RY, BY), in the order of their
-// names; of the part of its data window that lies inside the display window, as readImage() has it.
-// Half floats come as floats. None of another format. Throws as readImage() does; badScene for one
-// that is subsampled.
+// Reads all channels of an EXR's first part that are no colors (R, G, B, A, or Y, RY, BY), in the
+// order of their names, for the part of the data window that lies inside the display window, as
+// readImage() has it. Half floats become floats. Returns none for another format. Throws as
+// readImage() does; badScene for a subsampled channel.
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits);
 
 // Copies, named as in a file.
@@ -33,9 +33,9 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels);
 std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers);
 std::vector<LayerView> viewsOf(const ChannelLayers& channels);
 
-// What an EXR says of its channels: which there are ("channels"), and the names of objects
-// ("whit:objects", by their numbers, of the first kNamedItems) and materials ("whit:materials") as
-// JSON objects. Nothing without channels.
+// The attributes of an EXR about its channels: the list of channels ("channels"), and the names of
+// objects ("whit:objects", by their numbers, for the first kNamedItems) and materials
+// ("whit:materials") as JSON objects. Empty without channels.
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
 
 // A channel as a 16-bit PNG, its metadata as text chunks: the distance along the camera's axis in

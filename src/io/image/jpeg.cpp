@@ -64,7 +64,7 @@ class Decoder {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     return decoder_.num_components == 3 ? 3 : 0;
   }
-  // What libjpeg takes to decode, at most: some rows of each component, and all of its
+  // Upper bound on libjpeg's memory for decoding: some rows of each component, and all of its
   // coefficients where they come in more than one scan.
   std::uint64_t workingBytes() {
     constexpr std::uint64_t kRows = 64;

@@ -93,7 +93,7 @@ class Merger {
     for (const ImageLayer& layer : layers) require(layers_, layer, firstPath_, path);
   }
 
-  // Whether the layers have the bits of those of a part; both are in the order of their names.
+  // True if the layers have the bits of those of a part; both are in the order of their names.
   bool sameLayers(const std::vector<ImageLayer>& part, std::size_t from, std::size_t to) const {
     for (std::size_t k = 0; k < part.size(); ++k) {
       const bool same = part[k].countsThings

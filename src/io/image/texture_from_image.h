@@ -14,22 +14,22 @@ namespace whit {
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
 // Counts the texels of an image of reflectances that makeTexture() clamps to 1.
 void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings& warnings);
-// The same for what is emitted, of colors: linear images with texels above 1 keep their range
-// (TexelFormat::radiance), all others are color textures. What is beyond that format's largest
-// value is clamped, and counted in `warnings`.
+// Makes a texture of emitted colors: linear images with texels above 1 keep their range
+// (TexelFormat::radiance), all others are color textures. Values beyond that format's largest one
+// are clamped and counted in `warnings`.
 Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings);
 TexelFormat emissionFormat(const RawImage& raw);
 std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format);  // of color or radiance
 // Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
 EnvironmentImage makeEnvironment(const RawImage& raw);
 
-// Whether there is an alpha channel (2 or 4 channels) with a texel below opaque.
+// True if there is an alpha channel (2 or 4 channels) with a texel below opaque.
 bool hasTranslucentAlpha(const RawImage& raw);
 // The alpha channel as an image of one channel.
 RawImage alphaOf(const RawImage& raw);
 
-// Whether an image named as a bump map holds heights: one or two channels, or gray. Normal maps
-// are never gray: their blue is near 1 where red and green are near 1/2.
+// True if an image named as a bump map holds heights: one or two channels, or gray. Normal maps are
+// never gray: their blue is near 1 where red and green are near 1/2.
 bool looksLikeHeights(const RawImage& raw);
 
 // The width of a tile, in heights: `-bm 1` raises white above black by 1/kTileHeights of the tile.

@@ -12,7 +12,7 @@ namespace whit {
 // Each takes kilobytes and may be a line of a few letters.
 inline constexpr std::size_t kMaterialLimit = 65536;
 
-// What a material's text says of itself that tinyobjloader does not keep.
+// The statements of a material's text that tinyobjloader does not keep.
 struct MtlSummary {
   std::string name;
   std::string where;          // file:line of newmtl

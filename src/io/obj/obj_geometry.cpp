@@ -196,7 +196,7 @@ class MeshBuilder {
     mesh_.triangles.push_back(corners);
     mesh_.materials.push_back(material);
   }
-  // Of the last triangle.
+  // Stores the number of the last triangle in the file; errors report it.
   void number(std::uint32_t inFile) { mesh_.order.push_back(inFile); }
 
   bool empty() const { return mesh_.triangles.empty(); }
@@ -252,7 +252,7 @@ class FaceReader {
     warnings_.add(kind, text_.placeOf(face.textOffset));
   }
 
-  // Whether the face can be built; forgets texture coordinates and normals that do not exist.
+  // True if the face can be built; forgets texture coordinates and normals that do not exist.
   bool check(const ObjFace& face) {
     if (face.cornerCount < 3) {
       warn("face with fewer than three corners dropped", face);

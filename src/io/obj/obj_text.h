@@ -9,7 +9,7 @@
 
 namespace whit {
 
-// What a look over the whole text finds, before anything is allocated for it.
+// The result of a scan of the whole text, before anything is allocated for it.
 struct ObjSummary {
   struct Name {
     std::string text;
@@ -18,7 +18,8 @@ struct ObjSummary {
   std::vector<Name> libraries;  // what follows each mtllib
   std::vector<Name> materials;  // of usemtl, each name once
   std::uint64_t positions = 0, normals = 0, uvs = 0, faces = 0, corners = 0;
-  // What is not shown, and the first line of each: colors of vertices; points, lines, free forms.
+  // The content that is left out, and the first line of each kind: colors of vertices; points,
+  // lines, free forms.
   struct LeftOut {
     std::uint64_t count = 0, line = 0;
   };

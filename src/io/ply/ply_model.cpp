@@ -480,7 +480,7 @@ class PlyReader {
     }
   }
 
-  // Of what faces may have that vertices have here.
+  // Warns about properties of faces that are only read from vertices.
   void warnAboutFaces(const PlyElement& element) {
     constexpr std::pair<const char*, const char*> kLeftOut[] = {
         {"texcoord", "texture coordinates of a face's corners left out"},

@@ -20,7 +20,7 @@ Texture paintColor(const std::string& name, int side, const ColorFormula& color)
 // in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
 Texture paintNormals(const std::string& name, int side, const ScalarFormula& height);
 
-// The same value in r, g and b; a is 1.
+// Paints the same value into r, g and b; a is 1.
 Texture paintScalar(const std::string& name, int side, const ScalarFormula& value);
 
 // Every pattern's `size`, texels a side.

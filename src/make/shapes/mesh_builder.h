@@ -41,13 +41,14 @@ class MeshBuilder {
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
   // Four corners, counter-clockwise, with the plane's normal.
   void plate(const std::array<Vec3d, 4>& corners, const std::array<Uv, 4>& uvs);
-  // The same with uvs from projecting along the normal's largest axis, `repeat` units a texture.
+  // Adds a plate with uvs from projecting along the normal's largest axis, `repeat` units a
+  // texture.
   void plate(const std::array<Vec3d, 4>& corners, double repeat);
 
   // A sheet of nu x nv cells; at(i, j) for 0 <= i <= nu, 0 <= j <= nv. Outside is where i x j
   // points.
   void sheet(int nu, int nv, const std::function<SurfacePoint(int, int)>& at);
-  // The same with normals from the differences of neighboring positions. wrapU: column nu is
+  // Adds a sheet with normals from the differences of neighboring positions. wrapU: column nu is
   // column 0 again (`position` is asked for i < nu only).
   void smoothSheet(int nu, int nv, bool wrapU, const std::function<Vec3d(int, int)>& position,
                    const std::function<Uv(int, int)>& uv);
@@ -82,7 +83,7 @@ TurnPoint turn(int i, int n);
 // length along it divided by `repeat`.
 std::vector<ProfilePoint> sharpProfile(const std::vector<std::array<double, 2>>& points,
                                        double repeat = 1);
-// The same with normals averaged at corners that turn by less than `creaseDegrees`.
+// Makes a profile with normals averaged at corners that turn by less than `creaseDegrees`.
 std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>>& points,
                                          double creaseDegrees, double repeat = 1);
 
