@@ -24,8 +24,8 @@ constexpr std::uint64_t kTaskTriangles = 8192;
 
 // Limits of the work, in comparisons of two boxes. An ordinary mesh takes less than a hundred for
 // each triangle. Many instances that overlap are given less: they seldom have coplanar faces.
-constexpr std::int64_t kWork = std::int64_t{1} << 31, kWorkPerTriangle = 256;
-constexpr std::int64_t kWorkOfInstances = std::int64_t{1} << 27;
+constexpr std::int64_t kWork = std::int64_t{1} << 28, kWorkPerTriangle = 256;
+constexpr std::int64_t kWorkOfInstances = std::int64_t{1} << 24;
 constexpr std::size_t kManyGroups = 64;
 constexpr std::size_t kWorkOfNodes = 16;    // of taking two nodes apart
 constexpr std::int64_t kWorkOfFacets = 4;   // of comparing two facets
@@ -117,6 +117,10 @@ class PairFinder {
  private:
   Node nodeOf(const TriangleGroup* group, std::uint32_t level, std::uint32_t number) const;
   void takeApart(const Node& node, const Node& other);
+  bool isLeftOut(const Node& node, std::uint32_t number) const {
+    return !search_.leftOut.empty() && node.group && node.group->instance == kNoInstance &&
+           search_.leftOut[node.group->firstTriangle + node.group->tree->item(number)] != 0;
+  }
   PlacedTriangleId idOf(const Node& node) const;
   const Facet& facetOf(const Node& node);
   void compare(const Node& a, const Node& b);
@@ -154,6 +158,7 @@ void PairFinder::takeApart(const Node& node, const Node& other) {
   const bool isPlaced = !node.group || node.group->isPlaced;
   for (std::uint32_t number = first; number < end; ++number) {
     if (isPlaced && !meet(tree.box(node.level - 1, number), other.box)) continue;
+    if (node.level == 1 && isLeftOut(node, number)) continue;
     const Node child = nodeOf(node.group, node.level - 1, number);
     if (isPlaced || meet(child.box, other.box)) stack_.push_back(child);
   }
@@ -329,6 +334,22 @@ Box FacetSpace::boxOf(const Box& box, std::uint32_t instance) const {
     upper = center + reach;
   }
   return grown(lower, upper, error);
+}
+
+std::vector<std::uint8_t> tooNarrowToOverlap(const Scene& scene, const FacetSpace& space,
+                                             std::uint32_t geometry, int threads) {
+  constexpr std::uint32_t kChunk = 4096;
+  std::vector<std::uint8_t> narrow(scene.triangles.size());
+  const Geometry& g = scene.geometries[geometry];
+  const std::uint32_t count = g.classBegin.back(), chunks = (count + kChunk - 1) / kChunk;
+  parallelFor(chunks > 1 ? threads : 1, chunks, [&](std::size_t chunk, int) {
+    const std::uint32_t first = static_cast<std::uint32_t>(chunk) * kChunk;
+    for (std::uint32_t i = first; i < std::min(first + kChunk, count); ++i) {
+      const std::uint32_t triangle = g.firstTriangle + i;
+      narrow[triangle] = isTooNarrowToOverlap(space.facet({triangle, kNoInstance})) ? 1 : 0;
+    }
+  });
+  return narrow;
 }
 
 std::vector<FacetPair> findPairs(const PairSearch& search, std::uint64_t triangles, int threads,

@@ -86,7 +86,15 @@ struct PairSearch {
   // True if a triangle of `a` may make a pair with one of `b`, which may be the same group.
   bool (*wanted)(const FacetSpace& space, const TriangleGroup& a, const TriangleGroup& b);
   bool (*test)(const Facet& a, const Facet& b);  // of facets that lie in one plane
+  // Not 0 for triangles without an instance that are left out, by their numbers in the scene;
+  // empty: none.
+  std::vector<std::uint8_t> leftOut = {};
 };
+
+// The triangles of a geometry that can overlap no other one in the space. In a mesh that is tiny
+// for its distance from the origin these are nearly all, and they would make most of the work.
+std::vector<std::uint8_t> tooNarrowToOverlap(const Scene& scene, const FacetSpace& space,
+                                             std::uint32_t geometry, int threads);
 
 // The pairs that pass the test, each once, in an order that does not depend on the number of
 // threads. Clears `complete` if the work got out of hand, for a scene of so many triangles, and

@@ -171,7 +171,13 @@ void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Among which, Ord
     return true;
   };
   Orders candidates;
-  addBoth(pairs({object, {group}, any, facetsOverlap}, threads_), candidates);
+  addBoth(pairs({object,
+                 {group},
+                 any,
+                 facetsOverlap,
+                 tooNarrowToOverlap(scene_, object, geometry, threads_)},
+                threads_),
+          candidates);
   if (candidates.empty()) return;
   sortUnique(candidates);
   std::vector<Orders> found(instances.size());
@@ -201,6 +207,7 @@ Orders CoplanarFinder::overlapping(Among which) {
   Orders found;
   PairSearch search{world_, everything(which != Among::still), anyPlaces, facetsOverlap};
   if (which == Among::moving) search.wanted = oneMoves;
+  search.leftOut = tooNarrowToOverlap(scene_, world_, 0, threads_);
   addBoth(pairs(search, threads_), found);
   for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) {
     addWithinInstances(g, which, found);

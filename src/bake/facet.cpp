@@ -70,6 +70,16 @@ bool facetsOverlap(const Facet& a, const Facet& b) {
   return haveInCommon(a, b, width) && haveInCommon(b, a, width);
 }
 
+bool isTooNarrowToOverlap(const Facet& facet) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d& origin = facet.corners[i];
+    const Vec3d axis = cross(facet.normal, facet.corners[(i + 1) % 3] - origin);
+    const Interval own = extentOf(facet, origin, axis);
+    if (!(own.upper - own.lower > facet.least * length(axis))) return true;
+  }
+  return false;
+}
+
 bool facetsTouch(const Facet& a, const Facet& b) {
   const double gap = -(a.error + b.error);
   return haveInCommon(a, b, gap) && haveInCommon(b, a, gap);

@@ -29,5 +29,7 @@ bool lieInOnePlane(const Facet& a, const Facet& b);
 // Both tests expect facets that lie in one plane.
 bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);
+// True if facetsOverlap() is false for the facet and any other one.
+bool isTooNarrowToOverlap(const Facet& facet);
 
 }  // namespace whit
