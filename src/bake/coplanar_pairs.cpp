@@ -66,6 +66,16 @@ struct Node {
   std::uint64_t mostTriangles() const { return std::uint64_t{1} << 3 * level; }
 };
 
+// visit(i) for every i below `count`, by several threads if there are many.
+template <typename Visitor>
+void forEachInChunks(std::size_t count, int threads, Visitor&& visit) {
+  constexpr std::size_t kChunk = 4096;
+  const std::size_t chunks = (count + kChunk - 1) / kChunk;
+  parallelFor(chunks > 1 ? threads : 1, chunks, [&](std::size_t chunk, int) {
+    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) visit(i);
+  });
+}
+
 struct Center {
   Vec3f at;
   std::uint32_t item;
@@ -73,22 +83,27 @@ struct Center {
 
 // Halves the centers across their longest extent, again and again, so that what goes to one node of
 // a tree lies together. All nodes but the last of a level are full.
-void sortInSpace(std::span<Center> centers) {
+void sortInSpace(std::span<Center> centers, int threads) {
   std::size_t full = 1;  // the items of the largest full node that is smaller than all
   while (full * BoxTree::kChildren < centers.size()) full *= BoxTree::kChildren;
   if (full == 1) return;
   Box box;
   for (const Center& center : centers) box.add(center.at);
   const Vec3f size = box.upper - box.lower;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  float Vec3f::*const axis = size.x >= size.y && size.x >= size.z ? &Vec3f::x
+                             : size.y >= size.z                   ? &Vec3f::y
+                                                                  : &Vec3f::z;
   const std::size_t nodes = (centers.size() + full - 1) / full;
   const std::size_t middle = (nodes + 1) / 2 * full;
   std::nth_element(centers.begin(), centers.begin() + static_cast<std::ptrdiff_t>(middle),
-                   centers.end(), [axis](const Center& a, const Center& b) {
-                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.item < b.item;
-                   });
-  sortInSpace(centers.first(middle));
-  sortInSpace(centers.subspan(middle));
+                   centers.end(),
+                   [axis](const Center& a, const Center& b) { return a.at.*axis < b.at.*axis; });
+  const auto sortHalf = [&](std::size_t half, int) {
+    sortInSpace(half == 0 ? centers.first(middle) : centers.subspan(middle), threads / 2);
+  };
+  if (threads > 1) return parallelFor(threads, 2, sortHalf);
+  sortHalf(0, 0);
+  sortHalf(1, 0);
 }
 
 struct Task {
@@ -122,7 +137,7 @@ class PairFinder {
            search_.leftOut[node.group->firstTriangle + node.group->tree->item(number)] != 0;
   }
   PlacedTriangleId idOf(const Node& node) const;
-  const Facet& facetOf(const Node& node);
+  const Facet& facetOf(const Node& node, PlacedTriangleId id);
   void compare(const Node& a, const Node& b);
 
   const PairSearch& search_;
@@ -131,6 +146,7 @@ class PairFinder {
   std::vector<Task>* tasks_ = nullptr;
   std::vector<Node> stack_;        // children of the nodes that are taken apart
   std::vector<KnownFacet> known_;  // a cache, because neighbors are compared again and again
+  KnownFacet current_;             // the first one of the pair that was compared last
   std::vector<FacetPair> found_;
 };
 
@@ -170,20 +186,20 @@ PlacedTriangleId PairFinder::idOf(const Node& node) const {
   return {node.group->firstTriangle + item, node.group->instance};
 }
 
-const Facet& PairFinder::facetOf(const Node& node) {
+const Facet& PairFinder::facetOf(const Node& node, PlacedTriangleId id) {
   if (known_.empty()) known_.resize(kKnownFacets);
   KnownFacet& known = known_[node.number % kKnownFacets];
-  const PlacedTriangleId id = idOf(node);
   if (known.id != id) known = {id, search_.space.facet(id)};
   return known.facet;
 }
 
 void PairFinder::compare(const Node& nodeA, const Node& nodeB) {
   const PlacedTriangleId idA = idOf(nodeA), idB = idOf(nodeB);
-  if (idA == idB) return;
+  if (idA == idB || work_ <= 0) return;
   work_ -= kWorkOfFacets;
-  const Facet a = facetOf(nodeA);
-  const Facet& b = facetOf(nodeB);
+  // The second may take the first one's place in the cache.
+  if (current_.id != idA) current_ = {idA, facetOf(nodeA, idA)};
+  const Facet &a = current_.facet, &b = facetOf(nodeB, idB);
   if (a.normal == Vec3d{} || b.normal == Vec3d{}) return;
   if (!lieInOnePlane(a, b) || !search_.test(a, b)) return;
   work_ -= kWorkOfPair;
@@ -202,6 +218,7 @@ void PairFinder::search(Node a, Node b) {
       return;
     }
   }
+  const bool isWanted = a.group && b.group;  // and so are the triangles of both
   const std::size_t beginA = stack_.size();
   takeApart(a, b);
   const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
@@ -210,7 +227,12 @@ void PairFinder::search(Node a, Node b) {
   work_ -= static_cast<std::int64_t>(kWorkOfNodes + (endA - beginA) * (endB - beginB));
   for (std::size_t i = beginA; i < endA; ++i) {
     for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
-      if (meet(stack_[i].box, stack_[k].box)) search(stack_[i], stack_[k]);
+      if (!meet(stack_[i].box, stack_[k].box)) continue;
+      if (stack_[i].isTriangle() && stack_[k].isTriangle() && isWanted) {
+        compare(stack_[i], stack_[k]);
+      } else {
+        search(stack_[i], stack_[k]);
+      }
     }
   }
   stack_.erase(stack_.begin() + static_cast<std::ptrdiff_t>(beginA), stack_.end());
@@ -252,13 +274,13 @@ std::vector<FacetPair> doTasks(const PairSearch& search, const BoxTree& groups,
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Box>& items) {
+BoxTree::BoxTree(const std::vector<Box>& items, int threads) {
   if (items.empty()) return;
   std::vector<Center> centers(items.size());
   for (std::uint32_t i = 0; i < items.size(); ++i) {
     centers[i] = {items[i].lower * 0.5f + items[i].upper * 0.5f, i};
   }
-  sortInSpace(centers);
+  sortInSpace(centers, centers.size() > kTaskTriangles ? threads : 1);
   items_.reserve(items.size());
   levels_.emplace_back().reserve(items.size());
   for (const Center& center : centers) {
@@ -276,16 +298,16 @@ BoxTree::BoxTree(const std::vector<Box>& items) {
   }
 }
 
-BoxTree treeOf(const Scene& scene, std::size_t number) {
+BoxTree treeOf(const Scene& scene, std::size_t number, int threads) {
   const Geometry& geometry = scene.geometries[number];
   const FacetSpace world(scene);
   std::vector<Box> boxes(geometry.classBegin.back());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  forEachInChunks(boxes.size(), threads, [&](std::size_t i) {
     const float* const p = scene.triangles[geometry.firstTriangle + i].position;
     for (int k = 0; k < 9; k += 3) boxes[i].add({p[k], p[k + 1], p[k + 2]});
     if (number == 0) boxes[i] = world.boxOf(boxes[i], kNoInstance);
-  }
-  return BoxTree(boxes);
+  });
+  return BoxTree(boxes, threads);
 }
 
 FacetSpace::FacetSpace(const Scene& scene, const BoxTree& tree, std::uint32_t geometry)
@@ -338,16 +360,11 @@ Box FacetSpace::boxOf(const Box& box, std::uint32_t instance) const {
 
 std::vector<std::uint8_t> tooNarrowToOverlap(const Scene& scene, const FacetSpace& space,
                                              std::uint32_t geometry, int threads) {
-  constexpr std::uint32_t kChunk = 4096;
   std::vector<std::uint8_t> narrow(scene.triangles.size());
   const Geometry& g = scene.geometries[geometry];
-  const std::uint32_t count = g.classBegin.back(), chunks = (count + kChunk - 1) / kChunk;
-  parallelFor(chunks > 1 ? threads : 1, chunks, [&](std::size_t chunk, int) {
-    const std::uint32_t first = static_cast<std::uint32_t>(chunk) * kChunk;
-    for (std::uint32_t i = first; i < std::min(first + kChunk, count); ++i) {
-      const std::uint32_t triangle = g.firstTriangle + i;
-      narrow[triangle] = isTooNarrowToOverlap(space.facet({triangle, kNoInstance})) ? 1 : 0;
-    }
+  forEachInChunks(g.classBegin.back(), threads, [&](std::size_t i) {
+    const std::uint32_t triangle = g.firstTriangle + static_cast<std::uint32_t>(i);
+    narrow[triangle] = isTooNarrowToOverlap(space.facet({triangle, kNoInstance})) ? 1 : 0;
   });
   return narrow;
 }
@@ -360,7 +377,7 @@ std::vector<FacetPair> findPairs(const PairSearch& search, std::uint64_t triangl
     const Box& all = group.tree->box(group.tree->top(), 0);
     boxes.push_back(group.isPlaced ? all : search.space.boxOf(all, group.instance));
   }
-  const BoxTree groups(boxes);
+  const BoxTree groups(boxes, 1);
   const std::int64_t work = (search.groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
                             kWorkPerTriangle * static_cast<std::int64_t>(triangles);
   std::vector<Task> tasks;

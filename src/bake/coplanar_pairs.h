@@ -19,7 +19,7 @@ class BoxTree {
  public:
   static constexpr std::uint32_t kChildren = 8;
 
-  explicit BoxTree(const std::vector<Box>& items);
+  BoxTree(const std::vector<Box>& items, int threads);
 
   bool empty() const { return items_.empty(); }
   std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
@@ -37,7 +37,7 @@ class BoxTree {
 
 // The tree of a geometry's triangles: of their own boxes in the geometry's space, or, for the
 // world, of FacetSpace::boxOf().
-BoxTree treeOf(const Scene& scene, std::size_t geometry);
+BoxTree treeOf(const Scene& scene, std::size_t geometry, int threads);
 
 // The space that is searched: the world, or the space of one instanced geometry for all of its
 // instances at once.

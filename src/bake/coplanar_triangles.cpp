@@ -84,7 +84,8 @@ TriangleTrees treesOf(const Scene& scene, TriangleTrees trees, int threads) {
     if (!trees[g]) missing.push_back(g);
   }
   parallelFor(missing.size() > 1 ? threads : 1, missing.size(), [&](std::size_t i, int) {
-    trees[missing[i]] = std::make_shared<const BoxTree>(treeOf(scene, missing[i]));
+    trees[missing[i]] = std::make_shared<const BoxTree>(
+        treeOf(scene, missing[i], missing.size() > 1 ? 1 : threads));
   });
   return trees;
 }
@@ -93,7 +94,7 @@ BoxTree treeOf(const FacetSpace& space, const Orders& list) {
   std::vector<Box> boxes;
   boxes.reserve(list.size());
   for (const std::uint64_t order : list) boxes.push_back(space.boxOf(placedTriangle(order)));
-  return BoxTree(boxes);
+  return BoxTree(boxes, 1);
 }
 
 // The instances that have kInstancesInOnePlace earlier instances of the same object in the same
