@@ -1,4 +1,5 @@
-// Shadow rays whose verdict is known (stages/verdict_view.h) need not be traced.
+// Removes the shadow rays that the shadow cache decides (stages/shadow_cache_view.h), which need
+// not be traced.
 #include <atomic>
 #include <bit>
 
@@ -10,7 +11,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
 #include "simd/surface-inl.h"
-#include "stages/verdict_view.h"
+#include "stages/shadow_cache_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -80,7 +81,7 @@ HWY_INLINE RayLanes LoadRays(const Chunk& c, size_t i, size_t end) {
   return rays;
 }
 
-// Where a ray with these weights starts on a triangle with this word of VerdictView::first.
+// Where a ray with these weights starts on a triangle with this word of ShadowCacheView::first.
 HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   const FloatTag d;
   const IntTag di;
@@ -88,7 +89,7 @@ HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   StartLanes s;
   const MF divided = hn::RebindMask(d, hn::Ne(word, hn::Set(di, static_cast<int32_t>(kNoParts))));
   const VI power = hn::And(word, hn::Set(di, (1 << kPartBits) - 1));
-  const VF rim = hn::Mul(PowerOfTwo(hn::Neg(power)), hn::Set(d, kVerdictRim));
+  const VF rim = hn::Mul(PowerOfTwo(hn::Neg(power)), hn::Set(d, kShadowRim));
   const VF least = hn::Min(hn::Min(hits.u, hits.v), hn::Sub(hn::Sub(one, hits.u), hits.v));
   s.live = hn::And(divided, hn::Ge(least, rim));
   const VF u = hn::IfThenElseZero(s.live, hits.u), v = hn::IfThenElseZero(s.live, hits.v);
@@ -109,21 +110,21 @@ struct LookUps {
   static constexpr size_t kRays = 256;
   HWY_ALIGN int32_t part[kRays];  // of a ray without parts, in the rim or decided: -1
   HWY_ALIGN int32_t row[kRays], cell[kRays];
-  // One after the other: of VerdictView::triangles, ::parts, a Verdict.
+  // A word of ShadowCacheView::triangles first, then one of ::parts, then a ShadowState.
   HWY_ALIGN int32_t word[kRays];
 };
 
-constexpr auto kUnknown = static_cast<int32_t>(Verdict::unknown);
-constexpr auto kMixed = static_cast<int32_t>(Verdict::mixed);
+constexpr auto kUnknown = static_cast<int32_t>(ShadowState::unknown);
+constexpr auto kMixed = static_cast<int32_t>(ShadowState::mixed);
 
 // Looks up whole triangles. A ray in the rim of a triangle looks up the triangle's parts, whose
 // rims are narrower. Returns true if any ray needs more than to be traced.
-HWY_INLINE bool LookUpTriangles(const Chunk& c, const VerdictView& view, size_t begin, size_t end,
-                                LookUps& looked) {
+HWY_INLINE bool LookUpTriangles(const Chunk& c, const ShadowCacheView& view, size_t begin,
+                                size_t end, LookUps& looked) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
-  const VF rim = hn::Set(d, kVerdictRim), one = hn::Set(d, 1.0f);
+  const VF rim = hn::Set(d, kShadowRim), one = hn::Set(d, 1.0f);
   const VI mixed = hn::Set(di, kMixed);
   VI any = hn::Zero(di);
   for (size_t i = begin; i < end; i += hn::Lanes(di)) {
@@ -148,7 +149,7 @@ HWY_INLINE bool LookUpTriangles(const Chunk& c, const VerdictView& view, size_t 
 
 // Looks up the parts for the rays that whole triangles do not decide. Rays whose triangles are
 // unknown look for their parts only to request them.
-HWY_INLINE void FindParts(const Chunk& c, const VerdictView& view, bool asks, size_t begin,
+HWY_INLINE void FindParts(const Chunk& c, const ShadowCacheView& view, bool asks, size_t begin,
                           size_t end, LookUps& looked) {
   const IntTag di;
   const VI none = hn::Set(di, -1), least = hn::Set(di, asks ? kUnknown : kMixed);
@@ -175,7 +176,7 @@ HWY_INLINE void FindParts(const Chunk& c, const VerdictView& view, bool asks, si
   }
 }
 
-HWY_INLINE void LookUpParts(const VerdictView& view, size_t count, LookUps& looked) {
+HWY_INLINE void LookUpParts(const ShadowCacheView& view, size_t count, LookUps& looked) {
   const IntTag di;
   const VI zero = hn::Zero(di);
   for (size_t at = 0; at < count; at += hn::Lanes(di)) {
@@ -191,7 +192,7 @@ constexpr int ShiftFor(int powerOfTwo) {
   return std::countr_zero(static_cast<unsigned>(powerOfTwo));
 }
 
-HWY_INLINE void LookUpCells(const VerdictView& view, size_t count, LookUps& looked) {
+HWY_INLINE void LookUpCells(const ShadowCacheView& view, size_t count, LookUps& looked) {
   const IntTag di;
   const UintTag du;
   constexpr int kPlaceShift = ShiftFor(kWordsAPlace), kRowShift = ShiftFor(kWordsARow),
@@ -207,14 +208,14 @@ HWY_INLINE void LookUpCells(const VerdictView& view, size_t count, LookUps& look
     const VI index = hn::Add(rows, hn::ShiftRight<kCellShift>(cell));
     const VU bits = hn::BitCast(du, GatherWord(view.cells, hn::IfThenElseZero(divided, index)));
     const VI inWord = hn::And(cell, hn::Set(di, kCellsAWord - 1));
-    const VI verdict =
+    const VI state =
         hn::And(hn::BitCast(di, hn::Shr(bits, hn::BitCast(du, hn::Add(inWord, inWord)))), three);
-    hn::Store(hn::IfThenElse(divided, verdict, word), di, looked.word + at);
+    hn::Store(hn::IfThenElse(divided, state, word), di, looked.word + at);
   }
 }
 
 // True in lanes whose rays start as near to the points of their weights as the shadow cache
-// requires (kVerdictReach).
+// requires (kShadowReach).
 HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3& start) {
   using R = TriangleRecord;
   const FloatTag d;
@@ -226,11 +227,11 @@ HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3
   const Weights w{hn::Sub(hn::Sub(hn::Set(d, 1.0f), hits.u), hits.v), hits.u, hits.v};
   const VF size = SumOf(Interpolate3(w, Abs3(p0), Abs3(p1), Abs3(p2)));
   const VF away = MaxComponent(Abs3(Sub3(start, Interpolate3(w, p0, p1, p2))));
-  return hn::Le(away, hn::Mul(size, hn::Set(d, kVerdictReach)));
+  return hn::Le(away, hn::Mul(size, hn::Set(d, kShadowReach)));
 }
 
-// Parts whose verdicts rays have missed.
-HWY_INLINE void NoteWanted(const VerdictView& view, const LookUps& looked, size_t count) {
+// Counts the requests of rays whose parts are unknown.
+HWY_INLINE void NoteWanted(const ShadowCacheView& view, const LookUps& looked, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     if (looked.part[i] < 0 || looked.word[i] != kUnknown) continue;
     const std::atomic_ref<uint8_t> wanted(view.wanted[looked.part[i]]);
@@ -282,11 +283,11 @@ HWY_INLINE void TakeDecided(Chunk& c, size_t begin, size_t end, const LookUps& l
   const IntTag di;
   const ShadowColumns& columns = c.shadows;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const VI verdict = hn::Load(di, looked.word + (i - begin));
-    const auto is = [&](Verdict which) HWY_ATTR {
-      return hn::RebindMask(d, hn::Eq(verdict, hn::Set(di, static_cast<int32_t>(which))));
+    const VI state = hn::Load(di, looked.word + (i - begin));
+    const auto is = [&](ShadowState which) HWY_ATTR {
+      return hn::RebindMask(d, hn::Eq(state, hn::Set(di, static_cast<int32_t>(which))));
     };
-    MF lit = is(Verdict::lit), dark = is(Verdict::dark), live = hn::FirstN(d, end - i);
+    MF lit = is(ShadowState::lit), dark = is(ShadowState::dark), live = hn::FirstN(d, end - i);
     if (!hn::AllFalse(d, hn::Or(lit, dark))) {
       const RayLanes rays = LoadRays(c, i, end);
       const MF near = StartsNear(c, hn::Or(lit, dark), rays.hits,
@@ -317,8 +318,8 @@ bool Asks(const Chunk& c) {
 }
 
 void DecideShadows(Chunk& c) noexcept {
-  if (!c.frame->verdicts) return;
-  const VerdictView& view = c.frame->verdicts[c.lightNumber];
+  if (!c.frame->shadowCache) return;
+  const ShadowCacheView& view = c.frame->shadowCache[c.lightNumber];
   if (!view.serves()) return;
   const bool asks = Asks(c);
   if (view.empty && !asks) return;

@@ -149,7 +149,8 @@ inline constexpr Kernel kFindAmbientAndOcclusionRays{
     findFindAmbientAndOcclusionRays,   {Part::rays, Part::surfels},
     {Part::unshadowed, Part::shadows}, {}};
 
-// Takes the rays whose verdict is known out of the shadow rays; `visible` is 1 where that is lit.
+// Removes the rays that the shadow cache decides from the shadow rays; `visible` is 1 where the
+// cache says lit.
 inline constexpr Kernel kDecideShadows{"decideShadows",
                                        Stage::checkShadows,
                                        findDecideShadows,

@@ -1,4 +1,5 @@
-// Triangles against the shadow rays of a receiver: what filling tables of verdicts asks most.
+// Tests triangles against the shadow rays of a receiver, which takes most of the time of filling
+// the shadow cache.
 #include "simd/meet_casters.h"
 
 #undef HWY_TARGET_INCLUDE

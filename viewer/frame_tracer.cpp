@@ -13,7 +13,7 @@
 #include "io/scene/named_sky.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::view {
@@ -74,17 +74,17 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
   use(std::make_unique<Renderer>(scene_->scene, options_));
 }
 
-// From its first picture on it looks for verdicts of shadow, for more will follow.
+// The shadow cache is filled from the first picture on, because more will follow.
 void FrameTracer::use(std::unique_ptr<Renderer> renderer) {
   renderer_ = std::move(renderer);
   const std::uint64_t most = common_.load.maxMemoryBytes;
   renderer_->expectFrames(cli::memoryLeft(renderer_->scene(), *renderer_, most),
-                          VerdictSchedule::kTurns);
+                          ShadowCacheSchedule::kTurns);
 }
 
 bool FrameTracer::proveSome() {
   constexpr std::size_t kParts = 256;  // of each light: some 10 us a part and thread
-  return renderer_->fillVerdicts({.mostParts = kParts}).parts > 0;
+  return renderer_->fillShadowCache({.mostParts = kParts}).parts > 0;
 }
 
 void FrameTracer::load(const SceneChoice& choice) {
@@ -214,7 +214,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
   const ImageSize whole = request.options.size.value();
   // Of each choice, what it takes where nothing is known beforehand.
   RenderOptions traced = options_;
-  traced.verdicts = Verdicts::off;
+  traced.shadowCache = ShadowCacheMode::off;
   const OptionsInUse used(*renderer_, traced);
   const double msPerPixel = probe(request.camera, whole);
   const ImageSize size = measuredSize(whole, msPerPixel);

@@ -50,8 +50,8 @@ class FrameTracer {
   // options what they were.
   RayPick explain(const RayQuery& query);
 
-  // Looks for some of the verdicts of shadow that the last pictures asked for, for about kBlockMs.
-  // False: there is nothing left to look at.
+  // Computes some of the parts of the shadow cache that the last pictures requested, for about
+  // kBlockMs. False if nothing is left.
   bool proveSome();
 
   // False: given up, and `frame` is not to be shown. Throws when the options ask for what the

@@ -11,7 +11,7 @@
 #include "core/stopwatch.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -103,8 +103,8 @@ void flyBenchmark(const ViewOptions& options, const cli::OpenScene& open, Window
   settleExposure(renderer, chooseCamera(open.scene, settled), settled);
   Film film = cli::openFilm(open.scene, options.common);
   const std::uint64_t most = options.common.load.maxMemoryBytes;
-  VerdictSchedule schedule(renderer, {kBenchmarkFrames, film.image.pixels.size(),
-                                      cli::memoryLeft(open.scene, renderer, most)});
+  ShadowCacheSchedule schedule(renderer, {kBenchmarkFrames, film.image.pixels.size(),
+                                          cli::memoryLeft(open.scene, renderer, most)});
   std::vector<double> traced, displayed;
   for (int frame = 0; frame < kBenchmarkFrames && !window.closing(); ++frame) {
     window.poll(0);

@@ -10,7 +10,7 @@
 #include "cli/json_report.h"
 #include "cli/stage_table.h"
 #include "core/error.h"
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -36,7 +36,7 @@ struct BenchJob {
     Turns turns;
     if (reference()) turns = {0, 1};
     // After the frame that fills queues, those with an empty shadow cache.
-    if (abShadowCache) turns.warmUp = 1 + VerdictSchedule::kTurns;
+    if (abShadowCache) turns.warmUp = 1 + ShadowCacheSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;
@@ -83,14 +83,15 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
       add(options);
     }
   } else if (job.abShadowCache) {
-    for (const Verdicts verdicts : {Verdicts::off, job.common.render.verdicts}) {
-      options.verdicts = verdicts;
+    for (const ShadowCacheMode shadowCache :
+         {ShadowCacheMode::off, job.common.render.shadowCache}) {
+      options.shadowCache = shadowCache;
       add(options);
     }
     runs.back()->useShadowCache();
   } else {
     add(options);
-    if (options.verdicts == Verdicts::audit) runs.back()->useShadowCache();
+    if (options.shadowCache == ShadowCacheMode::audit) runs.back()->useShadowCache();
   }
 }
 
@@ -101,7 +102,7 @@ void checkShadowCacheTurns(const BenchJob& job, const Farm& farm) {
     throwUsage(
         "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
   }
-  if (job.common.render.verdicts == Verdicts::off) {
+  if (job.common.render.shadowCache == ShadowCacheMode::off) {
     throwUsage("--ab-shadow-cache runs without the cache as well: leave out --shadow-cache off");
   }
 }

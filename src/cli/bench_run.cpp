@@ -3,7 +3,7 @@
 #include "accuracy/digest.h"
 #include "inspect/floor.h"
 #include "render/auto_exposure.h"
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -29,8 +29,9 @@ void BenchRun::warmUp() {
   const bool shared = farm_ && farm_->ranks() > 1;
   const bool proves = cachesShadows_ && begun_ && !shared && options_.mode != Mode::reference;
   if (proves && coldMs_.empty()) {
-    renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
-                           options_.verdicts == Verdicts::audit ? 1 : VerdictSchedule::kTurns);
+    renderer_.expectFrames(
+        memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
+        options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
   }
   const FrameStats stats = frame();
   if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
@@ -40,8 +41,8 @@ void BenchRun::warmUp() {
 void BenchRun::fillShadowCache() {
   ShadowCacheUse& use = summary_.shadowCache.emplace();
   use.coldMs = quantile(coldMs_, 0.5);
-  use.fillMs = renderer_.fillVerdicts().ms;
-  use.bytes = renderer_.verdictBytes();
+  use.fillMs = renderer_.fillShadowCache().ms;
+  use.bytes = renderer_.shadowCacheBytes();
 }
 
 void BenchRun::measure(bool floor) {

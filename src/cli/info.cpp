@@ -30,15 +30,15 @@ void printCounts(const OpenScene& open, const Renderer& renderer) {
   std::printf("  %-12s%zu\n", "materials", s.materials.size());
   std::printf("  %-12s%zu\n", "lights", s.lights.size());
   std::printf("  %-12s%zu\n", "textures", s.textures.size());
-  const ShadowCacheOutlook verdicts = shadowCacheOutlook(s, renderer.options());
-  if (verdicts.lights > 0) {
+  const ShadowCacheOutlook shadowCache = shadowCacheOutlook(s, renderer.options());
+  if (shadowCache.lights > 0) {
     std::printf(
         "  %-12sshadow cache for %zu light%s, %zu pieces of triangles; used in films and pictures "
         "of more than %.3g pixel samples\n",
-        "shadows", verdicts.lights, verdicts.lights == 1 ? "" : "s", verdicts.parts,
-        verdicts.samples);
+        "shadows", shadowCache.lights, shadowCache.lights == 1 ? "" : "s", shadowCache.parts,
+        shadowCache.samples);
   } else {
-    std::printf("  %-12sno shadow cache: %s\n", "shadows", verdicts.because.c_str());
+    std::printf("  %-12sno shadow cache: %s\n", "shadows", shadowCache.because.c_str());
   }
   std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");

@@ -200,9 +200,10 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)}};
-  const ShadowCacheOutlook verdicts = shadowCacheOutlook(scene, options);
-  json["shadow_cache"] = {
-      {"lights", verdicts.lights}, {"parts", verdicts.parts}, {"samples", verdicts.samples}};
+  const ShadowCacheOutlook shadowCache = shadowCacheOutlook(scene, options);
+  json["shadow_cache"] = {{"lights", shadowCache.lights},
+                          {"parts", shadowCache.parts},
+                          {"samples", shadowCache.samples}};
   json["animations"] = Json::array();
   for (const Animation& animation : scene.animations) {
     json["animations"].push_back(

@@ -31,7 +31,7 @@
 #include "make/turntable.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::cli {
@@ -274,8 +274,8 @@ class ImageWriter {
         frames = static_cast<std::size_t>(range.last - range.first) + 1;
       }
       const std::uint64_t most = job.common.load.maxMemoryBytes;
-      schedule_.emplace(*renderer_, VerdictRun{frames, films_[0].image.pixels.size(),
-                                               memoryLeft(open.scene, *renderer_, most)});
+      schedule_.emplace(*renderer_, ShadowCacheRun{frames, films_[0].image.pixels.size(),
+                                                   memoryLeft(open.scene, *renderer_, most)});
     }
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera_, options_);
@@ -353,7 +353,7 @@ class ImageWriter {
  private:
   // --shadow-cache audit: an extra first frame requests what the cache then holds.
   void prepareAudit(Film& film) {
-    if (options_.verdicts != Verdicts::audit || options_.mode == Mode::reference) return;
+    if (options_.shadowCache != ShadowCacheMode::audit || options_.mode == Mode::reference) return;
     if (run_.shadowCache || farm_.ranks() > 1) return;
     const std::uint64_t most = job_.common.load.maxMemoryBytes;
     renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
@@ -364,14 +364,14 @@ class ImageWriter {
   }
 
   void fillShadowCache() {
-    if (options_.verdicts == Verdicts::audit && run_.shadowCache) {
-      run_.shadowCache->fillMs += renderer_->fillVerdicts().ms;
+    if (options_.shadowCache == ShadowCacheMode::audit && run_.shadowCache) {
+      run_.shadowCache->fillMs += renderer_->fillShadowCache().ms;
     } else if (schedule_ && schedule_->used()) {
       schedule_->frameDone();
       if (!run_.shadowCache) run_.shadowCache.emplace();
       run_.shadowCache->fillMs = schedule_->fillMs();
     }
-    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->verdictBytes();
+    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->shadowCacheBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -414,7 +414,7 @@ class ImageWriter {
   Camera camera_;
   RenderOptions options_;  // with an automatic exposure settled
   std::optional<Renderer> renderer_;
-  std::optional<VerdictSchedule> schedule_;
+  std::optional<ShadowCacheSchedule> schedule_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;

@@ -86,9 +86,9 @@ enum class FilmPrecision { single, half, eightBit };
 enum class SrgbEncoding { exact, table };
 enum class Quality { draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
-// The shadow cache (shadow_cache/verdict_tables.h): used where it saves time; never; or checked
+// The shadow cache (shadow_cache/shadow_tables.h): used where it saves time; never; or checked
 // against traced rays, where the frame fails if one differs.
-enum class Verdicts { automatic, off, audit };
+enum class ShadowCacheMode { automatic, off, audit };
 
 // Needs that several options share.
 inline constexpr Need kNeedsImpulses{EffectSet().with(Effect::mirror).with(Effect::transmission),
@@ -141,7 +141,7 @@ struct RenderOptions {
   Batch batch = Batch::tile;
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
-  Verdicts verdicts = Verdicts::automatic;
+  ShadowCacheMode shadowCache = ShadowCacheMode::automatic;
   int sphereSegments = 0;  // triangles around each sphere that replace it; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
   Quality quality = Quality::standard;
@@ -411,7 +411,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "viewer and in bench --ab-shadow-cache; audit: bench and render also trace "
                       "the rays that the cache answers, and end where one differs",
               .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
-             o.verdicts},
+             o.shadowCache},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",

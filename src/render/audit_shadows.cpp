@@ -41,22 +41,22 @@ void auditShadows(Chunk& c) {
     if (std::binary_search(slots, end, ray.slot)) continue;
     const bool lit = c.unshadowed.visible[ray.slot] > 0;
     if (c.frame->accel->occluded(ray.origin, ray.direction, ray.tFar) != lit) continue;
-    if (c.meter->wrongVerdict) return;
-    c.meter->wrongVerdict = {true,       lit,          c.lightNumber, c.hits.triangle[ray.slot],
-                             ray.origin, ray.direction};
+    if (c.meter->wrongShadow) return;
+    c.meter->wrongShadow = {true,       lit,          c.lightNumber, c.hits.triangle[ray.slot],
+                            ray.origin, ray.direction};
     return;
   }
 }
 
-void requireRightVerdicts(const FrameStats& stats, const Scene& scene) {
-  const WrongVerdict& wrong = stats.meter.wrongVerdict;
+void requireRightShadows(const FrameStats& stats, const Scene& scene) {
+  const WrongShadow& wrong = stats.meter.wrongShadow;
   if (!wrong) return;
   const Vec3f &o = wrong.origin, &d = wrong.direction;
   const std::string& name = scene.lights[wrong.light].name;
   throw Error(
       ExitStatus::checkFailed,
-      formatted("a verdict of shadow is wrong: light %u%s%s, triangle %u, the ray from (%.9g, "
-                "%.9g, %.9g) along (%.9g, %.9g, %.9g) is %s, and its verdict was %s",
+      formatted("the shadow cache is wrong: light %u%s%s, triangle %u, the ray from (%.9g, %.9g, "
+                "%.9g) along (%.9g, %.9g, %.9g) is %s, and the cache says %s",
                 wrong.light, name.empty() ? "" : " ", name.c_str(), wrong.triangle, o.x, o.y, o.z,
                 d.x, d.y, d.z, wrong.saidLit ? "blocked" : "not blocked",
                 wrong.saidLit ? "lit" : "dark"));

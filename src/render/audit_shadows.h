@@ -1,4 +1,4 @@
-// Verdicts of shadow held against the rays that they stand for (--verdicts audit).
+// Compares the shadow cache with the rays that it replaces (--shadow-cache audit).
 #pragma once
 
 #include "render/frame_stats.h"
@@ -6,11 +6,11 @@
 
 namespace whit {
 
-// A step in the place of decideShadows: does the same, traces every ray that was decided and notes
-// the first whose verdict is wrong in the chunk's meter.
+// A step that replaces decideShadows: it does the same, traces every ray that was decided, and
+// stores the first ray that contradicts the cache in the chunk's meter.
 void auditShadows(Chunk& c);
 
 // Throws Error(checkFailed), naming light, triangle and ray, if one was.
-void requireRightVerdicts(const FrameStats& stats, const Scene& scene);
+void requireRightShadows(const FrameStats& stats, const Scene& scene);
 
 }  // namespace whit

@@ -14,7 +14,7 @@ void FrameStats::add(const FrameStats& worker) {
   }
   meter.shadows.lit += worker.meter.shadows.lit;
   meter.shadows.dark += worker.meter.shadows.dark;
-  if (!meter.wrongVerdict) meter.wrongVerdict = worker.meter.wrongVerdict;
+  if (!meter.wrongShadow) meter.wrongShadow = worker.meter.wrongShadow;
   meter.embreeMs += worker.meter.embreeMs;
   nonFinitePixels += worker.nonFinitePixels;
 }

@@ -104,8 +104,8 @@ bool canDecide(const Plan& plan, const RenderOptions& options) {
 
 class Planner {
  public:
-  Planner(const Scene& scene, const RenderOptions& options, bool verdicts)
-      : scene_(scene), options_(options), verdicts_(verdicts) {
+  Planner(const Scene& scene, const RenderOptions& options, bool shadowCache)
+      : scene_(scene), options_(options), shadowTables_(shadowCache) {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects = consistent(called.without(options.disable).without(notAskedFor(options)));
@@ -228,9 +228,10 @@ class Planner {
           simd::kFindRadianceAndShadowRays.functionFor(effects.without(Effect::glossy));
     }
     if (has(Effect::shadows)) {
-      if (verdicts_ && samples == 1 && canDecide(plan_, options_)) {
+      if (shadowTables_ && samples == 1 && canDecide(plan_, options_)) {
         lightSteps.steps.push_back(stepOf(simd::kDecideShadows, plan_.effects));
-        if (options_.verdicts == Verdicts::audit) lightSteps.steps.back().run = auditShadows;
+        if (options_.shadowCache == ShadowCacheMode::audit)
+          lightSteps.steps.back().run = auditShadows;
       }
       lightSteps.steps.push_back(checkShadowsStep());
     }
@@ -311,7 +312,7 @@ class Planner {
 
   const Scene& scene_;
   const RenderOptions& options_;
-  bool verdicts_;
+  bool shadowTables_;
   Plan plan_;
 };
 
@@ -357,13 +358,13 @@ std::vector<Stage> Plan::stages() const {
   return list;
 }
 
-Plan makePlan(const Scene& scene, const RenderOptions& options, bool verdicts) {
-  Plan plan = Planner(scene, options, verdicts).make();
+Plan makePlan(const Scene& scene, const RenderOptions& options, bool shadowCache) {
+  Plan plan = Planner(scene, options, shadowCache).make();
   requireOrder(plan);
   return plan;
 }
 
-std::vector<std::size_t> lightsWithVerdicts(const Plan& plan) {
+std::vector<std::size_t> lightsWithShadowCache(const Plan& plan) {
   std::vector<std::size_t> lights;
   for (const LightSteps& light : plan.perLight) {
     const bool decides = std::any_of(light.steps.begin(), light.steps.end(), [](const Step& step) {

@@ -92,13 +92,13 @@ struct Plan {
   std::vector<Stage> stages() const;
 };
 
-// For kernels of the target that is chosen (simd::chooseTarget). `verdicts`: there are tables of
-// them for the frames, or will be.
-Plan makePlan(const Scene& scene, const RenderOptions& options, bool verdicts = false);
+// Makes a plan for kernels of the chosen target (simd::chooseTarget). `shadowCache`: the frames
+// have a shadow cache, or will have one.
+Plan makePlan(const Scene& scene, const RenderOptions& options, bool shadowCache = false);
 
 // The lights whose shadows it decides: those taken as points, if shadow rays start at their surfels
 // and go through robust traversal.
-std::vector<std::size_t> lightsWithVerdicts(const Plan& plan);
+std::vector<std::size_t> lightsWithShadowCache(const Plan& plan);
 
 std::vector<KernelUse> kernelsOf(const Plan& plan);
 

@@ -88,7 +88,7 @@ void Renderer::sceneMoved() {
 
 std::uint64_t Renderer::memoryBytes() const {
   return accel_->memoryBytes() + tables_.texels.size() * sizeof(std::uint32_t) +
-         scheduler_.bytes() + adaptive_.bytes() + (verdicts_ ? verdicts_->bytes() : 0);
+         scheduler_.bytes() + adaptive_.bytes() + (shadowTables_ ? shadowTables_->bytes() : 0);
 }
 
 CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
@@ -108,9 +108,10 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
-  const VerdictView* const verdicts = verdicts_ ? verdicts_->views().data() : nullptr;
-  return {&scene_,  &tables_,           &*accel_, verdicts, plan_.effects, plan_.features,
-          options_, cameraRays(camera), asking_,  {},       seed_};
+  const ShadowCacheView* const shadowCache =
+      shadowTables_ ? shadowTables_->views().data() : nullptr;
+  return {&scene_,  &tables_,           &*accel_, shadowCache, plan_.effects, plan_.features,
+          options_, cameraRays(camera), asking_,  {},          seed_};
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
@@ -138,14 +139,14 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
 FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch) {
   Frame frame = frameOf(camera, film,
                         adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
-  if (watch) frame.constants.verdicts = nullptr;  // who looks on sees all rays
+  if (watch) frame.constants.shadowCache = nullptr;  // who looks on sees all rays
   const Stopwatch stopwatch;
   FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
                                 : scheduler_.trace(frame, scheduler_.allPixels(), watch);
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
   ++asking_.turn;
-  requireRightVerdicts(stats, scene_);
+  requireRightShadows(stats, scene_);
   return stats;
 }
 
@@ -160,14 +161,14 @@ FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRa
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
   ++asking_.turn;
-  requireRightVerdicts(stats, scene_);
+  requireRightShadows(stats, scene_);
   return stats;
 }
 
 FrameStats Renderer::observe(const Camera& camera, Film& film,
                              std::span<StageObserver* const> observers) {
   Frame frame = frameOf(camera, film, film.image.window);
-  frame.constants.verdicts = nullptr;  // as above
+  frame.constants.shadowCache = nullptr;  // as above
   const Stopwatch stopwatch;
   FrameStats stats = scheduler_.observe(frame, observers);
   stats.frameMs = stopwatch.ms();

@@ -22,7 +22,7 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/scheduler.h"
-#include "shadow_cache/verdict_tables.h"
+#include "shadow_cache/shadow_tables.h"
 
 namespace whit {
 
@@ -85,17 +85,19 @@ class Renderer {
   // while rendering.
   void sceneMoved();
 
-  // More frames of this scene are to come: shadows may have verdicts from now on (--verdicts), in
-  // tables of no more than so many bytes. Of so many tiles one asks for them in each frame, which
-  // takes time, and all have asked after as many frames. Not while rendering.
+  // Announces more frames of this scene: a shadow cache of at most this many bytes may be used from
+  // now on (--shadow-cache). In each frame one of `askingTurns` tiles collects requests, which
+  // takes time, so that all have done so after as many frames. Must not be called while a frame is
+  // rendered.
   void expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns = 1);
-  // Looks at parts of triangles where shadow rays found no verdict. Not while rendering.
-  FillReport fillVerdicts(const FillLimits& limits = {});
+  // Computes the parts of triangles that shadow rays have requested. Must not be called while a
+  // frame is rendered.
+  FillReport fillShadowCache(const FillLimits& limits = {});
   // Drops the requests of rays for cells of the shadow cache that were not computed yet. Must not
   // be called while a frame is rendered.
-  void forgetAskedVerdicts();
-  bool decidesShadows() const { return verdicts_ && !lightsWithVerdicts(plan_).empty(); }
-  std::uint64_t verdictBytes() const { return verdicts_ ? verdicts_->bytes() : 0; }
+  void forgetShadowRequests();
+  bool decidesShadows() const { return shadowTables_ && !lightsWithShadowCache(plan_).empty(); }
+  std::uint64_t shadowCacheBytes() const { return shadowTables_ ? shadowTables_->bytes() : 0; }
 
   const Scene& scene() const { return scene_; }
   const RenderOptions& options() const { return options_; }
@@ -120,8 +122,8 @@ class Renderer {
   Frame frameOf(const Camera& camera, Film& film, const Crop& window);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
-  bool wantsVerdicts(const RenderOptions& options) const;
-  void renewVerdicts();
+  bool usesShadowCache(const RenderOptions& options) const;
+  void renewShadowCache();
   void lookAround();
 
   const Scene& scene_;
@@ -129,8 +131,8 @@ class Renderer {
   Plan plan_;
   ShadingTables tables_;
   std::optional<Accel> accel_;
-  std::uint64_t verdictBytes_ = 0;  // that tables may take; 0: no more frames are expected
-  std::optional<VerdictTables> verdicts_;
+  std::uint64_t shadowCacheBytes_ = 0;  // that tables may take; 0: no more frames are expected
+  std::optional<ShadowTables> shadowTables_;
   AskingTurn asking_;
   Machine machine_;
   Scheduler scheduler_;

@@ -26,51 +26,51 @@ void Renderer::replan(Plan next) {
   plan_ = std::move(next);
 }
 
-bool Renderer::wantsVerdicts(const RenderOptions& options) const {
+bool Renderer::usesShadowCache(const RenderOptions& options) const {
   const bool standsStill = !scene_.motion.ofGeometry && !scene_.motion.ofLights();
-  return standsStill && verdictBytes_ > 0 && options.verdicts != Verdicts::off;
+  return standsStill && shadowCacheBytes_ > 0 && options.shadowCache != ShadowCacheMode::off;
 }
 
 void Renderer::expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns) {
-  verdictBytes_ = mostBytes;
+  shadowCacheBytes_ = mostBytes;
   asking_ = {0, askingTurns};
-  replan(makePlan(scene_, options_, wantsVerdicts(options_)));
-  renewVerdicts();
+  replan(makePlan(scene_, options_, usesShadowCache(options_)));
+  renewShadowCache();
 }
 
 // Tables for the lights whose shadows the plan decides; what is known of the others goes.
-void Renderer::renewVerdicts() {
-  const std::vector<std::size_t> lights = lightsWithVerdicts(plan_);
+void Renderer::renewShadowCache() {
+  const std::vector<std::size_t> lights = lightsWithShadowCache(plan_);
   if (lights.empty()) return;
-  if (verdicts_ && verdicts_->lights() == lights &&
-      verdicts_->views().size() == scene_.lights.size()) {
-    verdicts_->forgetMovedLights();
+  if (shadowTables_ && shadowTables_->lights() == lights &&
+      shadowTables_->views().size() == scene_.lights.size()) {
+    shadowTables_->forgetMovedLights();
   } else {
-    verdicts_.emplace(scene_, lights, verdictBytes_);
+    shadowTables_.emplace(scene_, lights, shadowCacheBytes_);
   }
 }
 
-FillReport Renderer::fillVerdicts(const FillLimits& limits) {
-  return decidesShadows() ? verdicts_->fill(scheduler_.pool(), limits) : FillReport();
+FillReport Renderer::fillShadowCache(const FillLimits& limits) {
+  return decidesShadows() ? shadowTables_->fill(scheduler_.pool(), limits) : FillReport();
 }
 
-void Renderer::forgetAskedVerdicts() {
-  if (verdicts_) verdicts_->forgetAsked();
+void Renderer::forgetShadowRequests() {
+  if (shadowTables_) shadowTables_->forgetAsked();
 }
 
 void Renderer::shadingChanged() {
-  Plan plan = makePlan(scene_, options_, wantsVerdicts(options_));
+  Plan plan = makePlan(scene_, options_, usesShadowCache(options_));
   if (plan.effects == plan_.effects) {
     refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
   } else {
     tables_ = buildTables(scene_, plan.effects, options_.shading, machine_.threads);
   }
   replan(std::move(plan));
-  renewVerdicts();
+  renewShadowCache();
 }
 
 void Renderer::setOptions(const RenderOptions& options) {
-  Plan plan = makePlan(scene_, options, wantsVerdicts(options));
+  Plan plan = makePlan(scene_, options, usesShadowCache(options));
   if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
         "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
@@ -83,7 +83,7 @@ void Renderer::setOptions(const RenderOptions& options) {
   }
   replan(std::move(plan));
   takeOver(options, Rebuild::tables, options_);
-  renewVerdicts();
+  renewShadowCache();
 }
 
 bool Renderer::canSetOptions(const RenderOptions& options) const {

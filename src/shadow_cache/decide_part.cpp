@@ -56,9 +56,9 @@ class PartDecider {
     scratch_.asked.clear();
   }
 
-  PartVerdict decide(const WeightSquare& square, const Receiver& receiver) {
+  PartShadow decide(const WeightSquare& square, const Receiver& receiver) {
     if (!hiddenAsOthers(receiver)) decideAll(square, receiver);
-    if (!result_.known()) result_.whole = Verdict::mixed;
+    if (!result_.known()) result_.whole = ShadowState::mixed;
     return result_;
   }
 
@@ -80,7 +80,7 @@ class PartDecider {
         world_.kernels.meetCasters({&scratch_.hiders, 1, &asked, &asked, &met}, light_,
                                    receiver.corners.data(), receiver.count);
     if (hider == kNoCaster) return false;
-    result_.whole = Verdict::dark;
+    result_.whole = ShadowState::dark;
     return true;
   }
 
@@ -176,27 +176,28 @@ class PartDecider {
   };
 
   // Decides `side` cells from (column, row) on, which the given occluders may hide.
-  Verdict decideBetween(const WeightSquare& square, int side, int column, int row, bool any,
-                        const InTheWay& way) {
-    if (!any) return set(side, column, row, Verdict::lit);
+  ShadowState decideBetween(const WeightSquare& square, int side, int column, int row, bool any,
+                            const InTheWay& way) {
+    if (!any) return set(side, column, row, ShadowState::lit);
     if (side == 1 || square.side * triangle_.longest() <= world_.finest)
-      return set(side, column, row, Verdict::mixed);
+      return set(side, column, row, ShadowState::mixed);
     return decideQuarters(square, side / 2, column, row, way);
   }
 
-  Verdict decide(const WeightSquare& square, int side, int column, int row, const InTheWay& way) {
+  ShadowState decide(const WeightSquare& square, int side, int column, int row,
+                     const InTheWay& way) {
     const Receiver receiver = triangle_.piece(square);
-    // In the rim: nothing asks for it, and any verdict is as good.
-    if (receiver.count == 0) return Verdict::unknown;
+    // The piece lies in the rim, which nothing looks up, so any state will do.
+    if (receiver.count == 0) return ShadowState::unknown;
     const std::size_t asked = scratch_.asked.size(), boxes = scratch_.boxes.size();
-    const Verdict verdict = decidePiece(receiver, square, side, column, row, way);
+    const ShadowState state = decidePiece(receiver, square, side, column, row, way);
     scratch_.asked.resize(asked);
     scratch_.boxes.resize(boxes);
-    return verdict;
+    return state;
   }
 
-  Verdict decidePiece(const Receiver& receiver, const WeightSquare& square, int side, int column,
-                      int row, const InTheWay& way) {
+  ShadowState decidePiece(const Receiver& receiver, const WeightSquare& square, int side,
+                          int column, int row, const InTheWay& way) {
     const CasterBlocks& casters = scratch_.casters;
     const std::size_t count = casters.blockCount(), mine = scratch_.asked.size();
     scratch_.asked.resize(mine + count);
@@ -218,24 +219,24 @@ class PartDecider {
     return decideBetween(square, side, column, row, any, {mine, begin, end});
   }
 
-  Verdict decideQuarters(const WeightSquare& square, int side, int column, int row,
-                         const InTheWay& way) {
+  ShadowState decideQuarters(const WeightSquare& square, int side, int column, int row,
+                             const InTheWay& way) {
     const double half = square.side / 2;
-    Verdict all = Verdict::unknown;
+    ShadowState all = ShadowState::unknown;
     bool same = true;
     for (int quarter = 0; quarter < 4; ++quarter) {
       const int x = quarter % 2, y = quarter / 2;
-      const Verdict verdict = decide({square.u + half * x, square.v + half * y, half}, side,
-                                     column + side * x, row + side * y, way);
-      if (verdict == Verdict::unknown) continue;
-      if (all == Verdict::unknown) all = verdict;
-      same = same && verdict == all;
+      const ShadowState state = decide({square.u + half * x, square.v + half * y, half}, side,
+                                       column + side * x, row + side * y, way);
+      if (state == ShadowState::unknown) continue;
+      if (all == ShadowState::unknown) all = state;
+      same = same && state == all;
     }
     if (!same) result_.divided = true;
-    return same ? all : Verdict::mixed;
+    return same ? all : ShadowState::mixed;
   }
 
-  Verdict hiddenBy(std::uint32_t caster, int side, int column, int row) {
+  ShadowState hiddenBy(std::uint32_t caster, int side, int column, int row) {
     auto& numbers = scratch_.hiderNumbers;
     const std::span known(numbers.data(), std::min(scratch_.hidden, kInBlock));
     if (std::find(known.begin(), known.end(), caster) == known.end()) {
@@ -243,18 +244,18 @@ class PartDecider {
       numbers[place] = caster;
       setCorners(scratch_.hiders, place, world_.scene.triangles[caster]);
     }
-    return set(side, column, row, Verdict::dark);
+    return set(side, column, row, ShadowState::dark);
   }
 
-  Verdict set(int side, int column, int row, Verdict verdict) {
+  ShadowState set(int side, int column, int row, ShadowState state) {
     for (int y = row; y < row + side; ++y) {
       for (int x = column; x < column + side; ++x) {
         const int word = y * kWordsARow + x / kCellsAWord;
-        result_.cells[static_cast<std::size_t>(word)] |= static_cast<std::uint32_t>(verdict)
+        result_.cells[static_cast<std::size_t>(word)] |= static_cast<std::uint32_t>(state)
                                                          << (2 * (x % kCellsAWord));
       }
     }
-    return verdict;
+    return state;
   }
 
   const ShadowWorld& world_;
@@ -262,7 +263,7 @@ class PartDecider {
   const ReceivingTriangle& triangle_;
   PartScratch& scratch_;
   simd::CasterLight light_;
-  PartVerdict result_;
+  PartShadow result_;
 };
 
 }  // namespace
@@ -280,9 +281,9 @@ void CasterBlocks::add(const CasterRef& caster, const CasterBlock& from, std::si
   numbers[count++] = caster.number;
 }
 
-PartVerdict decidePart(const ShadowWorld& world, std::uint32_t triangle, const WeightSquare& part,
-                       PartScratch& scratch) {
-  const PartVerdict mixed{Verdict::mixed, false, {}};
+PartShadow decidePart(const ShadowWorld& world, std::uint32_t triangle, const WeightSquare& part,
+                      PartScratch& scratch) {
+  const PartShadow mixed{ShadowState::mixed, false, {}};
   const ReceivingTriangle receiving(world.scene.triangles[triangle],
                                     static_cast<int>(std::lround(1 / part.side)));
   if (receiving.isSliver()) return mixed;

@@ -1,4 +1,4 @@
-// The verdict of one part of a triangle, and of its cells.
+// Decides one part of a triangle, and its cells.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 namespace whit {
 
 // The state of a whole part, or of its cells if they do not share one.
-struct PartVerdict {
-  Verdict whole = Verdict::unknown;
+struct PartShadow {
+  ShadowState whole = ShadowState::unknown;
   bool divided = false;
-  std::array<std::uint32_t, kWordsAPlace> cells{};  // as VerdictView::cells
-  bool known() const { return divided || whole != Verdict::unknown; }
+  std::array<std::uint32_t, kWordsAPlace> cells{};  // as ShadowCacheView::cells
+  bool known() const { return divided || whole != ShadowState::unknown; }
 };
 
 // Triangles in blocks, as kernels take them.
@@ -55,7 +55,7 @@ struct ShadowWorld {
 };
 
 // `part` is one of those that divide the triangle.
-PartVerdict decidePart(const ShadowWorld& world, std::uint32_t triangle, const WeightSquare& part,
-                       PartScratch& scratch);
+PartShadow decidePart(const ShadowWorld& world, std::uint32_t triangle, const WeightSquare& part,
+                      PartScratch& scratch);
 
 }  // namespace whit

@@ -8,9 +8,9 @@ namespace whit {
 namespace {
 
 // Weights are floats whose sum is rounded, and so is the rim that kernels hold them against.
-constexpr double kRim = kVerdictRim * (1 - 0x1p-6);
+constexpr double kRim = kShadowRim * (1 - 0x1p-6);
 // Per axis to Euclidean, with what the kernel's own interpolation may be off.
-constexpr double kReach = kVerdictReach * 1.7320508 * 1.5;
+constexpr double kReach = kCachedShadowReach * 1.7320508 * 1.5;
 // A triangle is a sliver if its area is less than this share of the product of two edge lengths (as
 // in the kernels' GeometricNormal, with room).
 constexpr double kSliverArea = 0x1p-10;

@@ -5,12 +5,12 @@
 
 #include "bake/scene.h"
 #include "core/vec3.h"
-#include "stages/verdict_view.h"
+#include "stages/shadow_cache_view.h"
 
 namespace whit {
 
 // A convex piece of a receiving triangle. All shadow rays with weights in it, within the kernel's
-// reach (kVerdictReach), start no further than `reach` from it.
+// reach (kCachedShadowReach), start no further than `reach` from it.
 struct Receiver {
   // A square of weights, cut by the three edges.
   static constexpr std::size_t kMostCorners = 7;
@@ -35,7 +35,8 @@ class ReceivingTriangle {
 
   // Without the rim.
   Receiver piece(const WeightSquare& square) const;
-  // So narrow that rounding may have turned its plane: such triangles have no verdicts.
+  // True if the triangle is so narrow that rounding may have turned its plane; the cache does not
+  // decide such triangles.
   bool isSliver() const { return sliver_; }
   double longest() const { return longest_; }  // of its edges
 

@@ -15,8 +15,8 @@
 #include "stages/ray_kinds.h"
 #include "stages/ray_tally.h"
 #include "stages/shading_tables.h"
+#include "stages/shadow_cache_view.h"
 #include "stages/stage.h"
-#include "stages/verdict_view.h"
 
 namespace whit {
 
@@ -34,7 +34,8 @@ struct CameraRays {
   float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
 };
 
-// Asking for verdicts of shadow takes time: of so many tiles one asks, another one in each frame.
+// Requesting parts of the shadow cache takes time: one tile of `turns` does so, another one in each
+// frame.
 struct AskingTurn {
   std::uint32_t turn = 0, turns = 1;
 };
@@ -52,8 +53,8 @@ struct FrameConstants {
   const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
-  const VerdictView* verdicts = nullptr;  // one a light; null: all rays are traced
-  EffectSet effects;                      // of the plan, for what the reference finds
+  const ShadowCacheView* shadowCache = nullptr;  // one a light; null: all rays are traced
+  EffectSet effects;                             // of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
   CameraRays camera;
@@ -70,13 +71,13 @@ struct Segment {
 // The kinds that a queue may hold: at depth 0 primary rays, below it reflections, then refractions.
 inline constexpr std::size_t kSegmentLimit = kRayKindCount;
 
-// Shadow rays that were not traced, for their verdict was known.
+// Numbers of shadow rays that the shadow cache decided, so that they were not traced.
 struct DecidedShadows {
   std::uint64_t lit = 0, dark = 0;
 };
 
-// The first whose verdict turned out to be wrong (--verdicts audit).
-struct WrongVerdict {
+// The first ray that contradicts the shadow cache (--shadow-cache audit).
+struct WrongShadow {
   bool found = false, saidLit = false;
   std::uint32_t light = 0, triangle = 0;
   Vec3f origin, direction;
@@ -90,7 +91,7 @@ inline constexpr std::uint32_t kAmbientLight = 0xffffffffu;
 struct TraceMeter {
   std::array<RayTally, kRayKindCount> tally{};
   DecidedShadows shadows;
-  WrongVerdict wrongVerdict;
+  WrongShadow wrongShadow;
   double embreeMs = 0;  // inside Embree's calls alone
 };
 

@@ -1,5 +1,5 @@
-// The look-up of verdicts against a scalar twin, on tables made up for it: which rays leave the
-// queue, which are kept and in what order, and which parts are noted.
+// The lookup in the shadow cache against a scalar version, on tables made up for it: which rays
+// leave the queue, which are kept and in what order, and which parts are requested.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "core/pixel.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
-#include "stages/verdict_view.h"
+#include "stages/shadow_cache_view.h"
 
 namespace whit::test {
 namespace {
@@ -38,13 +38,13 @@ class MadeUp {
     wanted_.assign(tables_.parts.size(), 0);
   }
 
-  Chunk chunk(FrameConstants& constants, ShadingTables& shading, VerdictView& view,
+  Chunk chunk(FrameConstants& constants, ShadingTables& shading, ShadowCacheView& view,
               TraceMeter& meter) {
     shading.triangles = tables_.triangles.data();
     view = {tables_.whole.data(), tables_.first.data(), tables_.parts.data(),
             tables_.cells.data(), wanted_.data(),       false};
     constants.tables = &shading;
-    constants.verdicts = &view;
+    constants.shadowCache = &view;
     constants.features = FeatureSet().with(Feature::instances);
     Chunk c;
     c.frame = &constants;
@@ -58,26 +58,26 @@ class MadeUp {
   }
 
   // What the tables say of the ray of a slot, one number after the other.
-  Verdict verdictOf(std::size_t slot, bool near) const {
+  ShadowState stateOf(std::size_t slot, bool near) const {
     const std::uint32_t part = partOf(slot);
-    if (part == kNoParts) return Verdict::mixed;
+    if (part == kNoParts) return ShadowState::mixed;
     const std::uint32_t word = tables_.parts[part];
-    auto verdict = static_cast<Verdict>(word & 3);
+    auto state = static_cast<ShadowState>(word & 3);
     if (word > 3) {
       const float side = sideOf(slot) * kCellsASide;
       const auto column = static_cast<std::uint32_t>(hits_->u[slot] * side) % kCellsASide;
       const auto row = static_cast<std::uint32_t>(hits_->v[slot] * side) % kCellsASide;
       const std::uint32_t at =
           ((word >> 2) - 1) * kWordsAPlace + row * kWordsARow + column / kCellsAWord;
-      verdict = static_cast<Verdict>(tables_.cells[at] >> (2 * (column % kCellsAWord)) & 3);
+      state = static_cast<ShadowState>(tables_.cells[at] >> (2 * (column % kCellsAWord)) & 3);
     }
-    return near || verdict == Verdict::unknown ? verdict : Verdict::mixed;
+    return near || state == ShadowState::unknown ? state : ShadowState::mixed;
   }
   std::uint32_t partOf(std::size_t slot) const {
     const std::uint32_t word = tables_.first[hits_->triangle[slot]];
     if (word == kNoParts || static_cast<std::int32_t>(hits_->instance[slot]) >= 0) return kNoParts;
     const float u = hits_->u[slot], v = hits_->v[slot], side = sideOf(slot);
-    if (std::min(std::min(u, v), 1 - u - v) < kVerdictRim / side) return kNoParts;
+    if (std::min(std::min(u, v), 1 - u - v) < kShadowRim / side) return kNoParts;
     const auto column = static_cast<std::uint32_t>(u * side);
     const auto row = static_cast<std::uint32_t>(v * side);
     return (word >> kPartBits) + row * static_cast<std::uint32_t>(side) + column;
@@ -105,27 +105,27 @@ class MadeUp {
         1u << (tables_.first[hits_->triangle[slot]] & ((1u << kPartBits) - 1)));
   }
 
-  // Some triangles have one verdict all over, some none that decides.
+  // Some triangles have one state all over, some none that decides.
   std::uint32_t makePart(std::size_t triangle, unsigned k) {
-    if (triangle % 7 < 2) return static_cast<std::uint32_t>(Verdict::lit) + triangle % 2;
+    if (triangle % 7 < 2) return static_cast<std::uint32_t>(ShadowState::lit) + triangle % 2;
     const auto any = static_cast<std::uint32_t>(random_());
-    if (triangle % 7 == 2) return any % 2 == 0 ? 0 : static_cast<std::uint32_t>(Verdict::mixed);
+    if (triangle % 7 == 2) return any % 2 == 0 ? 0 : static_cast<std::uint32_t>(ShadowState::mixed);
     return k % 2 == 0 ? any % 4 : (any % kPlaces + 1) << 2;
   }
 
-  // VerdictView::triangles, of the last parts.
+  // ShadowCacheView::triangles, of the last parts.
   void sumUp(std::size_t triangle, unsigned count) {
     const auto begin = tables_.parts.end() - static_cast<std::ptrdiff_t>(count);
-    const auto allAre = [&](Verdict verdict) {
-      return std::count(begin, tables_.parts.end(), static_cast<std::uint32_t>(verdict)) == count;
+    const auto allAre = [&](ShadowState state) {
+      return std::count(begin, tables_.parts.end(), static_cast<std::uint32_t>(state)) == count;
     };
     const bool none = std::all_of(begin, tables_.parts.end(), [](std::uint32_t word) {
-      return word == 0 || word == static_cast<std::uint32_t>(Verdict::mixed);
+      return word == 0 || word == static_cast<std::uint32_t>(ShadowState::mixed);
     });
-    Verdict sum = Verdict::mixed;
-    if (none) sum = Verdict::unknown;
-    if (allAre(Verdict::lit)) sum = Verdict::lit;
-    if (allAre(Verdict::dark)) sum = Verdict::dark;
+    ShadowState sum = ShadowState::mixed;
+    if (none) sum = ShadowState::unknown;
+    if (allAre(ShadowState::lit)) sum = ShadowState::lit;
+    if (allAre(ShadowState::dark)) sum = ShadowState::dark;
     tables_.whole[triangle / kTrianglesAWord] |= static_cast<std::uint32_t>(sum)
                                                  << (2 * (triangle % kTrianglesAWord));
   }
@@ -158,7 +158,7 @@ class MadeUp {
     hits_->instance[slot] = slot % 11 == 5 ? 0u : kMiss;
     float u = uniform(0, 1), v = uniform(0, 1);
     if (u + v > 1) u = 1 - u, v = 1 - v;
-    if (slot % 5 == 0) u *= 2 * kVerdictRim;
+    if (slot % 5 == 0) u *= 2 * kShadowRim;
     hits_->u[slot] = u;
     hits_->v[slot] = v;
   }
@@ -170,7 +170,7 @@ class MadeUp {
     const auto size = [&](int axis) {
       return w * std::fabs(p[axis]) + u * std::fabs(p[3 + axis]) + v * std::fabs(p[6 + axis]);
     };
-    const float reach = kVerdictReach * (size(0) + size(1) + size(2));
+    const float reach = kShadowReach * (size(0) + size(1) + size(2));
     const bool near = random_() % 6 != 0;
     Vec3f start{at(0), at(1), at(2)};
     // Clear of what rounding makes of the bound itself.
@@ -197,7 +197,7 @@ class MadeUp {
 void expectAsTheTwin(MadeUp& made, bool empty, bool asks) {
   FrameConstants constants;
   ShadingTables shading;
-  VerdictView view;
+  ShadowCacheView view;
   TraceMeter meter;
   Chunk c = made.chunk(constants, shading, view, meter);
   if (empty) made.knowNothing();
@@ -211,14 +211,14 @@ void expectAsTheTwin(MadeUp& made, bool empty, bool asks) {
   std::vector<std::uint8_t> wanted(made.wanted().size(), 0);
   for (const MadeUp::Ray& ray : made.rays) {
     const std::uint32_t part = made.partOf(ray.slot);
-    const Verdict verdict = made.verdictOf(ray.slot, ray.near);
-    if (asks && part != kNoParts && verdict == Verdict::unknown && wanted[part] < 255) {
+    const ShadowState state = made.stateOf(ray.slot, ray.near);
+    if (asks && part != kNoParts && state == ShadowState::unknown && wanted[part] < 255) {
       ++wanted[part];
     }
-    EXPECT_EQ(c.unshadowed.visible[ray.slot], verdict == Verdict::lit ? 1 : 0) << ray.slot;
-    lit += verdict == Verdict::lit;
-    dark += verdict == Verdict::dark;
-    if (verdict == Verdict::lit || verdict == Verdict::dark) continue;
+    EXPECT_EQ(c.unshadowed.visible[ray.slot], state == ShadowState::lit ? 1 : 0) << ray.slot;
+    lit += state == ShadowState::lit;
+    dark += state == ShadowState::dark;
+    if (state == ShadowState::lit || state == ShadowState::dark) continue;
     ASSERT_LT(kept, c.shadowCount);
     EXPECT_EQ(c.shadows.slot[kept], ray.slot);
     EXPECT_EQ(c.shadows.tFar[kept], ray.tFar);

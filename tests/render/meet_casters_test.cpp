@@ -1,4 +1,4 @@
-// The kernels that filling tables of verdicts spends its time in, against their scalar twins.
+// The kernels in which filling the shadow cache spends its time, against their scalar versions.
 #include "simd/meet_casters.h"
 
 #include <gtest/gtest.h>

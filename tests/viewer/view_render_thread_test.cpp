@@ -79,7 +79,7 @@ TEST_F(RenderThreadTest, ShadowsAreProvedAtRest) {
   };
   std::uint64_t proved = 0;
   for (int i = 0; i < 100 && proved == 0; ++i) {
-    // Some of its tiles ask for verdicts in each frame, all of them after a few.
+    // Some of its tiles request parts in each frame, all of them after a few.
     for (int turn = 0; turn < 8; ++turn) proved = decided();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }

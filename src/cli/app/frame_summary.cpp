@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -115,10 +115,10 @@ std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint
 }
 
 ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options) {
-  if (options.verdicts == Verdicts::off) return {0, 0, 0, "it is off by --shadow-cache"};
-  const std::size_t lights = lightsWithVerdicts(makePlan(scene, options, true)).size();
+  if (options.shadowCache == ShadowCacheMode::off) return {0, 0, 0, "it is off by --shadow-cache"};
+  const std::size_t lights = lightsWithShadowCache(makePlan(scene, options, true)).size();
   if (lights == 0) return {0, 0, 0, "there is no light whose shadows it could hold"};
-  const std::size_t parts = VerdictParts::of(scene).count();
+  const std::size_t parts = ShadowParts::of(scene).count();
   if (parts == 0) return {0, 0, 0, "the world has no triangles, too many, or too distant ones"};
   return {lights, parts, samplesThatPay(scene), ""};
 }

@@ -1,9 +1,8 @@
-// Verdicts of shadow: for pieces of receiving triangles, whether shadow rays from there to a light
-// are blocked, proved before they are traced. The picture stays the same to the last bit, whatever
-// is filled, when and by whom: a verdict says what the ray would have found.
-//
-// Tables are filled between frames, where rays have missed them. They are for lights and casters
-// that stand still, and lights taken as points.
+// The shadow cache: for pieces of receiving triangles it says if shadow rays from there to a light
+// are blocked, proved before the rays are traced. The picture keeps every bit, whatever is filled,
+// when and by whom, because the cache says what the ray would have found. The tables are filled
+// between frames, where rays have requested it. They serve lights and casters that stand still, and
+// point and directional lights.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +15,20 @@
 #include "core/worker_pool.h"
 #include "shadow_cache/caster_tree.h"
 #include "shadow_cache/decide_part.h"
-#include "stages/verdict_view.h"
+#include "stages/shadow_cache_view.h"
 
 namespace whit {
 
 // How triangles are divided, the same for all lights.
-struct VerdictParts {
-  HugeVector<std::uint32_t> first;   // VerdictView::first, of all triangles
+struct ShadowParts {
+  HugeVector<std::uint32_t> first;   // ShadowCacheView::first, of all triangles
   std::vector<std::uint32_t> owner;  // of each part, its triangle
   double finest = 0;                 // cells with edges of no more are not divided
   std::size_t count() const { return owner.size(); }
 
   // Returns none if the scene has too many triangles, or coordinates out of the range of the
   // proofs: its own, or those of its rays in the space of an instance.
-  static VerdictParts of(const Scene& scene);
+  static ShadowParts of(const Scene& scene);
 };
 
 // Which parts are looked at.
@@ -46,20 +45,19 @@ struct FillReport {
 
 inline constexpr std::uint64_t kMostBytesALight = std::uint64_t{32} << 20;
 
-class VerdictTables {
+class ShadowTables {
  public:
   // For the lights of these numbers, in about `mostBytes`, and no more than kMostBytesALight of
   // them for each. Lights have none where that is too little, or while they are too far away. The
   // scene must outlive them.
-  VerdictTables(const Scene& scene, const std::vector<std::size_t>& lights,
-                std::uint64_t mostBytes);
-  ~VerdictTables();
-  VerdictTables(const VerdictTables&) = delete;
-  VerdictTables& operator=(const VerdictTables&) = delete;
+  ShadowTables(const Scene& scene, const std::vector<std::size_t>& lights, std::uint64_t mostBytes);
+  ~ShadowTables();
+  ShadowTables(const ShadowTables&) = delete;
+  ShadowTables& operator=(const ShadowTables&) = delete;
 
   const std::vector<std::size_t>& lights() const { return numbers_; }
   // One a light of the scene; those without a table do not serve. Valid as long as the tables are.
-  const std::vector<VerdictView>& views() const { return views_; }
+  const std::vector<ShadowCacheView>& views() const { return views_; }
 
   // Looks at the parts that rays have missed. Not while a frame is traced.
   FillReport fill(WorkerPool& pool, const FillLimits& limits = {});
@@ -76,15 +74,15 @@ class VerdictTables {
   std::uint64_t fillLight(OfLight& light, WorkerPool& pool, const FillLimits& limits) const;
   void sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const;
   void serve(OfLight& light);
-  PartVerdict decide(const OfLight& light, std::uint32_t part, const simd::CasterKernels& kernels,
-                     PartScratch& scratch) const;
+  PartShadow decide(const OfLight& light, std::uint32_t part, const simd::CasterKernels& kernels,
+                    PartScratch& scratch) const;
 
   const Scene& scene_;
   std::vector<std::size_t> numbers_;
-  VerdictParts parts_;
+  ShadowParts parts_;
   std::unique_ptr<CasterList> casters_;
   std::vector<std::unique_ptr<OfLight>> lights_;
-  std::vector<VerdictView> views_;
+  std::vector<ShadowCacheView> views_;
 };
 
 }  // namespace whit

@@ -1,15 +1,15 @@
 // The shadow cache of one light, as kernels read it. A triangle of the world is divided into parts,
 // 2^n a side by its barycentric weights, and a part that needs it into cells. The cache is filled
-// between frames (shadow_cache/verdict_tables.h).
+// between frames (shadow_cache/shadow_tables.h).
 #pragma once
 
 #include <cstdint>
 
 namespace whit {
 
-// A verdict is a proof: what cannot be proved is mixed, and what has not been looked at, unknown.
-// Rays of both are traced.
-enum class Verdict : std::uint32_t {
+// Lit and dark are proved. A state that cannot be proved is mixed, and one that was not computed
+// yet is unknown; rays of both are traced.
+enum class ShadowState : std::uint32_t {
   unknown,
   lit,   // no shadow ray that starts there meets anything
   dark,  // one opaque triangle is met by all of them
@@ -24,30 +24,30 @@ inline constexpr int kCellsAWord = 16, kWordsARow = kCellsASide / kCellsAWord,
 inline constexpr std::uint32_t kNoParts = 0xffffffffu;
 // The last so many bits of a triangle's word say how many parts it has a side, as a power of two.
 inline constexpr int kPartBits = 4;
-// Along its edges a triangle has a rim without verdicts, where rays all but meet its neighbors: so
-// wide a share of a part.
-inline constexpr float kVerdictRim = 0x1p-8f;
-// Rays have verdicts that start so near to the point of their weights, per axis, in parts of the
-// sum of the sizes that its coordinates are interpolated from. The bound of rounding that rays are
-// lifted by is less, but on slivers.
-inline constexpr float kVerdictReach = 0x1p-20f;
+// Along its edges a triangle has a rim that is never decided, because rays from there almost hit
+// the neighbors. This is its width as a share of a part.
+inline constexpr float kShadowRim = 0x1p-8f;
+// A ray is decided only if it starts this near to the point of its weights, per axis, as a share of
+// the sum of the sizes that the point's coordinates are interpolated from. The rounding bound by
+// which rays are lifted is less, except on slivers.
+inline constexpr float kCachedShadowReach = 0x1p-20f;
 
 // The state of all parts of a triangle together, two bits each: unknown if none is decided, lit or
 // dark if all are, mixed if the parts have to be looked up.
 inline constexpr int kTrianglesAWord = 16;
 
-struct VerdictView {
+struct ShadowCacheView {
   // kTrianglesAWord triangles a word.
   const std::uint32_t* triangles = nullptr;
   // A word a triangle: the number of its first part, shifted by kPartBits; kNoParts.
   const std::uint32_t* first = nullptr;
-  // A word a part, row by row of the second weight: a Verdict, or from 4 on the place of its cells,
-  // shifted by two, plus 4.
+  // A word a part, row by row of the second weight: a ShadowState, or from 4 on the place of its
+  // cells, shifted by two, plus 4.
   const std::uint32_t* parts = nullptr;
-  // kWordsAPlace words a place, a row of cells after the other, two bits a Verdict.
+  // kWordsAPlace words a place, one row of cells after the other, two bits a ShadowState.
   const std::uint32_t* cells = nullptr;
-  // A byte a part: how many rays have missed its verdict, 255 and more alike, and less where
-  // workers count at once. Written while frames are traced, by any worker.
+  // A byte a part: the number of rays that have requested it, at most 255, and less where workers
+  // count at once. Written while frames are traced, by any worker.
   std::uint8_t* wanted = nullptr;
   bool empty = true;  // nothing is known yet
   bool serves() const { return first != nullptr; }

@@ -1,4 +1,4 @@
-#include "render/verdict_schedule.h"
+#include "render/shadow_cache_schedule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@ namespace whit {
 
 namespace {
 
-// Proving a part takes as long as tracing so many shadow rays, or twice as many (whit bench
-// --ab-verdicts).
+// Proving a part takes as long as tracing this many shadow rays, or twice as many (whit bench
+// --ab-shadow-cache).
 constexpr double kRaysAProof = 400;
 // A part is expected to stay in view for at most this many frames of a moving camera.
 constexpr std::size_t kFramesInView = 96;
@@ -17,14 +17,14 @@ constexpr std::size_t kFramesInView = 96;
 // %.
 constexpr double kSamplesATriangle = 250;
 // Of many samples of one view, one is spent on collecting requests.
-constexpr std::size_t kFewestFrames = 2 * VerdictSchedule::kTurns, kFewestSamples = 32;
+constexpr std::size_t kFewestFrames = 2 * ShadowCacheSchedule::kTurns, kFewestSamples = 32;
 constexpr double kMostCounted = 255;
 
 std::size_t samplesOf(const RenderOptions& options) {
   return options.adaptive ? 1 : static_cast<std::size_t>(options.spp);
 }
 
-bool pays(const Scene& scene, const RenderOptions& options, const VerdictRun& run) {
+bool pays(const Scene& scene, const RenderOptions& options, const ShadowCacheRun& run) {
   const std::size_t samples = samplesOf(options);
   if (run.frames < kFewestFrames && samples < kFewestSamples) return false;
   const double traced = static_cast<double>(run.frames) * static_cast<double>(run.pixels) *
@@ -38,16 +38,16 @@ double samplesThatPay(const Scene& scene) {
   return kSamplesATriangle * static_cast<double>(scene.triangles.size());
 }
 
-VerdictSchedule::VerdictSchedule(Renderer& renderer, const VerdictRun& run)
+ShadowCacheSchedule::ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run)
     : renderer_(renderer), run_(run) {
   const RenderOptions& options = renderer.options();
-  if (options.verdicts != Verdicts::automatic || options.mode == Mode::reference) return;
+  if (options.shadowCache != ShadowCacheMode::automatic || options.mode == Mode::reference) return;
   if (!pays(renderer.scene(), options, run)) return;
   renderer_.expectFrames(run.mostBytes, kTurns);
   used_ = renderer_.decidesShadows();
 }
 
-void VerdictSchedule::prepare(const Camera& camera, Film& film) {
+void ShadowCacheSchedule::prepare(const Camera& camera, Film& film) {
   const std::size_t samples = samplesOf(renderer_.options());
   if (!used_ || done_ > 0 || samples < kFewestSamples) return;
   const RenderOptions all = renderer_.options();
@@ -61,18 +61,18 @@ void VerdictSchedule::prepare(const Camera& camera, Film& film) {
   renderer_.expectFrames(run_.mostBytes, kTurns);
 }
 
-void VerdictSchedule::frameDone() {
+void ShadowCacheSchedule::frameDone() {
   if (!used_ || ++done_ % kTurns != 0 || done_ >= run_.frames) return;
   fill(static_cast<double>(std::min(run_.frames - done_, kFramesInView)));
 }
 
 // Each request is expected to occur this many more times.
-void VerdictSchedule::fill(double repeats) {
+void ShadowCacheSchedule::fill(double repeats) {
   const double least = std::ceil(kRaysAProof / repeats);
   if (least <= kMostCounted) {
-    fillMs_ += renderer_.fillVerdicts({.leastRays = static_cast<unsigned>(least)}).ms;
+    fillMs_ += renderer_.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
   }
-  renderer_.forgetAskedVerdicts();
+  renderer_.forgetShadowRequests();
 }
 
 }  // namespace whit

@@ -1,5 +1,5 @@
-// When to look for verdicts of shadow (verdicts/verdict_tables.h) in a run of frames: of those
-// parts of triangles that so many rays ask for that proving costs less than tracing them.
+// Decides when a run of frames fills the shadow cache: for parts of triangles that enough rays
+// request, so that proofs cost less than the rays that they save.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,23 @@
 namespace whit {
 
 // The frames and samples of a run that may use the shadow cache.
-struct VerdictRun {
+struct ShadowCacheRun {
   std::size_t frames = 1;       // to come, of neighboring views
   std::size_t pixels = 0;       // of each
   std::uint64_t mostBytes = 0;  // that tables may take
 };
 
-// Looking for verdicts pays in runs that trace so many samples of pixels.
+// The least number of samples of pixels in a run for which the shadow cache saves time.
 double samplesThatPay(const Scene& scene);
 
-class VerdictSchedule {
+class ShadowCacheSchedule {
  public:
   // One tile of this many collects requests in each frame.
   static constexpr std::uint32_t kTurns = 8;
 
-  // `renderer` must outlive it. Nothing happens where tables would not pay, or --verdicts says off.
-  VerdictSchedule(Renderer& renderer, const VerdictRun& run);
+  // `renderer` must outlive it. Nothing happens where the cache would not save time, or
+  // --shadow-cache is off.
+  ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run);
 
   // Before a frame of many samples: one of a single sample asks for what all of them will. `film`
   // is overwritten.
@@ -39,7 +40,7 @@ class VerdictSchedule {
   void fill(double repeats);
 
   Renderer& renderer_;
-  VerdictRun run_;
+  ShadowCacheRun run_;
   bool used_ = false;
   std::size_t done_ = 0;
   double fillMs_ = 0;

@@ -1,6 +1,6 @@
-// Verdicts of shadow (verdicts/verdict_tables.h) say what the rays would have found: every ray that
-// they decide is traced beside (--verdicts audit), and pictures keep their bits.
-#include "shadow_cache/verdict_tables.h"
+// The shadow cache (shadow_cache/shadow_tables.h) says what the rays would have found: every ray
+// that it decides is traced as well (--shadow-cache audit), and pictures keep their bits.
+#include "shadow_cache/shadow_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include "bake/edit_shading.h"
 #include "core/error.h"
 #include "render/audit_shadows.h"
+#include "render/shadow_cache_schedule.h"
 #include "render/shipped_scene.h"
-#include "render/verdict_schedule.h"
 #include "shadow_cache/caster.h"
 #include "simd/kernels.h"
 
@@ -29,7 +29,7 @@ Picture renderWarm(const Scene& scene, const RenderOptions& options) {
   const Camera camera = chooseCamera(scene, options);
   renderer.expectFrames(kPlenty);
   renderer.render(camera, film);
-  renderer.fillVerdicts();
+  renderer.fillShadowCache();
   Picture picture;
   picture.stats = renderer.render(camera, film);
   picture.image = film.image;
@@ -44,12 +44,12 @@ double decidedShare(const FrameStats& stats) {
   return all > 0 ? static_cast<double>(decided(stats)) / all : 0;
 }
 
-// Every decided ray is right, or this throws; and the bits are those without verdicts. Returns the
+// Fails unless every decided ray is right and the bits are those without the cache. Returns the
 // share of rays that were decided.
 double expectRight(const Scene& scene, RenderOptions options) {
-  options.verdicts = Verdicts::off;
+  options.shadowCache = ShadowCacheMode::off;
   const Picture plain = render(scene, options);
-  options.verdicts = Verdicts::audit;
+  options.shadowCache = ShadowCacheMode::audit;
   const Picture warm = renderWarm(scene, options);
   EXPECT_EQ(firstDifference(plain.image, warm.image), "");
   EXPECT_EQ(plain.stats.of(RayKind::shadow).rays,
@@ -59,20 +59,20 @@ double expectRight(const Scene& scene, RenderOptions options) {
 
 // ---- shipped scenes
 
-class ShippedVerdicts : public testing::TestWithParam<std::string> {};
+class ShippedShadowCache : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedVerdicts, AreRight) { expectRight(load(GetParam()), smallOptions()); }
+TEST_P(ShippedShadowCache, AreRight) { expectRight(load(GetParam()), smallOptions()); }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedVerdicts,
+INSTANTIATE_TEST_SUITE_P(All, ShippedShadowCache,
                          testing::Values("whitted", "glass", "mirrors", "matte", "effects",
                                          "glossy", "landscape?triangles=20000", "atrium"),
                          [](const auto& of) { return of.param.substr(0, of.param.find('?')); });
 
-TEST(Verdicts, DecideMostRaysOfPlainScenes) {
+TEST(ShadowCache, DecideMostRaysOfPlainScenes) {
   EXPECT_GT(expectRight(load("matte"), smallOptions()), 0.9);
 }
 
-TEST(Verdicts, KeepTheBitsOnEveryTargetAndWidth) {
+TEST(ShadowCache, KeepTheBitsOnEveryTargetAndWidth) {
   const Scene& scene = load("matte");
   RenderOptions options = smallOptions();
   options.size = ImageSize{53, 37};
@@ -154,7 +154,7 @@ RenderOptions soupOptions() {
 
 constexpr unsigned kSeeds = 12;
 
-TEST(Verdicts, H84_lightInAPlaneOrAtAnEdge) {
+TEST(ShadowCache, H84_lightInAPlaneOrAtAnEdge) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Soup soup(seed);
     soup.addFloor(0, 3);
@@ -174,7 +174,7 @@ TEST(Verdicts, H84_lightInAPlaneOrAtAnEdge) {
   }
 }
 
-TEST(Verdicts, H85_touchingAndInterpenetratingTriangles) {
+TEST(ShadowCache, H85_touchingAndInterpenetratingTriangles) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Soup soup(seed);
     soup.addFloor(0, 3);
@@ -193,7 +193,7 @@ TEST(Verdicts, H85_touchingAndInterpenetratingTriangles) {
   }
 }
 
-TEST(Verdicts, H86_slivers) {
+TEST(ShadowCache, H86_slivers) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Soup soup(seed);
     soup.addFloor(0, 3);
@@ -211,7 +211,7 @@ TEST(Verdicts, H86_slivers) {
 
 // Far from the origin coordinates are coarse; a caster may be a thousand units away, or the light
 // inside of a mesh.
-TEST(Verdicts, H87_farReceiversFarCastersAndLightsInside) {
+TEST(ShadowCache, H87_farReceiversFarCastersAndLightsInside) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Soup soup(seed);
     soup.addFloor(0, 3);
@@ -236,7 +236,7 @@ TEST(Verdicts, H87_farReceiversFarCastersAndLightsInside) {
 
 // ---- what they must not outlive
 
-TEST(Verdicts, FollowALightThatMoves) {
+TEST(ShadowCache, FollowALightThatMoves) {
   const RenderOptions options = smallOptions();
   Scene scene = load("matte");
   Renderer renderer(scene, options);
@@ -244,7 +244,7 @@ TEST(Verdicts, FollowALightThatMoves) {
   const Camera camera = chooseCamera(scene, options);
   renderer.expectFrames(kPlenty);
   renderer.render(camera, film);
-  renderer.fillVerdicts();
+  renderer.fillShadowCache();
   ASSERT_GT(decided(renderer.render(camera, film)), 0u);
 
   std::vector<Light> lights = scene.lights;
@@ -253,12 +253,12 @@ TEST(Verdicts, FollowALightThatMoves) {
   renderer.shadingChanged();
   EXPECT_EQ(decided(renderer.render(camera, film)), 0u);
   EXPECT_EQ(firstDifference(film.image, render(scene, options).image), "");
-  renderer.fillVerdicts();
+  renderer.fillShadowCache();
   EXPECT_GT(decided(renderer.render(camera, film)), 0u);
   EXPECT_EQ(firstDifference(film.image, render(scene, options).image), "");
 }
 
-TEST(Verdicts, ThereAreNoneForOneFrameNorWhereProofsDoNotReach) {
+TEST(ShadowCache, ThereAreNoneForOneFrameNorWhereProofsDoNotReach) {
   const Scene& scene = load("matte");
   const auto decides = [&](const std::function<void(RenderOptions&)>& change, bool expected) {
     RenderOptions options = smallOptions();
@@ -269,7 +269,7 @@ TEST(Verdicts, ThereAreNoneForOneFrameNorWhereProofsDoNotReach) {
   };
   EXPECT_TRUE(decides([](RenderOptions&) {}, true));
   EXPECT_FALSE(decides([](RenderOptions&) {}, false));
-  EXPECT_FALSE(decides([](RenderOptions& o) { o.verdicts = Verdicts::off; }, true));
+  EXPECT_FALSE(decides([](RenderOptions& o) { o.shadowCache = ShadowCacheMode::off; }, true));
   EXPECT_FALSE(decides([](RenderOptions& o) { o.robust = false; }, true));
   EXPECT_FALSE(decides([](RenderOptions& o) { o.shading.offset = OffsetMethod::fixed; }, true));
   EXPECT_FALSE(
@@ -277,7 +277,7 @@ TEST(Verdicts, ThereAreNoneForOneFrameNorWhereProofsDoNotReach) {
 }
 
 // Half of a picture's parts wait for another time; what does not fit is traced.
-TEST(Verdicts, TablesMayBeFilledInPartsAndBeTooSmall) {
+TEST(ShadowCache, TablesMayBeFilledInPartsAndBeTooSmall) {
   const Scene& scene = load("matte");
   const RenderOptions options = smallOptions();
   const Image plain = render(scene, options).image;
@@ -289,17 +289,17 @@ TEST(Verdicts, TablesMayBeFilledInPartsAndBeTooSmall) {
   Film half = makeFilm(scene, upper);
   renderer.expectFrames(kPlenty);
   renderer.render(camera, half);
-  EXPECT_GT(renderer.fillVerdicts().parts, 0u);
+  EXPECT_GT(renderer.fillShadowCache().parts, 0u);
   const FrameStats some = renderer.render(camera, film);
   EXPECT_GT(decided(some), 0u);
   EXPECT_EQ(firstDifference(film.image, plain), "");
-  EXPECT_GT(renderer.fillVerdicts().parts, 0u);
-  EXPECT_EQ(renderer.fillVerdicts().parts, 0u);
+  EXPECT_GT(renderer.fillShadowCache().parts, 0u);
+  EXPECT_EQ(renderer.fillShadowCache().parts, 0u);
   EXPECT_GT(decided(renderer.render(camera, film)), decided(some));
   EXPECT_EQ(firstDifference(film.image, plain), "");
 
   renderer.expectFrames(1);
-  EXPECT_EQ(renderer.verdictBytes() > kPlenty, false);
+  EXPECT_EQ(renderer.shadowCacheBytes() > kPlenty, false);
   renderer.render(camera, film);
   EXPECT_EQ(firstDifference(film.image, plain), "");
 }
@@ -313,7 +313,7 @@ std::uint64_t decidedInRun(const Scene& scene, RenderOptions options, std::size_
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
-  VerdictSchedule schedule(renderer, {frames, film.image.pixels.size(), kPlenty});
+  ShadowCacheSchedule schedule(renderer, {frames, film.image.pixels.size(), kPlenty});
   FrameStats last;
   for (std::size_t i = 0; i < frames; ++i) {
     schedule.prepare(camera, film);
@@ -325,7 +325,7 @@ std::uint64_t decidedInRun(const Scene& scene, RenderOptions options, std::size_
   return decided(last);
 }
 
-TEST(VerdictSchedule, LooksForThemWhereManySamplesFollow) {
+TEST(ShadowCacheSchedule, LooksForThemWhereManySamplesFollow) {
   const Scene& scene = load("matte");
   RenderOptions options = smallOptions();
   const double pixels = static_cast<double>(makeFilm(scene, options).image.pixels.size());
@@ -333,7 +333,7 @@ TEST(VerdictSchedule, LooksForThemWhereManySamplesFollow) {
   EXPECT_GT(decidedInRun(scene, options, enough), 0u);
   EXPECT_EQ(decidedInRun(scene, options, 2), 0u);
   RenderOptions off = options;
-  off.verdicts = Verdicts::off;
+  off.shadowCache = ShadowCacheMode::off;
   EXPECT_EQ(decidedInRun(scene, off, enough), 0u);
   // One frame alone, of many samples.
   options.spp = static_cast<int>(enough);
@@ -343,33 +343,33 @@ TEST(VerdictSchedule, LooksForThemWhereManySamplesFollow) {
 }
 
 // Each tile has asked after as many frames as there are turns, and only once.
-TEST(VerdictSchedule, TilesTakeTurnsInAsking) {
+TEST(ShadowCacheSchedule, TilesTakeTurnsInAsking) {
   const Scene& scene = load("matte");
   RenderOptions options = smallOptions();
   options.size = ImageSize{130, 70};
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
-  constexpr std::uint32_t kTurns = VerdictSchedule::kTurns;
+  constexpr std::uint32_t kTurns = ShadowCacheSchedule::kTurns;
   renderer.expectFrames(kPlenty, kTurns);
   std::uint64_t parts = 0;
   for (std::uint32_t i = 0; i < kTurns; ++i) {
     renderer.render(camera, film);
-    const std::uint64_t found = renderer.fillVerdicts().parts;
+    const std::uint64_t found = renderer.fillShadowCache().parts;
     EXPECT_LT(found, 2000u);
     parts += found;
   }
   Renderer all(scene, options);
   all.expectFrames(kPlenty);
   all.render(camera, film);
-  EXPECT_EQ(all.fillVerdicts().parts, parts);
+  EXPECT_EQ(all.fillShadowCache().parts, parts);
   for (std::uint32_t i = 0; i < kTurns; ++i) {
     renderer.render(camera, film);
-    EXPECT_EQ(renderer.fillVerdicts().parts, 0u);
+    EXPECT_EQ(renderer.fillShadowCache().parts, 0u);
   }
 }
 
-TEST(VerdictTables, LookAtWhatManyAskForAndAtSomeAtATime) {
+TEST(ShadowTables, LookAtWhatManyAskForAndAtSomeAtATime) {
   const Scene& scene = load("matte");
   const RenderOptions options = smallOptions();
   Renderer renderer(scene, options);
@@ -377,24 +377,24 @@ TEST(VerdictTables, LookAtWhatManyAskForAndAtSomeAtATime) {
   const Camera camera = chooseCamera(scene, options);
   renderer.expectFrames(kPlenty);
   renderer.render(camera, film);
-  const std::uint64_t many = renderer.fillVerdicts({.leastRays = 3}).parts;
+  const std::uint64_t many = renderer.fillShadowCache({.leastRays = 3}).parts;
   EXPECT_GT(many, 0u);
-  EXPECT_LE(renderer.fillVerdicts({.mostParts = 5}).parts, 5 * scene.lights.size());
-  EXPECT_GT(renderer.fillVerdicts({.mostParts = 5}).parts, 0u);
-  renderer.forgetAskedVerdicts();
-  EXPECT_EQ(renderer.fillVerdicts().parts, 0u);
+  EXPECT_LE(renderer.fillShadowCache({.mostParts = 5}).parts, 5 * scene.lights.size());
+  EXPECT_GT(renderer.fillShadowCache({.mostParts = 5}).parts, 0u);
+  renderer.forgetShadowRequests();
+  EXPECT_EQ(renderer.fillShadowCache().parts, 0u);
   EXPECT_EQ(firstDifference(film.image, render(scene, options).image), "");
 }
 
 // ---- the audit itself
 
-TEST(Verdicts, AuditNamesLightAndTriangle) {
+TEST(ShadowCache, AuditNamesLightAndTriangle) {
   FrameStats stats;
   Scene scene = load("matte");
-  EXPECT_NO_THROW(requireRightVerdicts(stats, scene));
-  stats.meter.wrongVerdict = {true, true, 0, 17, {1, 2, 3}, {0, 1, 0}};
+  EXPECT_NO_THROW(requireRightShadows(stats, scene));
+  stats.meter.wrongShadow = {true, true, 0, 17, {1, 2, 3}, {0, 1, 0}};
   try {
-    requireRightVerdicts(stats, scene);
+    requireRightShadows(stats, scene);
     FAIL() << "expected an error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::checkFailed);
@@ -455,12 +455,12 @@ TEST(Receiver, IsWithoutTheRimAndReachesAsFarAsTheKernelLets) {
   // The part at the first edge's middle.
   const Receiver part = receiving.piece({0.25, 0, 0.25});
   ASSERT_GT(part.count, 2u);
-  const double rim = double{kVerdictRim} / 4 * 16;  // of the height over that edge
+  const double rim = double{kShadowRim} / 4 * 16;  // of the height over that edge
   double least = 16;
   for (std::size_t i = 0; i < part.count; ++i) least = std::min(least, part.corners[i].z);
   EXPECT_LT(least, rim);  // kernels look up everything from there on
   EXPECT_GT(least, rim / 2);
-  EXPECT_GT(part.reach, double{kVerdictReach} * 8 * 1.7320508);
+  EXPECT_GT(part.reach, double{kShadowReach} * 8 * 1.7320508);
   EXPECT_EQ(receiving.piece({0.75, 0.75, 0.25}).count, 0u);
   const TriangleRecord sliver{{0, 0, 0, 1, 0, 0, 0.5f, 0, 1e-4f}, {}, 0};
   EXPECT_TRUE(ReceivingTriangle(sliver, 1).isSliver());

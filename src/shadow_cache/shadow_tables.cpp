@@ -1,4 +1,4 @@
-#include "shadow_cache/verdict_tables.h"
+#include "shadow_cache/shadow_tables.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@ namespace whit {
 
 namespace {
 
-// As many parts as a word of VerdictView::first can number would take a gigabyte.
+// As many parts as a word of ShadowCacheView::first can number would take a gigabyte.
 constexpr std::size_t kMostParts = std::size_t{1} << 21;
 constexpr int kMostPartsASide = 256;
 // Beyond it squares of squares leave the range of a float, or fall below it.
@@ -62,8 +62,8 @@ double longestEdge(const TriangleRecord& record) {
 
 }  // namespace
 
-VerdictParts VerdictParts::of(const Scene& scene) {
-  VerdictParts parts;
+ShadowParts ShadowParts::of(const Scene& scene) {
+  ShadowParts parts;
   const Geometry& world = scene.geometries[0];
   const std::size_t count = world.classBegin[kTriangleClasses];
   if (count == 0 || count > kMostParts || scene.triangles.size() >= CasterRef::kBox) return parts;
@@ -97,7 +97,7 @@ VerdictParts VerdictParts::of(const Scene& scene) {
 }
 
 // The table of one light.
-struct VerdictTables::OfLight {
+struct ShadowTables::OfLight {
   OfLight(const Light& light, std::size_t n, std::size_t triangleCount, std::size_t partCount,
           std::size_t most)
       : number(n),
@@ -132,21 +132,21 @@ struct VerdictTables::OfLight {
     seen = mixed = 0;
   }
   // The last answer of each part that was asked for.
-  void keep(std::uint32_t part, const PartVerdict& verdict) {
+  void keep(std::uint32_t part, const PartShadow& state) {
     wanted[part] = 0;
     ++seen;
     const std::size_t place = cells.size() / kWordsAPlace;
-    if (verdict.divided && place < mostCells) {
-      cells.insert(cells.end(), verdict.cells.begin(), verdict.cells.end());
+    if (state.divided && place < mostCells) {
+      cells.insert(cells.end(), state.cells.begin(), state.cells.end());
       parts[part] = static_cast<std::uint32_t>(place + 1) << 2;
       return;
     }
-    const Verdict whole = verdict.divided ? Verdict::mixed : verdict.whole;
-    if (whole == Verdict::mixed) ++mixed;
+    const ShadowState whole = state.divided ? ShadowState::mixed : state.whole;
+    if (whole == ShadowState::mixed) ++mixed;
     parts[part] = static_cast<std::uint32_t>(whole);
   }
-  // Updates the state of a triangle (VerdictView::triangles) from its `count` parts from `begin`
-  // on.
+  // Updates the state of a triangle (ShadowCacheView::triangles) from its `count` parts from
+  // `begin` on.
   void sumUp(std::uint32_t triangle, std::size_t begin, std::size_t count) {
     const std::uint32_t first = parts[begin];
     bool alike = true, any = false;
@@ -164,8 +164,8 @@ struct VerdictTables::OfLight {
   // True if so few parts are decided that filling the cache costs more than it saves.
   bool idle() const { return seen >= kTried && mixed > seen - seen / kLeastUse; }
 
-  static constexpr auto kUnknownWord = static_cast<std::uint32_t>(Verdict::unknown);
-  static constexpr auto kMixedWord = static_cast<std::uint32_t>(Verdict::mixed);
+  static constexpr auto kUnknownWord = static_cast<std::uint32_t>(ShadowState::unknown);
+  static constexpr auto kMixedWord = static_cast<std::uint32_t>(ShadowState::mixed);
   static constexpr std::size_t kTried = 4096, kLeastUse = 8;
   std::size_t number;
   LightPoint point;
@@ -176,12 +176,9 @@ struct VerdictTables::OfLight {
   std::size_t seen = 0, mixed = 0;
 };
 
-VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>& lights,
-                             std::uint64_t mostBytes)
-    : scene_(scene),
-      numbers_(lights),
-      parts_(VerdictParts::of(scene)),
-      views_(scene.lights.size()) {
+ShadowTables::ShadowTables(const Scene& scene, const std::vector<std::size_t>& lights,
+                           std::uint64_t mostBytes)
+    : scene_(scene), numbers_(lights), parts_(ShadowParts::of(scene)), views_(scene.lights.size()) {
   if (parts_.count() == 0 || lights.empty()) return;
   casters_ = std::make_unique<CasterList>(scene);
   const std::uint64_t shared = bytes();
@@ -198,17 +195,17 @@ VerdictTables::VerdictTables(const Scene& scene, const std::vector<std::size_t>&
   }
 }
 
-VerdictTables::~VerdictTables() = default;
+ShadowTables::~ShadowTables() = default;
 
-void VerdictTables::serve(OfLight& light) {
-  VerdictView& view = views_[light.number];
-  view = VerdictView();
+void ShadowTables::serve(OfLight& light) {
+  ShadowCacheView& view = views_[light.number];
+  view = ShadowCacheView();
   if (!inRange(light.point) || light.idle()) return;
   view = {light.triangles.data(), parts_.first.data(), light.parts.data(),
           light.cells.data(),     light.wanted.data(), light.seen == 0};
 }
 
-void VerdictTables::forgetMovedLights() {
+void ShadowTables::forgetMovedLights() {
   for (auto& light : lights_) {
     const LightPoint now = LightPoint::of(scene_.lights[light->number]);
     if (now == light->point) continue;
@@ -218,7 +215,7 @@ void VerdictTables::forgetMovedLights() {
   }
 }
 
-FillReport VerdictTables::fill(WorkerPool& pool, const FillLimits& limits) {
+FillReport ShadowTables::fill(WorkerPool& pool, const FillLimits& limits) {
   const Stopwatch stopwatch;
   FillReport report;
   for (auto& light : lights_) {
@@ -230,36 +227,36 @@ FillReport VerdictTables::fill(WorkerPool& pool, const FillLimits& limits) {
   return report;
 }
 
-void VerdictTables::forgetAsked() {
+void ShadowTables::forgetAsked() {
   for (auto& light : lights_)
     std::fill(light->wanted.begin(), light->wanted.end(), std::uint8_t{0});
 }
 
 // Returns how many parts it looked at.
-std::uint64_t VerdictTables::fillLight(OfLight& light, WorkerPool& pool,
-                                       const FillLimits& limits) const {
+std::uint64_t ShadowTables::fillLight(OfLight& light, WorkerPool& pool,
+                                      const FillLimits& limits) const {
   std::vector<std::uint32_t> asked;
   for (std::size_t i = 0; i < light.wanted.size() && asked.size() < limits.mostParts; ++i) {
     if (light.wanted[i] >= limits.leastRays) asked.push_back(static_cast<std::uint32_t>(i));
   }
   if (asked.empty()) return 0;
   if (!light.tree) light.tree = std::make_unique<CasterTree>(scene_, *casters_, light.point);
-  std::vector<PartVerdict> verdicts(asked.size());
+  std::vector<PartShadow> shadowCache(asked.size());
   const simd::CasterKernels kernels = simd::findCasterKernels();
   std::atomic<std::size_t> next{0};
   pool.run([&](int) {
     PartScratch scratch;
     for (std::size_t i = next++; i < asked.size(); i = next++) {
-      verdicts[i] = decide(light, asked[i], kernels, scratch);
+      shadowCache[i] = decide(light, asked[i], kernels, scratch);
     }
   });
-  for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], verdicts[i]);
+  for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], shadowCache[i]);
   sumUp(light, asked);
   return asked.size();
 }
 
 // Updates the states of the triangles of these parts, which are in order.
-void VerdictTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const {
+void ShadowTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::uint32_t triangle = parts_.owner[parts[i]], word = parts_.first[triangle];
     if (i > 0 && triangle == parts_.owner[parts[i - 1]]) continue;
@@ -268,8 +265,8 @@ void VerdictTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& part
   }
 }
 
-PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,
-                                  const simd::CasterKernels& kernels, PartScratch& scratch) const {
+PartShadow ShadowTables::decide(const OfLight& light, std::uint32_t part,
+                                const simd::CasterKernels& kernels, PartScratch& scratch) const {
   const std::uint32_t triangle = parts_.owner[part], word = parts_.first[triangle];
   const std::uint32_t side = 1u << (word & ((1u << kPartBits) - 1));
   const std::uint32_t at = part - (word >> kPartBits);
@@ -280,7 +277,7 @@ PartVerdict VerdictTables::decide(const OfLight& light, std::uint32_t part,
                     square, scratch);
 }
 
-std::uint64_t VerdictTables::bytes() const {
+std::uint64_t ShadowTables::bytes() const {
   std::uint64_t sum = parts_.first.size() * sizeof(std::uint32_t) +
                       parts_.owner.size() * sizeof(std::uint32_t) +
                       (casters_ ? casters_->bytes() : 0);
