@@ -126,6 +126,8 @@ visit() {
   git -C "$root" archive HEAD | tar -x -C "$system$home/whit"
   within "$system" root chown -R "$user:$user" "$home/whit"
   timed "$visitor scenes/demo.sh" within "$system" "$user" whit/scenes/demo.sh &&
+    timed "$visitor the rest to install" \
+      within "$system" "$user" cmake --build whit/build --target shipped &&
     timed "$visitor cmake --install" \
       within "$system" "$user" cmake --install whit/build --prefix "$home/installed" || status=1
   if ! $brief || [ "$user" = root ]; then
