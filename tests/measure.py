@@ -47,11 +47,6 @@ TRANSPORTED = ["atrium", "whitted", "glass", "sponza-mirror"]
 TRANSPORT_SIZE, TRANSPORT_BUDGET = "96x60", "20"
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
-KERNELS = [("generateRays",), ("packRays", "unpackHits"), ("interpolateSurfels",),
-           ("lookUpRoughness",), ("lookUpCoverage",), ("liftShadowOrigins",),
-           ("writeEmittedAndReflectiveAmbient",),
-           ("findRadianceAndShadowRays",), ("packShadowRays", "unpackVisibility"), ("addShading",),
-           ("addReflections",), ("addRefractions",), ("addGlossyReflections",), ("returnImpulses",)]
 
 
 def complain(text):
@@ -144,9 +139,6 @@ def measure_speed():
                   {"quality": quality}) for quality in ["standard", "draft"]]))
     measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
-    keep("kernels.json", json.loads(run(
-        [BUILD / "tests/kernels_bench", "--benchmark_format=json", "--benchmark_min_time=0.02"],
-        env={**os.environ, "WHIT_SOURCE_DIR": str(ROOT)})))
     measure_viewer()
 
 
@@ -245,38 +237,6 @@ def choice_table(data):
 
     return table(["", *scenes],
                  [[f"`{choice}`"] + [ratio(scene, choice) for scene in scenes] for choice in CHOICES])
-
-
-def kernel_table(data):
-    least, targets = {}, []
-    for one in data["benchmarks"]:
-        if "per_ray" not in one:
-            continue
-        kernel, scene, target = one["name"].split("/")[:3]
-        if target not in targets:
-            targets.append(target)
-        key = kernel, target
-        least[key] = min(one["per_ray"] * 1e9, least.get(key, float("inf")))
-    known = {name for names in KERNELS for name in names}
-    others = [(k,) for k in dict.fromkeys(k for k, _ in least)
-              if k not in known and k not in ("findHits", "checkShadows")]
-
-    def cell(names, target):
-        times = [least[name, target] for name in names if (name, target) in least]
-        return number(sum(times), 2) if times else ""
-
-    rows = [[", ".join(f"`{name}`" for name in names)] + [cell(names, target) for target in targets]
-            for names in KERNELS + others]
-    return table(["ns a ray", *targets], [row for row in rows if any(row[1:])])
-
-
-def effect_table(rows):
-    cells = [[("+ " if i else "") + f"`{row['effect']}`"] +
-             [number(float(row[column]), digits) for column, digits in [
-                 ("frame_ms", 2), ("added_ms", 2), ("added_outside_embree_ms", 2),
-                 ("added_rays", 0), ("added_memory_mb", 2)]] for i, row in enumerate(rows)]
-    return table(["effect", "frame, ms", "added, ms", "of it outside Embree", "added rays",
-                  "added MB"], cells)
 
 
 def depth_table(data):
@@ -521,15 +481,11 @@ def write_speed():
     against = read("spheres-povray.json")
     if against:
         tables["spheres-povray"] = povray_table(against)
-    kernels = read("kernels.json")
-    if kernels:
-        tables["kernels"] = kernel_table(kernels)
     viewer = read("viewer.json")
     if viewer:
         tables["viewer"] = "```\n" + viewer["text"] + "\n```"
     effects = OUT / "effects/effects.csv"
     if effects.exists():
-        tables["effects"] = effect_table(list(csv.DictReader(effects.open())))
         shutil.copy(OUT / "effects/effects.svg", PICTURES / "effects.svg")
     put(SPEED_PAGE, tables)
     put("README.md", {"speed": home_speed(frames)})

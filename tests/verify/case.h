@@ -1,7 +1,7 @@
 // The catalogue of hard cases: situations in which ray tracers go wrong. Each case has a
 // construction, a measure of the error and a bound that the error must keep. whit-verify runs the
-// cases on a user's machine, tests/hard runs them as tests. tests/README.md lists their numbers, H1
-// to H83.
+// cases on a user's machine and prints a table of them, tests/hard runs them as tests. Numbers that
+// have no case here are tested elsewhere; tests/hard/accounted.h says where.
 #pragma once
 
 #include <cmath>

@@ -280,7 +280,7 @@ int run(const std::vector<std::string>& words) {
   list.value({"sheet", "FILE.png"},
              "run no case: write pictures of the scenes in scenes/hard on one sheet", sheet);
   cli::listReportOptions(list, common);
-  list.operands("Cases", "tests/README.md has the list", 0, 0, operands);
+  list.operands("Cases", "a run prints them all", 0, 0, operands);
   const auto parsed = cli::parseOptions(
       "whit-verify [options]",
       "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
