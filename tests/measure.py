@@ -470,8 +470,7 @@ def write_speed():
     require_one_machine([(f"frames-{size}.json", data["machine"]) for size, data in frames] +
                         [(name, data["machine"]) for name, data in files.items() if data])
     tables = {"machine": machine_line(frames[0][1], f"frames-{SIZES[0]}.json")}
-    for size, data in frames:
-        tables["frames-" + size] = frame_table(data)
+    tables["frames-" + SIZES[0]] = frame_table(frames[0][1])
     tables |= {name: make(files[name]) for name, make in made.items() if files[name]}
     if files["effects-kernels"]:
         ratio = files["effects-kernels"]["all_over_auto"][0]
