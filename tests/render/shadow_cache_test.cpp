@@ -460,7 +460,7 @@ TEST(Receiver, IsWithoutTheRimAndReachesAsFarAsTheKernelLets) {
   for (std::size_t i = 0; i < part.count; ++i) least = std::min(least, part.corners[i].z);
   EXPECT_LT(least, rim);  // kernels look up everything from there on
   EXPECT_GT(least, rim / 2);
-  EXPECT_GT(part.reach, double{kShadowReach} * 8 * 1.7320508);
+  EXPECT_GT(part.reach, double{kCachedShadowReach} * 8 * 1.7320508);
   EXPECT_EQ(receiving.piece({0.75, 0.75, 0.25}).count, 0u);
   const TriangleRecord sliver{{0, 0, 0, 1, 0, 0, 0.5f, 0, 1e-4f}, {}, 0};
   EXPECT_TRUE(ReceivingTriangle(sliver, 1).isSliver());
