@@ -215,7 +215,7 @@ HWY_INLINE void LookUpCells(const ShadowCacheView& view, size_t count, LookUps& 
 }
 
 // True in lanes whose rays start as near to the points of their weights as the shadow cache
-// requires (kShadowReach).
+// requires (kCachedShadowReach).
 HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3& start) {
   using R = TriangleRecord;
   const FloatTag d;
@@ -227,7 +227,7 @@ HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3
   const Weights w{hn::Sub(hn::Sub(hn::Set(d, 1.0f), hits.u), hits.v), hits.u, hits.v};
   const VF size = SumOf(Interpolate3(w, Abs3(p0), Abs3(p1), Abs3(p2)));
   const VF away = MaxComponent(Abs3(Sub3(start, Interpolate3(w, p0, p1, p2))));
-  return hn::Le(away, hn::Mul(size, hn::Set(d, kShadowReach)));
+  return hn::Le(away, hn::Mul(size, hn::Set(d, kCachedShadowReach)));
 }
 
 // Counts the requests of rays whose parts are unknown.

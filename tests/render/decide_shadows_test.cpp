@@ -170,7 +170,7 @@ class MadeUp {
     const auto size = [&](int axis) {
       return w * std::fabs(p[axis]) + u * std::fabs(p[3 + axis]) + v * std::fabs(p[6 + axis]);
     };
-    const float reach = kShadowReach * (size(0) + size(1) + size(2));
+    const float reach = kCachedShadowReach * (size(0) + size(1) + size(2));
     const bool near = random_() % 6 != 0;
     Vec3f start{at(0), at(1), at(2)};
     // Clear of what rounding makes of the bound itself.
