@@ -123,18 +123,25 @@ struct Material {
   }
   // Default of castsShadow.
   bool blocksLight() const { return !hasTransmission() && coverage >= 0.5f; }
-  // --cutoff multiplies the weights of impulses that start here by this: 1, or less where weights
-  // can add up to more than 1 (a glossy lobe on glass). So the paths of a pixel never count for
-  // more than 1 together, and a cutoff c leaves at most 1/c of them, whatever the materials and the
+  // --cutoff multiplies the weights of impulses that start here by this: 1, or less for materials
+  // whose weights add up to more than 1 in the mean over directions. So the paths of a pixel count
+  // for about 1 together, and a cutoff c leaves about 1/c of them, whatever the materials and the
   // depth; times the number of samples where a lobe is sampled several times.
   float impulseShare(EffectSet effects) const;
 };
 
+// Schlick's reflectance, averaged over directions by their cosine to the normal: the mean of
+// (1 - cos)^5 is 1/21.
+inline float meanReflectance(const Rgb& normal, const Rgb& grazing) {
+  return maxComponent(normal * (20.0f / 21) + grazing * (1.0f / 21));
+}
+
 inline float Material::impulseShare(EffectSet effects) const {
-  const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
   // Light that is not mirrored is refracted.
-  const float both = hasTransmission() ? std::max(1.0f, coat) : coat;
-  const float lobe = hasGlossyReflection() ? 1.0f : 0.0f;
+  const float both = hasTransmission() ? 1.0f : meanReflectance(mirror, mirrorGrazing);
+  const bool reflectsByLobe = effects.has(Effect::glossyReflection) && hasGlossyReflection();
+  const Rgb grazing(std::min(1.0f, 25 * maxComponent(specular)));
+  const float lobe = reflectsByLobe ? meanReflectance(specular, grazing) : 0.0f;
   const float scattered = diffuses(effects) ? maxComponent(diffuse) : 0.0f;
   return 1 / std::max(1.0f, both + lobe + scattered);
 }

@@ -1,6 +1,8 @@
 // --cutoff ends the doubling of rays, whatever the materials and the depth.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -16,6 +18,58 @@ TEST(ImpulseShare, IsOneWhereTheWeightsAddUpToNoMore) {
   EXPECT_EQ(m.impulseShare({}), 1.0f) << "a mirror coat on glass takes its share from the glass";
   m.mirror = m.mirrorGrazing = Rgb(0);
   EXPECT_EQ(m.impulseShare({}), 1.0f) << "glass: Fresnel's shares add up to 1";
+}
+
+// A lobe that no ray samples takes nothing, and one that is strong at grazing incidence only takes
+// little: in a closed room each surface would lose that share of the light at every bounce.
+TEST(ImpulseShare, CountsLobesThatAreSampledByTheirMean) {
+  Material m = diffuseMaterial(0.9f);
+  m.specular = Rgb(0.04f);
+  const EffectSet indirect = EffectSet().with(Effect::indirect);
+  EXPECT_EQ(m.impulseShare(indirect), 1.0f);
+  EXPECT_EQ(m.impulseShare(indirect.with(Effect::glossyReflection)), 1.0f);
+  m.mirrorGrazing = Rgb(1.0f);
+  m.specular = Rgb(0);
+  EXPECT_EQ(m.impulseShare(indirect), 1.0f);
+  m.mirror = Rgb(0.5f);
+  EXPECT_LT(m.impulseShare(indirect), 0.8f) << "more light than arrives";
+}
+
+// A closed room that emits 1 - a and reflects a has the radiance 1 everywhere, to what the depth
+// cuts off. The default cutoff must not take more, though the material has a lobe for lights.
+TEST(ImpulseShare, ClosedRoomsKeepTheirLight) {
+  for (const float albedo : {0.5f, 0.8f, 0.9f}) {
+    SceneBuilder builder;
+    Material wall = diffuseMaterial(albedo);
+    wall.emission = Rgb(1 - albedo);
+    wall.specular = Rgb(0.04f);
+    builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
+    builder.description.cameras.resize(1);
+    builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
+    builder.description.cameras[0].at = {1, 0, 0};
+    const Scene scene = builder.build();
+    RenderOptions o = smallOptions();
+    o.size = ImageSize{8, 8};
+    o.depth = 64;
+    o.cutoff = RenderOptions().cutoff;
+    o.indirect = 4;
+    const double tail = std::pow(double{albedo}, 65);
+    Renderer renderer(scene, o);
+    for (const bool packets : {false, true}) {
+      Film film = makeFilm(scene, o);
+      if (packets) {
+        renderer.render(chooseCamera(scene, o), film);
+      } else {
+        renderer.renderReference(chooseCamera(scene, o), film);
+      }
+      // Paths end where they count for less than the cutoff, if that is before the depth does.
+      const double bound = std::max(tail, double{o.cutoff} / (1 - double{albedo})) + 1e-4;
+      for (const Rgb& pixel : film.image.pixels) {
+        EXPECT_LE(pixel.x, 1 + 1e-4) << albedo;
+        EXPECT_GE(pixel.x, 1 - bound) << albedo;
+      }
+    }
+  }
 }
 
 // Twenty faces that reflect 0.9 and pass the rest on. Without a cutoff, impulses would double at
