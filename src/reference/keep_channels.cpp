@@ -51,7 +51,7 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
   const CameraFrame frame =
       frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
   const Tracer tracer(scene, intersector, settings);
-  const int spp = settings.options.adaptive ? 1 : settings.options.spp;
+  const int spp = tracer.samplesAdaptively() ? 1 : settings.options.spp;
   const std::vector<Vec2f> samples = samplePattern(spp);
   const std::size_t number = nearestToCenter(samples);
   const Crop& window = image.window;

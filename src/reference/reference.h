@@ -17,6 +17,7 @@
 #include "core/progress.h"
 #include "reference/intersector.h"
 #include "sampling/pixel_edges.h"
+#include "stages/lobes.h"
 #include "stages/ray_kinds.h"
 
 namespace whit::reference {
@@ -74,6 +75,7 @@ class Tracer {
   // Through any place in the pixel, from the top left, whose rays are those of this sample.
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
+  bool samplesAdaptively() const { return whit::samplesAdaptively(options_, scene_.effects); }
   // The first hit of the ray through this place in the pixel, without the ray counts.
   ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const;
 

@@ -164,7 +164,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   const CameraFrame frame =
       frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
   const Tracer tracer(scene, intersector, settings);
-  if (settings.options.adaptive && settings.options.spp > 1) {
+  if (tracer.samplesAdaptively()) {
     return renderAdaptively(tracer, frame, settings, image, progress);
   }
   return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {

@@ -23,6 +23,7 @@
 #include "render/plan.h"
 #include "render/scheduler.h"
 #include "shadow_cache/shadow_tables.h"
+#include "stages/lobes.h"
 
 namespace whit {
 
@@ -118,7 +119,7 @@ class Renderer {
   std::uint64_t memoryBytes() const;           // tables, queues, acceleration structure
 
  private:
-  bool adaptive() const { return options_.adaptive && options_.spp > 1; }
+  bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
   Frame frameOf(const Camera& camera, Film& film, const Crop& window);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/lobes.h"
+
 namespace whit {
 
 namespace {
@@ -20,12 +22,12 @@ constexpr double kSamplesATriangle = 250;
 constexpr std::size_t kFewestFrames = 2 * ShadowCacheSchedule::kTurns, kFewestSamples = 32;
 constexpr double kMostCounted = 255;
 
-std::size_t samplesOf(const RenderOptions& options) {
-  return options.adaptive ? 1 : static_cast<std::size_t>(options.spp);
+std::size_t samplesOf(const Scene& scene, const RenderOptions& options) {
+  return samplesAdaptively(options, scene.effects) ? 1 : static_cast<std::size_t>(options.spp);
 }
 
 bool pays(const Scene& scene, const RenderOptions& options, const ShadowCacheRun& run) {
-  const std::size_t samples = samplesOf(options);
+  const std::size_t samples = samplesOf(scene, options);
   if (run.frames < kFewestFrames && samples < kFewestSamples) return false;
   const double traced = static_cast<double>(run.frames) * static_cast<double>(run.pixels) *
                         static_cast<double>(samples);
@@ -48,7 +50,7 @@ ShadowCacheSchedule::ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRu
 }
 
 void ShadowCacheSchedule::prepare(const Camera& camera, Film& film) {
-  const std::size_t samples = samplesOf(renderer_.options());
+  const std::size_t samples = samplesOf(renderer_.scene(), renderer_.options());
   if (!used_ || done_ > 0 || samples < kFewestSamples) return;
   const RenderOptions all = renderer_.options();
   RenderOptions one = all;

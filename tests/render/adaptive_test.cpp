@@ -123,6 +123,29 @@ TEST(AdaptiveDisplay, EncodesEveryPixel) {
   EXPECT_EQ(film.display.rgba, toDisplay(film.image, 0, ToneCurve::none).rgba);
 }
 
+// Pixels whose first samples agree because none of them found the light must not end there: where
+// lobes are sampled all pixels get all samples, in both modes.
+TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
+  for (const bool glossy : {false, true}) {
+    const Scene scene = load(glossy ? "glossy" : "cornell");
+    RenderOptions all = withSamples(kProbeSamples + 2, false);
+    all.size = ImageSize{24, 18};
+    if (glossy) {
+      all.glossy = 1;
+    } else {
+      all.indirect = 1;
+    }
+    RenderOptions adaptive = all;
+    adaptive.adaptive = true;
+    EXPECT_TRUE(render(scene, adaptive).image.pixels == render(scene, all).image.pixels);
+    Renderer uniform(scene, all), chosen(scene, adaptive);
+    Film a = makeFilm(scene, all), b = makeFilm(scene, adaptive);
+    uniform.renderReference(chooseCamera(scene, all), a);
+    chosen.renderReference(chooseCamera(scene, adaptive), b);
+    EXPECT_TRUE(a.image.pixels == b.image.pixels);
+  }
+}
+
 // Most of what 9 samples everywhere gain, for a third of the rays: the error is far below that of
 // as many rays spread evenly.
 TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
