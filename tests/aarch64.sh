@@ -27,8 +27,7 @@ for program in aarch64-linux-gnu-g++ qemu-aarch64; do
     leaveOut "no $program (apt-get install g++-aarch64-linux-gnu qemu-user)"
 done
 fetchDebian13 "$sysroot" arm64 libembree-dev libhwy-dev libopenexr-dev libpng-dev libjpeg-dev \
-  libtinyobjloader-dev nlohmann-json3-dev libxxhash-dev \
-  zlib1g-dev libgtest-dev libbenchmark-dev
+  nlohmann-json3-dev libxxhash-dev zlib1g-dev libgtest-dev libbenchmark-dev
 
 cat >"$build/toolchain.cmake" <<END
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,46 +1,275 @@
 // OBJ files with their materials as models.
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <map>
-#include <optional>
+#include <set>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "io/line_reader.h"
 #include "io/model.h"
 #include "io/obj/mtl_reader.h"
-#include "io/obj/mtl_text.h"
-#include "io/obj/obj_geometry.h"
-#include "io/obj/obj_text.h"
+#include "io/polygon.h"
 #include "io/read_file.h"
 
 namespace whit {
 
 namespace {
 
-MtlMaterial grayMaterial(const std::string& name, const std::string& where) {
-  MtlMaterial gray;
-  gray.material.name = name;
-  gray.material.diffuse = Rgb(kModelGray);
-  gray.where = where;
-  return gray;
-}
+constexpr std::int32_t kNoIndex = -1;
+constexpr std::int32_t kOutOfRange = std::numeric_limits<std::int32_t>::max();
 
-// A library's name may hold blanks, or the line may name several libraries: the name that exists.
-std::vector<std::string> libraryNames(const std::string& line, const std::filesystem::path& folder,
-                                      const std::string& where, const PathRules& rules) {
-  std::error_code error;
-  if (std::filesystem::exists(rules.resolve(line, folder, where, true), error)) return {line};
-  std::istringstream in(line);
-  std::vector<std::string> names;
-  for (std::string name; in >> name;) names.push_back(name);
-  return names;
-}
+// The numbers of the materials by name.
+using MaterialNumbers = std::map<std::string, std::uint32_t, std::less<>>;
+
+struct ObjCorner {
+  std::int32_t position = kNoIndex, uv = kNoIndex, normal = kNoIndex;  // counted from 0
+};
+
+struct ObjFace {
+  std::uint64_t line = 0;
+  std::uint32_t cornerCount = 0;
+  std::uint32_t material = 0;
+};
+
+// A mesh of faces that all have normals, or that all have none.
+struct ObjMesh {
+  struct Vertex {
+    std::int32_t uv, normal;
+    std::uint32_t older;  // another one at the same position
+  };
+
+  Mesh mesh;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> newest;  // of the vertices at each position
+  bool hasUvs = false;
+};
+
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+class ObjReader {
+ public:
+  // Faces before the first usemtl have the material after the last one of `materials`.
+  ObjReader(const std::string& text, const std::string& file, const MaterialNumbers& materials,
+            MemoryBudget& budget, Warnings& warnings)
+      : lines_(text, file),
+        file_(file),
+        materials_(materials),
+        material_(static_cast<std::uint32_t>(materials.size())),
+        budget_(budget),
+        warnings_(warnings) {}
+
+  // Returns at most two meshes, of the faces with normals at every corner and of those without.
+  // Faces with fewer than three corners or an index out of range are left out and counted; texture
+  // coordinates and normals out of range are ignored and counted.
+  std::vector<Mesh> read() {
+    for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
+    // Each corner may need a vertex and a triangle of its own.
+    budget_.charge(
+        corners_.size(),
+        sizeof(ObjMesh::Vertex) + 2 * sizeof(Vec3f) + sizeof(Vec2f) + 5 * sizeof(std::uint32_t),
+        file_);
+    budget_.charge(positions_.size(), 2 * sizeof(std::uint32_t), file_);
+    ObjMesh flat, smooth;
+    std::size_t first = 0;
+    for (const ObjFace& face : faces_) {
+      const std::span<ObjCorner> corners(corners_.data() + first, face.cornerCount);
+      first += face.cornerCount;
+      if (!check(face, corners)) continue;
+      const bool isFlat = std::any_of(corners.begin(), corners.end(),
+                                      [](const ObjCorner& c) { return c.normal == kNoIndex; });
+      addFace(face, corners, isFlat, isFlat ? flat : smooth);
+    }
+    return finish({&smooth, &flat});
+  }
+
+ private:
+  void statement(std::string_view keyword) {
+    if (keyword == "v") {
+      append(positions_, vector(keyword));
+      double color = 0;
+      if (lines_.number(color) && lines_.number(color) && lines_.number(color)) {
+        warnings_.add("vertex colors left out", lines_.place());
+      }
+    } else if (keyword == "vn") {
+      append(normals_, vector(keyword));
+    } else if (keyword == "vt") {
+      double u = 0, v = 0;
+      if (!lines_.number(u)) throwBadScene(lines_.place(), "expected numbers after \"vt\"");
+      lines_.number(v);
+      append(uvs_, {static_cast<float>(u), static_cast<float>(v)});
+    } else if (keyword == "f") {
+      face();
+    } else if (keyword == "usemtl") {
+      const auto known = materials_.find(lines_.rest());
+      if (known != materials_.end()) material_ = known->second;
+    } else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" ||
+               keyword == "surf") {
+      warnings_.add("points, lines or free forms left out", lines_.place());
+    }
+  }
+
+  Vec3f vector(std::string_view keyword) {
+    double x = 0, y = 0, z = 0;
+    if (!lines_.number(x) || !lines_.number(y) || !lines_.number(z)) {
+      throwBadScene(lines_.place(),
+                    "expected three numbers after \"" + std::string(keyword) + "\"");
+    }
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+  }
+
+  void face() {
+    const std::uint64_t line = lines_.line();
+    std::uint32_t count = 0;
+    for (; lines_.hasMore(); ++count) {
+      ObjCorner corner{index(positions_.size()), kNoIndex, kNoIndex};
+      if (lines_.take('/')) corner.uv = index(uvs_.size());
+      if (lines_.take('/')) corner.normal = index(normals_.size());
+      if (!lines_.finishWord()) corner.position = kOutOfRange;
+      append(corners_, corner);
+    }
+    if (count > 0) append(faces_, {line, count, material_});
+  }
+
+  // The format counts from 1, and negative numbers back from the vertex that was read last.
+  std::int32_t index(std::size_t count) {
+    const std::int64_t written = lines_.integer();
+    if (written > 0) return static_cast<std::int32_t>(written - 1);
+    if (written == 0) return kNoIndex;
+    const std::int64_t fromStart = static_cast<std::int64_t>(count) + written;
+    return fromStart >= 0 ? static_cast<std::int32_t>(fromStart) : kOutOfRange;
+  }
+
+  // Charges the budget before the vector grows.
+  template <typename T>
+  void append(std::vector<T>& to, const T& value) {
+    if (to.size() == to.capacity()) {
+      const std::size_t more = std::max<std::size_t>(to.size(), 64);
+      if (to.size() + more > static_cast<std::size_t>(kOutOfRange)) {
+        throwLimit(file_ + " has more than 2^30 vertices or corners of faces");
+      }
+      budget_.charge(more, sizeof(T), file_);
+      to.reserve(to.size() + more);
+    }
+    to.push_back(value);
+  }
+
+  void warn(const std::string& kind, const ObjFace& face) {
+    warnings_.add(kind, file_ + ":" + std::to_string(face.line));
+  }
+
+  bool check(const ObjFace& face, std::span<ObjCorner> corners) {
+    if (corners.size() < 3) {
+      warn("face with fewer than three corners dropped", face);
+      return false;
+    }
+    const auto isMissing = [](std::int32_t index, const auto& values) {
+      return index >= 0 && static_cast<std::size_t>(index) >= values.size();
+    };
+    for (ObjCorner& c : corners) {
+      if (c.position < 0 || isMissing(c.position, positions_)) {
+        warn("face with a vertex index out of range dropped", face);
+        return false;
+      }
+      if (isMissing(c.uv, uvs_)) {
+        warn("texture coordinate index out of range ignored", face);
+        c.uv = kNoIndex;
+      }
+      if (isMissing(c.normal, normals_)) {
+        warn("normal index out of range ignored", face);
+        c.normal = kNoIndex;
+      }
+    }
+    return true;
+  }
+
+  void addFace(const ObjFace& face, std::span<const ObjCorner> corners, bool isFlat, ObjMesh& to) {
+    points_.clear();
+    vertices_.clear();
+    triangles_.clear();
+    for (ObjCorner corner : corners) {
+      if (isFlat) corner.normal = kNoIndex;
+      points_.emplace_back(positions_[static_cast<std::size_t>(corner.position)]);
+      vertices_.push_back(vertex(corner, to));
+    }
+    if (!triangulate(points_, triangles_)) warn("polygon without a simple outline", face);
+    for (const auto& t : triangles_) {
+      to.mesh.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
+      to.mesh.materials.push_back(face.material);
+      to.mesh.order.push_back(triangleCount_++);
+    }
+  }
+
+  // Corners that agree in position, texture coordinates and normal share a vertex.
+  std::uint32_t vertex(const ObjCorner& corner, ObjMesh& to) const {
+    if (to.newest.empty()) to.newest.resize(positions_.size(), kNoVertex);
+    std::uint32_t& newest = to.newest[static_cast<std::size_t>(corner.position)];
+    // The search is short, so that files with many vertices at one position stay fast.
+    int left = 64;
+    for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = to.vertices[v].older, --left) {
+      if (to.vertices[v].uv == corner.uv && to.vertices[v].normal == corner.normal) return v;
+    }
+    const auto number = static_cast<std::uint32_t>(to.vertices.size());
+    to.vertices.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
+    to.mesh.positions.push_back(positions_[static_cast<std::size_t>(corner.position)]);
+    const bool hasUv = corner.uv != kNoIndex;
+    to.mesh.uvs.push_back(hasUv ? uvs_[static_cast<std::size_t>(corner.uv)] : Vec2f());
+    to.hasUvs |= hasUv;
+    if (corner.normal != kNoIndex) {
+      to.mesh.normals.push_back(normals_[static_cast<std::size_t>(corner.normal)]);
+    }
+    return number;
+  }
+
+  std::vector<Mesh> finish(const std::array<ObjMesh*, 2>& built) {
+    std::vector<Mesh> meshes;
+    for (ObjMesh* const part : built) {
+      if (part->mesh.triangles.empty()) continue;
+      Mesh& mesh = meshes.emplace_back(std::move(part->mesh));
+      if (!part->hasUvs) mesh.uvs.clear();
+      const std::uint32_t first = mesh.materials[0];
+      const auto isFirst = [&](std::uint32_t m) { return m == first; };
+      if (std::all_of(mesh.materials.begin(), mesh.materials.end(), isFirst)) {
+        mesh.materials = {first};
+      }
+    }
+    if (meshes.size() == 1) meshes[0].order.clear();
+    if (meshes.empty()) {
+      warnNothingToDraw(faces_.empty() ? "no faces" : "no face that can be built", file_,
+                        warnings_);
+    }
+    return meshes;
+  }
+
+  LineReader lines_;
+  const std::string& file_;
+  const MaterialNumbers& materials_;
+  std::uint32_t material_;  // of the faces that follow
+  MemoryBudget& budget_;
+  Warnings& warnings_;
+  std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec2f> uvs_;
+  std::vector<ObjCorner> corners_;  // of all faces, one after the other
+  std::vector<ObjFace> faces_;
+  std::uint32_t triangleCount_ = 0;
+  // The face that is being added.
+  std::vector<Vec3d> points_;
+  std::vector<std::uint32_t> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
 
 class ObjModel : public Model {
  public:
-  // Reads the text and the material libraries. A library or a material that is not there is a
+  // Reads the material libraries, but no geometry yet. A library or a material that is missing is a
   // warning; such materials are gray.
   ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
            Warnings& warnings);
@@ -49,66 +278,113 @@ class ObjModel : public Model {
   const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override;
-  // Parses the faces at the first call.
+  // Parses the file at the first call, while other threads decode textures.
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
 
  private:
-  void readMaterials();
+  using Library = std::map<std::string, MtlMaterial>;
+  struct Use {
+    std::string name, where;
+  };
+
+  std::vector<Use> findMaterials(Library& library);
+  void readLibraries(const std::string& line, const std::string& where, Library& library);
+  void addMaterial(const MtlMaterial& source);
 
   std::filesystem::path path_;
+  std::string file_;
   const PathRules& rules_;
   MemoryBudget& budget_;
   Warnings& warnings_;
-  std::optional<ObjText> text_;  // until it is parsed
+  std::string text_;  // empty after it was parsed
+  bool isParsed_ = false;
+  MaterialNumbers numbers_;
   std::vector<MtlMaterial> sources_;
   std::vector<Material> materials_;  // of sources_
   std::vector<Mesh> meshes_;
 };
 
-ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-                   Warnings& warnings)
-    : path_(path), rules_(rules), budget_(budget), warnings_(warnings) {
-  std::string text = readTextFile(path, budget.left());
-  budget.charge(text.size(), 1, path.string());
-  text_.emplace(std::move(text), path.string());
-  const auto warn = [&](const char* kind, const ObjSummary::LeftOut& what) {
-    warnings.add(kind, path.string() + ":" + std::to_string(what.line), what.count);
-  };
-  warn("vertex colors left out", text_->summary().colors);
-  warn("points, lines or free forms left out", text_->summary().others);
-  readMaterials();
-  for (const MtlMaterial& source : sources_) materials_.push_back(source.material);
+MtlMaterial grayMaterial(const std::string& name) {
+  MtlMaterial gray;
+  gray.material.name = name;
+  gray.material.diffuse = Rgb(kModelGray);
+  return gray;
 }
 
-void ObjModel::readMaterials() {
-  const std::filesystem::path folder = path_.parent_path();
-  std::map<std::string, MtlMaterial> library;
-  for (const ObjSummary::Name& line : text_->summary().libraries) {
-    const std::string where = path_.string() + ":" + std::to_string(line.line);
-    for (const std::string& name : libraryNames(line.text, folder, where, rules_)) {
-      const auto file = rules_.resolve(name, folder, where, /*backslashes=*/true);
-      std::error_code error;
-      if (std::filesystem::is_regular_file(file, error)) {
-        readMtl(file, library, warnings_);
-      } else {
-        warnings_.add("material library missing", where + ": " + name);
-      }
+ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
+                   Warnings& warnings)
+    : path_(path),
+      file_(path.string()),
+      rules_(rules),
+      budget_(budget),
+      warnings_(warnings),
+      text_(readTextFile(path, budget.left())) {
+  budget.charge(text_.size(), 1, file_);
+  Library library;
+  for (const Use& use : findMaterials(library)) {
+    const auto known = library.find(use.name);
+    if (known == library.end()) {
+      warnings_.add("material missing, gray instead", use.where + ": " + use.name);
+    }
+    addMaterial(known == library.end() ? grayMaterial(use.name) : known->second);
+  }
+  addMaterial(grayMaterial("default"));
+}
+
+void ObjModel::addMaterial(const MtlMaterial& source) {
+  sources_.push_back(source);
+  materials_.push_back(source.material);
+}
+
+// Searches the text for the lines "mtllib ..." and "usemtl ...", because textures are asked for
+// before the geometry is parsed. Returns each material that is used once.
+std::vector<ObjModel::Use> ObjModel::findMaterials(Library& library) {
+  std::vector<Use> uses;
+  std::set<std::string> libraries;
+  std::uint64_t line = 1;
+  std::size_t lineStart = 0;
+  for (std::size_t at = 0; (at = text_.find("mtl", at)) != std::string::npos;) {
+    const std::size_t start = text_.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
+    line += static_cast<std::uint64_t>(
+        std::count(text_.data() + lineStart, text_.data() + start, '\n'));
+    lineStart = start;
+    at = text_.find_first_of("\r\n", at);
+    LineReader reader(text_, file_, start, line);
+    const std::string_view keyword = reader.word();
+    const std::string name(reader.rest());
+    if (name.empty()) continue;
+    if (keyword == "mtllib" && libraries.insert(name).second) {
+      readLibraries(name, reader.place(), library);
+    } else if (keyword == "usemtl") {
+      const auto number = static_cast<std::uint32_t>(numbers_.size());
+      if (numbers_.emplace(name, number).second) uses.push_back({name, reader.place()});
     }
   }
-  if (text_->summary().materials.size() > kMaterialLimit) {
-    throwLimit(path_.string() + " uses more than " + std::to_string(kMaterialLimit) + " materials");
+  if (uses.size() > kMaterialLimit) {
+    throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
   }
-  for (const ObjSummary::Name& name : text_->summary().materials) {
-    const auto known = library.find(name.text);
-    if (known != library.end()) {
-      sources_.push_back(known->second);
-      continue;
+  return uses;
+}
+
+// The line is one name with blanks if such a file exists, otherwise several names.
+void ObjModel::readLibraries(const std::string& line, const std::string& where, Library& library) {
+  const auto resolve = [&](const std::string& name) {
+    return rules_.resolve(name, path_.parent_path(), where, /*backslashes=*/true);
+  };
+  std::error_code error;
+  std::vector<std::string> names{line};
+  if (!std::filesystem::exists(resolve(line), error)) {
+    std::istringstream words(line);
+    names.assign(std::istream_iterator<std::string>(words), {});
+  }
+  for (const std::string& name : names) {
+    const auto file = resolve(name);
+    if (std::filesystem::is_regular_file(file, error)) {
+      readMtl(file, library, warnings_);
+    } else {
+      warnings_.add("material library missing", where + ": " + name);
     }
-    const std::string where = path_.string() + ":" + std::to_string(name.line);
-    warnings_.add("material missing, gray instead", where + ": " + name.text);
-    sources_.push_back(grayMaterial(name.text, where));
   }
-  sources_.push_back(grayMaterial("default", path_.string()));
 }
 
 TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
@@ -129,17 +405,13 @@ TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const Give
 }
 
 Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
-  if (text_) {
-    meshes_ = readObjGeometry(*text_, budget_, warnings_);
-    if (meshes_.empty()) {
-      warnNothingToDraw(text_->summary().faces == 0 ? "no faces" : "no face that can be built",
-                        path_.string(), warnings_);
-    }
-    text_.reset();
+  if (!std::exchange(isParsed_, true)) {
+    meshes_ = ObjReader(text_, file_, numbers_, budget_, warnings_).read();
+    std::string().swap(text_);
     for (Mesh& mesh : meshes_) mesh.name = path_.stem().string();
   }
   Body body;
-  addParts(meshes_, materials, path_.string(), budget_, body);
+  addParts(meshes_, materials, file_, budget_, body);
   return body;
 }
 

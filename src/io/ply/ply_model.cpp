@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -22,6 +21,7 @@
 #include "core/error.h"
 #include "core/srgb.h"
 #include "io/gltf/triangle_strip.h"
+#include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"
 #include "io/read_file.h"
@@ -260,17 +260,14 @@ double PlyData::number(PlyType type) {
 
 double PlyData::textNumber() {
   for (; at_ < text_.size() && isPlySpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
-  if (at_ < text_.size() && text_[at_] == '+') ++at_;
   double value = 0;
-  const char* end = text_.data() + text_.size();
-  const auto [rest, error] = std::from_chars(text_.data() + at_, end, value);
-  const bool wellFormed =
-      error != std::errc::invalid_argument && (rest == end || isPlySpace(*rest));
-  if (!wellFormed) throwBadScene(place(), "expected a number");
-  const std::size_t first = std::exchange(at_, static_cast<std::size_t>(rest - text_.data()));
-  if (error == std::errc()) return value;
-  // Beyond what a double holds: infinite, or as good as 0.
-  return std::strtod(text_.substr(first, at_ - first).c_str(), nullptr);
+  const char* const end = text_.data() + text_.size();
+  const char* const rest = parseNumber(text_.data() + at_, end, value);
+  if (rest == nullptr || (rest != end && !isPlySpace(*rest))) {
+    throwBadScene(place(), "expected a number");
+  }
+  at_ = static_cast<std::size_t>(rest - text_.data());
+  return value;
 }
 
 double PlyData::binaryNumber(PlyType type) {
@@ -525,10 +522,6 @@ class PlyReader {
         return warnings_.add("face with a vertex index out of range dropped", data.place());
       }
       points_.emplace_back(mesh_.positions[numbers_.back()]);
-    }
-    if (numbers_.size() == 3) {
-      mesh_.triangles.push_back({numbers_[0], numbers_[1], numbers_[2]});
-      return;
     }
     triangles_.clear();
     if (!triangulate(points_, triangles_)) {
