@@ -8,8 +8,7 @@
 #include <random>
 
 #include "accuracy/errors.h"
-#include "accuracy/pace.h"
-#include "accuracy/pareto.h"
+#include "accuracy/findings.h"
 #include "accuracy/scope.h"
 
 namespace whit::accuracy {

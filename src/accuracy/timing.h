@@ -27,6 +27,21 @@ class FrameSource {
   Mode mode_;
 };
 
+struct Interval {
+  double low = 0, high = 0;
+};
+
+// Five values, the fewest, allow this confidence: the median of their distribution is outside their
+// range with a probability of 2 in 32.
+inline constexpr double kMedianConfidence = 0.9;
+
+// The narrowest interval between two order statistics of the values, symmetric about the middle,
+// that holds the median of the distribution with kMedianConfidence at least, whatever the
+// distribution is (the inverted sign test: Conover, Practical Nonparametric Statistics, 1999,
+// section 3.2). It is the whole range of fewer than five values, which is less certain, and 0 to 0
+// of none.
+Interval medianInterval(std::vector<double> values);
+
 // Frames in a row; it begins with `warmUp` frames that do not count.
 struct Block {
   int frames = 1, warmUp = 0;

@@ -5,14 +5,12 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
-#include "accuracy/cause_chart.h"
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
-#include "accuracy/front_chart.h"
-#include "accuracy/knob_chart.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
 #include "cli/app/image_output.h"
@@ -35,9 +33,9 @@ constexpr const char* kAccuracyUsage =
 constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
     "time and in error against a double-precision reference, or against a picture with all light\n"
-    "that can be transported. Writes DIR/report.html, DIR/sweep.csv and the charts\n"
-    "DIR/knobs-SCENE.svg, DIR/pareto-SCENE.svg and DIR/causes-SCENE.svg; references are kept in\n"
-    "DIR/cache.";
+    "that can be transported. Writes DIR/report.html, a page with charts, pictures and tables, "
+    "and\n"
+    "DIR/sweep.csv; references are kept in DIR/cache.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
@@ -108,16 +106,6 @@ std::string readText(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// A name for files: what a scene's name has beyond letters, digits and a few marks becomes '-'.
-std::string fileName(std::string scene) {
-  for (char& c : scene) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_' || c == '.';
-    if (!plain) c = '-';
-  }
-  return scene;
-}
-
 accuracy::RunFacts factsOf(const AccuracyJob& job) {
   const MachineFacts machine = machineFacts();
   accuracy::RunFacts facts;
@@ -166,24 +154,6 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   return sweeps;
 }
 
-void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep>& sweeps,
-                  const accuracy::RunFacts& facts, const std::string& csv) {
-  const WriteScope scope;
-  const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "sweep.csv").string(), csv);
-  writeTextFile((folder / "report.html").string(), accuracy::reportHtml(sweeps, facts));
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    const accuracy::SceneSweep& sweep = sweeps[i];
-    const accuracy::ChartLinks links{i, "report.html"};
-    const std::string name = fileName(sweep.scene) + ".svg";
-    writeTextFile((folder / ("knobs-" + name)).string(),
-                  accuracy::knobSvg(sweep, accuracy::chosenPoints(sweep), links));
-    writeTextFile((folder / ("pareto-" + name)).string(),
-                  accuracy::frontSvg(sweep, accuracy::Against::reference, links));
-    writeTextFile((folder / ("causes-" + name)).string(), accuracy::causeSvg(sweep, links));
-  }
-}
-
 // The exit status.
 int checkAgainst(const AccuracyJob& job, const std::string& csv) {
   const auto before = accuracy::parseCsv(readText(job.check), job.check);
@@ -209,7 +179,11 @@ int accuracyCommand(const Words& words) {
   const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
-  writeResults(job, sweeps, facts, csv);
+  const WriteScope scope;
+  const std::filesystem::path folder(job.out);
+  writeTextFile((folder / "sweep.csv").string(), csv);
+  writeTextFile((folder / "report.html").string(),
+                accuracy::reportPage(accuracy::reportJson(sweeps, facts)));
   return job.check.empty() ? 0 : checkAgainst(job, csv);
 }
 
