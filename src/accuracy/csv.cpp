@@ -116,7 +116,7 @@ std::string fieldOf(const Json& value) {
   return quoted + "\"";
 }
 
-// Splits one line that may hold quoted fields; `at` moves behind its end.
+// Splits one line, whose fields may be quoted, and moves `at` behind its end.
 std::vector<std::string> readLine(const std::string& text, std::size_t& at) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -150,7 +150,7 @@ std::string field(const CsvRow& row, const std::string& name) {
   return found == row.end() ? std::string() : found->second;
 }
 
-// What must agree for two rows to be about the same point, measured alike.
+// Two rows can be compared if their keys are equal: the same point, measured in the same way.
 std::string keyOf(const CsvRow& row) {
   std::string key;
   for (const char* name : {"scene", "width", "height", "kind", "knob", "value"}) {
@@ -180,7 +180,7 @@ void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance&
     const std::optional<double> old = numberIn(before, name), fresh = numberIn(now, name);
     if (!old) return;
     const double limit = *old * (1 + tolerance.relative) + slack;
-    if (fresh && *fresh <= limit) return;  // written so that a NaN has grown
+    if (fresh && *fresh <= limit) return;  // false for NaN, which counts as grown
     grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
                     (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
   };

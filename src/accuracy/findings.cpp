@@ -13,7 +13,7 @@ namespace whit::accuracy {
 
 namespace {
 
-// What the findings call good, at equal samples.
+// Limits of the findings, at equal samples.
 constexpr double kWithinACodePct = 99.9, kGoodFlip = 0.01, kFastFlip = 0.03;
 
 // The upper end of the interval that holds the time of a frame.
@@ -33,8 +33,8 @@ std::string pointText(const Point& point) {
 
 bool isWithin(double value, double noise) { return std::abs(value) <= noise; }
 
-// Whether the point takes less time than the baseline, beyond the noise.
-bool savesTime(const Point& point, const Trade& noise) {
+// True if the point takes less time than the baseline, beyond the noise.
+bool savesTime(const Point& point, const Noise& noise) {
   const Timing& t = point.timing;
   const bool noiseAlone =
       isWithin(t.ratio - 1, noise.time) || (t.hasSpread() && t.ratioLow <= 1 && t.ratioHigh >= 1);
@@ -55,18 +55,18 @@ std::vector<const Point*> bestTimed(const std::vector<const Point*>& values) {
 
 // The point that represents a knob, of all its values.
 const Point* chosenOf(const std::vector<const Point*>& values, const SceneSweep& sweep) {
-  const Point& baseline = sweep.points.front();
-  const Trade noise = noiseOf(sweep);
+  const double baseFlip = sweep.points.front().total.flipMean;
+  const Noise noise = noiseOf(sweep);
   const Point *saving = nullptr, *best = nullptr;
   double least = values.front()->total.flipMean;
   for (const Point* point : values) least = std::min(least, point->total.flipMean);
   for (const Point* point : bestTimed(values)) {
-    const bool visible = tradeOf(*point, baseline).error >= kVisibleFlip;
+    const bool visible = point->total.flipMean - baseFlip >= kVisibleFlip;
     if (savesTime(*point, noise) && !visible) saving = cheaper(saving, point);
   }
   if (saving) return saving;
   for (const Point* point : values) {
-    if (isWithin(point->total.flipMean - least, noise.error)) best = cheaper(best, point);
+    if (isWithin(point->total.flipMean - least, noise.flip)) best = cheaper(best, point);
   }
   return best ? best : values.front();
 }
@@ -149,11 +149,7 @@ std::string choiceText(const SceneSweep& sweep) {
   return text + ".";
 }
 
-Trade tradeOf(const Point& point, const Point& baseline) {
-  return {point.timing.ratio - 1, point.total.flipMean - baseline.total.flipMean};
-}
-
-Trade noiseOf(const SceneSweep& sweep) {
+Noise noiseOf(const SceneSweep& sweep) {
   std::vector<double> spreads;
   for (const Point& point : sweep.points) {
     if (point.kind != PointKind::baseline && point.timing.hasSpread())

@@ -33,16 +33,12 @@ const Point* bestWithin(const SceneSweep& sweep, double ms);
 // One sentence: "whitted at 256x256 pixels: in 16 ms choose draft (FLIP 0.0812), in 100 ms ...".
 std::string choiceText(const SceneSweep& sweep);
 
-// What a point changes against the baseline; negative is better.
-struct Trade {
-  double time = 0;   // share of the baseline's time: -0.3 is 30 % less
-  double error = 0;  // mean FLIP against the truth
+// Smaller changes against the baseline cannot be told from none.
+struct Noise {
+  double time = 0;  // the median spread of the times, as a share of the baseline's time
+  double flip = 0;  // the error that rounding leaves in the baseline
 };
-Trade tradeOf(const Point& point, const Point& baseline);
-
-// Changes below this cannot be told from none: the median spread of the times, and the error that
-// rounding leaves in the baseline.
-Trade noiseOf(const SceneSweep& sweep);
+Noise noiseOf(const SceneSweep& sweep);
 
 // A larger increase of FLIP is called visible.
 inline constexpr double kVisibleFlip = 0.01;

@@ -33,7 +33,7 @@ struct Timing {
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
-  // Whether the other's time is within the spread of this one's.
+  // True if the other's time is within the spread of this one.
   bool reaches(const Timing& other) const {
     return ratioLow <= other.ratio && other.ratio <= ratioHigh;
   }
@@ -69,7 +69,7 @@ struct Point {
   // or the picture with all transport if the point has all transport.
   ImageDifference sampling;
   ImageDifference algorithm;  // against the same pipeline without approximations
-  // That limit against the truth, if the truth has all transport.
+  // The limit for many samples against the truth, if the truth has all transport.
   std::optional<ImageDifference> transport;
   // Against the exact scalar reference with equal samples, if the point has the baseline's samples.
   std::optional<ImageDifference> sameSamples;
@@ -92,10 +92,11 @@ struct IdleKnob {
   std::string name, because;
 };
 
-// What is known of the picture with all transport.
+// The picture with all transport, without its pixels.
 struct TransportFacts {
   int passes = 0, samples = 0;
-  double standardError = 0, meanRadiance = 0, noiseFlip = 0;  // see TransportPicture
+  double standardError = 0, meanRadiance = 0;  // see PassMean
+  double noiseFlip = 0;                        // mean FLIP between the even passes and the odd ones
   double renderMs = 0;
   bool fromFile = false;
   std::string digest;
@@ -105,7 +106,6 @@ struct SceneSweep {
   std::string scene;
   int width = 0, height = 0;
   Machine machine;
-  double loadMs = 0;
   int referenceSamples = 0;
   float referenceCutoff = 0;
   std::string referenceDigest;

@@ -48,14 +48,14 @@ Json stagesJson(const SceneSweep& sweep) {
 }
 
 Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
-  const Trade noise = noiseOf(sweep);
+  const Noise noise = noiseOf(sweep);
   Json scene{{"scene", sweep.scene},
              {"width", sweep.width},
              {"height", sweep.height},
              {"packet", sweep.machine.packet},
              {"reference", referenceText(sweep)},
              {"noise_time", noise.time},
-             {"noise_flip", noise.error},
+             {"noise_flip", noise.flip},
              {"visible_flip", kVisibleFlip},
              {"noisy_pct", kNoisyPct},
              {"least_rounds", kLeastRounds},

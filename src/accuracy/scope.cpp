@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/pass_mean.h"
+#include "accuracy/reference_cache.h"
 
 namespace whit::accuracy {
 

@@ -95,8 +95,9 @@ int effectsCommand(const Words& words) {
   EffectsJob job;
   OptionList list;
   list.group("Measuring");
-  list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
-  list.value({"frames", "N", 1, 1e6}, "frames of each step that count", job.frames);
+  list.value({"out", "DIR"}, "folder for the results; it is made if it does not exist", job.out);
+  list.value({"frames", "N", 1, 1e6}, "number of frames that are measured for each step",
+             job.frames);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);

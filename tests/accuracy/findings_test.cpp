@@ -227,7 +227,7 @@ TEST(Noise, IsTheMedianSpread) {
   sweep.points[4].timing.rounds = 1;
   sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
   EXPECT_NEAR(noiseOf(sweep).time, 0.1, 1e-12);
-  EXPECT_EQ(noiseOf(sweep).error, 0.0015);
+  EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
 }
 
 // Bounds that are broken make a finding fail.
