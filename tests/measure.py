@@ -15,7 +15,6 @@ its model ($WHIT_DATA), the viewer's figures a display or Xvfb; without them the
 import argparse
 import csv
 import datetime
-import html
 import json
 import os
 import pathlib
@@ -310,11 +309,15 @@ def transport_charts(scenes):
                      f"(../../scenes/pictures/transport-{scene}.svg)" for scene in scenes)
 
 
+def report_data(folder):
+    """The JSON in the report of a command."""
+    page = (OUT / folder / "report.html").read_text()
+    return json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
+
+
 def choices():
     """The sentences of the report, a line each."""
-    page = (OUT / "transport/report.html").read_text()
-    found = re.findall(r'<p class="choice">(.*?)</p>', page)
-    return "\n".join("- " + html.unescape(sentence) for sentence in found)
+    return "\n".join("- " + scene["choice"] for scene in report_data("transport")["scenes"])
 
 
 def sweep(folder="accuracy"):
@@ -485,15 +488,23 @@ def write_speed():
         tables["viewer"] = "```\n" + viewer["text"] + "\n```"
     effects = OUT / "effects/effects.csv"
     if effects.exists():
-        shutil.copy(OUT / "effects/effects.svg", PICTURES / "effects.svg")
+        put_charts("effects", {"effects": "effects.svg"})
     put(SPEED_PAGE, tables)
     put("README.md", {"speed": home_speed(frames)})
 
 
-def put_chart(made, picture, folder="accuracy"):
-    """A chart of a sweep without its links, which lead to the report beside it."""
-    chart = (OUT / folder / made).read_text()
-    (PICTURES / picture).write_text(re.sub(r"</?a\b[^>]*>", "", chart))
+def put_charts(folder, pictures):
+    """Charts of a report, by their names, as files: Chromium draws them. Their links are left out."""
+    browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if not browser:
+        return complain("there is no Chromium: the pictures of charts stay as they are")
+    drawn = subprocess.run(
+        [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000",
+         "--dump-dom", (OUT / folder / "report.html").as_uri()],
+        capture_output=True, text=True, check=True).stdout
+    for name, picture in pictures.items():
+        chart = re.search(rf'<svg [^>]*data-chart="{re.escape(name)}".*?</svg>', drawn, re.DOTALL)[0]
+        (PICTURES / picture).write_text(re.sub(r"</?a\b[^>]*>", "", chart) + "\n")
 
 
 def write_accuracy():
@@ -510,7 +521,7 @@ def write_accuracy():
     if rows:
         tables |= {"presets": preset_table(rows), "knobs": knob_table(rows),
                    "standard": standard_table(rows), "adaptive": adaptive_table(rows)}
-        put_chart("knobs-whitted.svg", "accuracy-whitted.svg")
+        put_charts("accuracy", {"knobs-whitted": "accuracy-whitted.svg"})
     put(ACCURACY_PAGE, tables)
     put("README.md", {"accuracy": home_accuracy(compared)})
 
@@ -522,8 +533,7 @@ def write_transport():
     swept = {key: rows[0][key] for key in machine["machine"]}
     swept["cores"] = int(swept["cores"])
     require_one_machine([("transport.json", machine["machine"]), ("transport/sweep.csv", swept)])
-    for scene in sweep_scenes(rows):
-        put_chart(f"pareto-{scene}.svg", f"transport-{scene}.svg", "transport")
+    put_charts("transport", {f"pareto-{scene}": f"transport-{scene}.svg" for scene in sweep_scenes(rows)})
     put(ACCURACY_PAGE, {"transport-machine": machine_line(machine, "transport.json"),
                         "transport-choices": choices(),
                         "transport-charts": transport_charts(sweep_scenes(rows)), "transport-causes": transport_table(rows)})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/error.h"
@@ -13,135 +14,109 @@ namespace whit::accuracy {
 
 namespace {
 
-// Rows of fields that all name their column; the header follows from the first row.
-class CsvWriter {
- public:
-  void text(const std::string& name, const std::string& value) {
-    if (first_) header_ += (header_.empty() ? "" : ",") + name;
-    if (!row_.empty() || begun_) row_ += ',';
-    begun_ = true;
-    row_ += quoted(value);
-  }
-  void number(const std::string& name, double value) {
-    text(name, std::isfinite(value) ? formatted("%.7g", value) : value > 0 ? "inf" : "nan");
-  }
-  void end() {
-    rows_ += row_ + "\n";
-    row_.clear();
-    first_ = begun_ = false;
-  }
-  std::string all() const { return header_ + "\n" + rows_; }
+// JSON has no number for what is not finite.
+Json numberOf(double value) {
+  return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "nan");
+}
 
- private:
-  static std::string quoted(const std::string& value) {
-    if (value.find_first_of(",\"\n") == std::string::npos) return value;
-    std::string text = "\"";
-    for (const char c : value) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + "\"";
-  }
+template <typename Value>
+Json orNull(bool known, const Value& value) {
+  return known ? Json(value) : Json();
+}
 
-  std::string header_, rows_, row_;
-  bool first_ = true, begun_ = false;
-};
-
-void writeDifference(CsvWriter& csv, const std::string& group, const ImageDifference* d) {
-  const auto put = [&](const char* name, double value) {
-    if (d) {
-      csv.number(group + name, value);
-    } else {
-      csv.text(group + name, "");
-    }
+// Null: the difference was not measured.
+void addDifference(Json& row, const std::string& group, const ImageDifference* d) {
+  const auto add = [&](const char* name, double value) {
+    row[group + name] = d ? numberOf(value) : Json();
   };
   const ImageDifference none, &e = d ? *d : none;
-  put("_rmse", e.rmse);
-  put("_relmse", e.relmse);
-  put("_psnr_db", e.psnrDb);
-  put("_flip", e.flipMean);
-  put("_max_code", e.maxCode);
-  put("_ge1_pct", e.pixelsGe1CodePct);
-  put("_ge2_pct", e.pixelsGe2CodesPct);
-  put("_energy", e.energyRatio);
+  add("_rmse", e.rmse);
+  add("_relmse", e.relmse);
+  add("_psnr_db", e.psnrDb);
+  add("_flip", e.flipMean);
+  add("_max_code", e.maxCode);
+  add("_ge1_pct", e.pixelsGe1CodePct);
+  add("_ge2_pct", e.pixelsGe2CodesPct);
+  add("_energy", e.energyRatio);
 }
 
-void writeTiming(CsvWriter& csv, const Point& point) {
+void addTiming(Json& row, const Point& point) {
   const Timing& t = point.timing;
-  csv.number("frames", t.frames);
-  csv.number("median_ms", t.medianMs);
-  csv.number("least_ms", t.leastMs);
-  csv.number("rounds", t.rounds);
-  csv.number("x_baseline", t.ratio);
-  const auto bound = [&](const char* name, double value) {
-    csv.text(name, t.hasSpread() ? formatted("%.7g", value) : "");
-  };
-  bound("x_baseline_low", t.ratioLow);
-  bound("x_baseline_high", t.ratioHigh);
-  csv.text("noisy", t.noisy() ? "yes" : "no");
-  csv.number("settled_ms", t.settledMs);
-  for (std::size_t k = 0; k < kRayKindCount; ++k) {
-    csv.text(std::string(kRayKinds[k].name) + "_rays",
-             std::to_string(point.stats.meter.tally[k].rays));
-  }
+  row["frames"] = t.frames;
+  row["median_ms"] = t.medianMs;
+  row["least_ms"] = t.leastMs;
+  row["rounds"] = t.rounds;
+  row["x_baseline"] = numberOf(t.ratio);
+  row["x_baseline_low"] = orNull(t.hasSpread(), t.ratioLow);
+  row["x_baseline_high"] = orNull(t.hasSpread(), t.ratioHigh);
+  row["noisy"] = t.noisy();
+  row["settled_ms"] = numberOf(t.settledMs);
+  for (std::size_t k = 0; k < kRayKindCount; ++k)
+    row[std::string(kRayKinds[k].name) + "_rays"] = point.stats.meter.tally[k].rays;
 }
 
-void writeErrors(CsvWriter& csv, const Point& point) {
-  writeDifference(csv, "total", &point.total);
-  csv.number("total_hdr_flip", point.totalHdrFlip);
-  writeDifference(csv, "same_samples", point.sameSamples ? &*point.sameSamples : nullptr);
-  writeDifference(csv, "sampling", &point.sampling);
-  writeDifference(csv, "algorithm", &point.algorithm);
-  const ArithmeticError* a = point.arithmetic ? &*point.arithmetic : nullptr;
-  writeDifference(csv, "arithmetic", a ? &a->samePath : nullptr);
-  writeDifference(csv, "transport", point.transport ? &*point.transport : nullptr);
-  const auto optional = [&](const char* name, double value) {
-    csv.text(name, a ? formatted("%.6g", value) : "");
-  };
-  optional("path_flips", a ? static_cast<double>(a->divergences) : 0);
-  optional("path_flips_per_mpx", a ? a->divergencesPerMpx : 0);
-  optional("median_ulp", a ? a->medianUlp : 0);
-  optional("p999_ulp", a ? a->ulp999 : 0);
-  optional("worst_ulp", a ? a->worstUlp : 0);
-  csv.text("nonfinite", std::to_string(point.total.nonFinite));
-  csv.text("front", point.onFront ? "yes" : "no");
-  csv.text("covers_neighbor", point.coversNeighbor ? "yes" : "no");
-  csv.text("front_same_samples", point.onFrontSameSamples ? "yes" : "no");
+void addErrors(Json& row, const Point& point) {
+  addDifference(row, "total", &point.total);
+  row["total_hdr_flip"] = numberOf(point.totalHdrFlip);
+  addDifference(row, "same_samples", point.sameSamples ? &*point.sameSamples : nullptr);
+  addDifference(row, "sampling", &point.sampling);
+  addDifference(row, "algorithm", &point.algorithm);
+  const ArithmeticError* const a = point.arithmetic ? &*point.arithmetic : nullptr;
+  addDifference(row, "arithmetic", a ? &a->samePath : nullptr);
+  addDifference(row, "transport", point.transport ? &*point.transport : nullptr);
+  row["path_flips"] = a ? Json(a->divergences) : Json();
+  row["path_flips_per_mpx"] = a ? numberOf(a->divergencesPerMpx) : Json();
+  row["median_ulp"] = a ? numberOf(a->medianUlp) : Json();
+  row["p999_ulp"] = a ? numberOf(a->ulp999) : Json();
+  row["worst_ulp"] = a ? numberOf(a->worstUlp) : Json();
+  row["nonfinite"] = point.total.nonFinite;
+  row["front"] = point.onFront;
+  row["covers_neighbor"] = point.coversNeighbor;
+  row["front_same_samples"] = point.onFrontSameSamples;
 }
 
-void writeTruth(CsvWriter& csv, const SceneSweep& sweep) {
-  csv.text("truth", kTruthNames[static_cast<std::size_t>(sweep.truth())]);
-  const TransportFacts* t = sweep.transport ? &*sweep.transport : nullptr;
-  const auto put = [&](const char* name, double value) {
-    csv.text(name, t ? formatted("%.7g", value) : "");
-  };
-  put("truth_passes", t ? t->passes : 0);
-  put("truth_samples", t ? t->samples : 0);
-  put("truth_standard_error", t ? t->standardError : 0);
-  put("truth_mean_radiance", t ? t->meanRadiance : 0);
-  put("truth_noise_flip", t ? t->noiseFlip : 0);
-  csv.text("truth_digest", t ? t->digest : "");
-}
-
-void writeRun(CsvWriter& csv, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
+void addRun(Json& row, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
   std::string options;
   for (const auto& [name, value] : pictureOptions(point.options)) {
     options += (options.empty() ? "" : " ") + name + "=" + value;
   }
-  csv.text("options", options);
-  csv.number("reference_samples", sweep.referenceSamples);
-  csv.text("reference_cutoff", formatted("%g", static_cast<double>(sweep.referenceCutoff)));
-  csv.text("reference_digest", sweep.referenceDigest);
-  writeTruth(csv, sweep);
-  csv.text("sweep", facts.full ? "full" : "quick");
-  csv.number("seed", facts.seed);
-  csv.text("cpu", facts.cpu);
-  csv.number("cores", facts.cores);
-  csv.number("threads", sweep.machine.threads);
-  csv.text("simd", sweep.machine.simd);
-  csv.text("embree", sweep.machine.embree);
-  csv.text("compiler", facts.compiler);
-  csv.text("commit", facts.commit);
+  row["options"] = options;
+  row["reference_samples"] = sweep.referenceSamples;
+  row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
+  row["reference_digest"] = sweep.referenceDigest;
+  row["truth"] = kTruthNames[static_cast<std::size_t>(sweep.truth())];
+  const bool known = sweep.transport.has_value();
+  const TransportFacts t = sweep.transport.value_or(TransportFacts());
+  row["truth_passes"] = orNull(known, t.passes);
+  row["truth_samples"] = orNull(known, t.samples);
+  row["truth_standard_error"] = orNull(known, t.standardError);
+  row["truth_mean_radiance"] = orNull(known, t.meanRadiance);
+  row["truth_noise_flip"] = orNull(known, t.noiseFlip);
+  row["truth_digest"] = orNull(known, t.digest);
+  row["sweep"] = facts.full ? "full" : "quick";
+  row["seed"] = facts.seed;
+  row["cpu"] = facts.cpu;
+  row["cores"] = facts.cores;
+  row["threads"] = sweep.machine.threads;
+  row["simd"] = sweep.machine.simd;
+  row["embree"] = sweep.machine.embree;
+  row["compiler"] = facts.compiler;
+  row["commit"] = facts.commit;
 }
 
-// Splits one line that may hold quoted fields; `at` moves behind its end.
+std::string fieldOf(const Json& value) {
+  if (value.is_null()) return {};
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return formatted("%.7g", value.get<double>());
+  if (!value.is_string()) return value.dump();
+  const auto& text = value.get_ref<const std::string&>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+// Splits one line, whose fields may be quoted, and moves `at` behind its end.
 std::vector<std::string> readLine(const std::string& text, std::size_t& at) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -175,7 +150,7 @@ std::string field(const CsvRow& row, const std::string& name) {
   return found == row.end() ? std::string() : found->second;
 }
 
-// What must agree for two rows to be about the same point, measured alike.
+// Two rows can be compared if their keys are equal: the same point, measured in the same way.
 std::string keyOf(const CsvRow& row) {
   std::string key;
   for (const char* name : {"scene", "width", "height", "kind", "knob", "value"}) {
@@ -205,7 +180,7 @@ void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance&
     const std::optional<double> old = numberIn(before, name), fresh = numberIn(now, name);
     if (!old) return;
     const double limit = *old * (1 + tolerance.relative) + slack;
-    if (fresh && *fresh <= limit) return;  // written so that a NaN has grown
+    if (fresh && *fresh <= limit) return;  // false for NaN, which counts as grown
     grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
                     (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
   };
@@ -223,24 +198,41 @@ void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance&
 
 }  // namespace
 
-std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
-  CsvWriter csv;
-  for (const SceneSweep& sweep : sweeps) {
-    for (const Point& point : sweep.points) {
-      csv.text("scene", sweep.scene);
-      csv.number("width", sweep.width);
-      csv.number("height", sweep.height);
-      csv.text("kind", kPointKindNames[static_cast<std::size_t>(point.kind)]);
-      csv.text("knob", point.knob);
-      csv.text("value", point.value);
-      csv.text("cause", point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "");
-      writeTiming(csv, point);
-      writeErrors(csv, point);
-      writeRun(csv, sweep, point, facts);
-      csv.end();
-    }
+Json sweepRows(const SceneSweep& sweep, const RunFacts& facts) {
+  Json rows = Json::array();
+  for (const Point& point : sweep.points) {
+    Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
+    row["kind"] = kPointKindNames[static_cast<std::size_t>(point.kind)];
+    row["knob"] = point.knob;
+    row["value"] = point.value;
+    row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
+    addTiming(row, point);
+    addErrors(row, point);
+    addRun(row, sweep, point, facts);
+    rows.push_back(std::move(row));
   }
-  return csv.all();
+  return rows;
+}
+
+std::string csvOf(const Json& rows) {
+  std::string text;
+  const auto addLine = [&](const Json& row, const auto& field) {
+    std::string line;
+    for (const auto& item : row.items()) line += "," + field(item);
+    text += line.substr(std::min<std::size_t>(line.size(), 1)) + "\n";
+  };
+  if (rows.empty()) return text;
+  addLine(rows.front(), [](const auto& item) { return item.key(); });
+  for (const Json& row : rows) addLine(row, [](const auto& item) { return fieldOf(item.value()); });
+  return text;
+}
+
+std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
+  Json all = Json::array();
+  for (const SceneSweep& sweep : sweeps) {
+    for (Json& row : sweepRows(sweep, facts)) all.push_back(std::move(row));
+  }
+  return csvOf(all);
 }
 
 std::vector<CsvRow> parseCsv(const std::string& text, const std::string& name) {

@@ -47,7 +47,7 @@ std::string Digester::hex() const {
 
 namespace {
 
-// Types whose bytes are their value: no padding, no pointers.
+// True for types without padding and pointers, whose bytes are their value.
 template <typename T>
 constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <typename T>
@@ -87,7 +87,8 @@ void add(Digester& d, const std::optional<T>& value) {
 
 void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
 
-// The bindings below name every member: one that is added does not compile before it is here.
+// The bindings below name every member, so that a new member does not compile until it is added
+// here.
 void add(Digester& d, const Medium& medium) {
   const auto& [ior, absorption, priority] = medium;
   add(d, ior), add(d, absorption), add(d, priority);
@@ -144,7 +145,7 @@ std::string digestOf(const Scene& scene) {
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);
-  addTable(d, coplanar.ranks());  // everything else in it follows from the tables
+  addTable(d, coplanar.ranks());  // the rest of it follows from the other tables
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

@@ -1,4 +1,4 @@
-// Digests of all that a picture depends on, 128 bits of XXH3 as 32 hexadecimal digits.
+// Digests of everything that a picture depends on: 128 bits of XXH3 as 32 hexadecimal digits.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class Digester {
   Digester& operator=(const Digester&) = delete;
 
   void bytes(const void* data, std::size_t size);
-  // Preceded by its length, so that "ab", "c" and "a", "bc" differ.
+  // Adds the length first, so that "ab", "c" and "a", "bc" differ.
   void text(std::string_view text);
   std::string hex() const;
 
@@ -29,16 +29,17 @@ class Digester {
   std::unique_ptr<State> state_;
 };
 
-// Every table of the finalized scene that a picture can depend on. Its name, its own size, its
-// cameras and the reasons for its effects are left out: what is used of them comes from elsewhere.
+// Covers every table of the finalized scene that a picture can depend on, but not its name, its own
+// size, its cameras and the reasons for its effects: a picture takes these from its options and
+// from its camera.
 std::string digestOf(const Scene& scene);
-// Every option that can change a picture, but the name of the preset:
-// what it stands for is in the others.
+// Covers every option that can change a picture, except for the name of the preset, which stands
+// for values of the others.
 std::string digestOf(const RenderOptions& options);
 std::string digestOf(const Camera& camera);
-// Size, window and the bits of all pixels.
+// Covers size, window and the bits of all pixels.
 std::string digestOf(const Image& image);
-// The program that is running, "unknown" where it cannot be read.
+// The digest of the file of the running program; "unknown" if it cannot be read.
 std::string digestOfProgram();
 
 }  // namespace whit::accuracy

@@ -14,7 +14,7 @@ namespace whit::accuracy {
 
 namespace {
 
-// In units of the last place of the reference pixel's largest channel.
+// The largest difference of a channel, in units of the last place of the largest channel of `b`.
 double ulpsApart(const Rgb& a, const Rgb& b) {
   const float largest = maxComponent(abs(b));
   if (!std::isfinite(largest)) return 0;
@@ -77,7 +77,6 @@ ImageDifference ErrorMeter::against(const Image& a, const Image& b, SrgbEncoding
   return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
 }
 
-// What more samples of the point lead to.
 const Image& ErrorMeter::limitOf(const Point& point) const {
   return transport_ && hasTransport(point.options) ? truth() : reference_->image;
 }
@@ -104,7 +103,7 @@ void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
   std::vector<std::function<void()>> comparisons;
   comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
   comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
-  // The sampling of the point is the baseline's where the exact options are.
+  // The point has the baseline's sampling if the exact options are the same.
   if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
       digestOf(exactAtSameSamples(base_, exactness_))) {
     comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_->image); });
@@ -139,7 +138,7 @@ std::string ErrorMeter::pngOf(const Image& image) const {
   return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
 }
 
-void ErrorMeter::depict(Point& point, const Image& image) const {
+void ErrorMeter::addPictures(Point& point, const Image& image) const {
   point.imagePng = pngOf(image);
   point.totalMapPng = encodePng(heatMap(image, truth()));
   if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_->image));

@@ -1,4 +1,4 @@
-// The errors of a sweep's points against the truth, apart by cause.
+// The errors of a sweep's points against the truth, separated by cause.
 #pragma once
 
 #include <map>
@@ -13,32 +13,34 @@
 
 namespace whit::accuracy {
 
-// Of one scene and view.
+// Measures the points of one scene and view.
 class ErrorMeter {
  public:
-  // `scene` has exact spheres. `base` gives the samples that the exact picture at equal samples
-  // has, and the display. `transport`: the picture that is the truth; null: the reference is, of
-  // `samples` samples. Must outlive the meter.
+  // `scene` has exact spheres. `base` has the display and the number of samples of the exact
+  // picture at equal samples. The truth is `transport`, or the reference of `samples` samples if
+  // that is null. Scene, cache and `transport` must outlive the meter.
   ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
              const Exactness& exactness, ReferenceCache& cache, int samples,
              const TransportPicture* transport, Progress* progress);
 
-  // Fills in the point's errors from its last frame, with what arithmetic does if `arithmetic`. A
-  // knob of arithmetic leaves those of sampling and algorithm as they are: not filled in.
+  // Sets the point's errors from its last frame. Errors of arithmetic are measured only if
+  // `arithmetic` is true. For a knob of arithmetic the errors of sampling and algorithm are not
+  // set, because they are the baseline's.
   void measure(Point& point, FrameSource& frames, bool arithmetic);
-  // Fills in its pictures. Not for more than a few hundred points: they stay in memory.
-  void depict(Point& point, const Image& image) const;
-  std::string pngOf(const Image& image) const;  // as it is displayed
+  // Sets the point's pictures, which stay in memory.
+  void addPictures(Point& point, const Image& image) const;
+  std::string pngOf(const Image& image) const;  // the displayed image
 
   const ReferencePicture& reference() const { return *reference_; }
   const Image& truth() const { return transport_ ? transport_->image : reference_->image; }
-  const Image& exact() const { return exact_->image; }  // at the baseline's samples
 
  private:
   ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const;
+  // The picture that more samples of the point converge to.
   const Image& limitOf(const Point& point) const;
   const Image& withoutApproximations(const Point& point, const Image& own);
-  // Of the point's own options; points that the scalar reference does not tell apart share it.
+  // Paths of the scalar reference with the point's own options. Points whose options differ only in
+  // ways that the scalar reference ignores share them.
   const ReferencePaths& referencePaths(const Point& point, FrameSource& frames);
 
   const Scene& scene_;
@@ -47,9 +49,10 @@ class ErrorMeter {
   Exactness exactness_;
   const ReferencePicture *reference_, *exact_;
   const TransportPicture* transport_;
-  std::optional<ImageDifference> leftOut_;     // by the model, against the truth with all transport
+  // The difference of the reference from the picture with all transport.
+  std::optional<ImageDifference> leftOut_;
   HdrFlip hdrFlip_;                            // against the truth
-  std::map<std::string, Image> exactPackets_;  // by digest of their options
+  std::map<std::string, Image> exactPackets_;  // key: digest of the options
   std::map<std::string, ReferencePaths> referencePaths_;
 };
 

@@ -33,14 +33,14 @@ std::string whereRaysBranch(EffectSet effects) {
   return "without a cutoff the rays of both impulses double with every bounce";
 }
 
-// A word as the option writes it, of all ways to write its value.
+// The canonical text of the option's value.
 std::string labelOf(const std::string& option, const std::string& word) {
   RenderOptions options;
   setOption(options, option, word);
   return optionText(options, option);
 }
 
-// "--option value", repeated.
+// `words` are pairs of "--option" and value.
 void setAll(RenderOptions& options, const std::vector<std::string>& words) {
   for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
     setOption(options, words[i].substr(2), words[i + 1]);

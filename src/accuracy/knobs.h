@@ -1,4 +1,4 @@
-// The options that trade accuracy for time, as the table of options in core/options.h has them.
+// The knobs: options that trade accuracy for time. The table of options in core/options.h has them.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@ namespace whit::accuracy {
 
 inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling", "transport"};
 
-// Why something does nothing, or cannot be done, in scenes with these effects; empty where it can.
+// The reason why a knob or a value changes nothing, or is impossible, in scenes with these effects;
+// empty if there is none.
 using Idle = std::function<std::string(EffectSet)>;
 
 struct KnobValue {
   std::string label;  // as on the command line: --KNOB LABEL
   std::function<void(RenderOptions&)> apply;
   bool crossed = false, spare = false;  // see KnobSpec
-  Idle idle;                            // null: wherever the knob does something
-  // What else it sets, as on the command line.
-  std::vector<std::string> alongside;
+  Idle idle;                            // null: none beyond the knob's own
+  std::vector<std::string> alongside;   // other options that it sets, as on the command line
 };
 
-// Where both a reflected and a refracted ray go on, rays double with every bounce, and only the
-// cutoff ends that: what counts as exact there is a cutoff small enough, not none.
+// The cutoff that counts as exact. It is not 0 in scenes with glass, where rays split in two at
+// every bounce and only the cutoff ends that.
 struct Exactness {
   float cutoff = 0;
 };
@@ -40,28 +40,29 @@ struct Knob {
 
 const std::vector<Knob>& allKnobs();
 
-// The knobs of these names, in the table's order; all for none. Throws Error(usage) that names the
-// nearest for one that does not exist.
+// The knobs with these names, or all knobs if there are no names, in the table's order. Throws
+// Error(usage) with the nearest name for an unknown one.
 std::vector<Knob> chooseKnobs(const std::vector<std::string>& names);
 
 // `options` with every knob of the cause at its exact value.
 RenderOptions exactIn(RenderOptions options, Cause cause, const Exactness& exactness);
-// What an image by `options` is measured against at equal samples: the scalar reference, exact in
-// all but sampling.
+// The picture that an image with `options` is measured against at equal samples: by the scalar
+// reference, exact in everything except sampling.
 RenderOptions exactAtSameSamples(const RenderOptions& options, const Exactness& exactness);
-// The same with `samples` samples in every pixel: the reference of all.
+// The same with `samples` samples in every pixel, the reference of all points.
 RenderOptions referenceOptions(const RenderOptions& options, int samples,
                                const Exactness& exactness);
 
-// Whether they ask for light that Whitted's model leaves out; and the same options without it.
+// True for options with light that Whitted's model leaves out.
 bool hasTransport(const RenderOptions& options);
+// The options without that light.
 RenderOptions withoutTransport(RenderOptions options);
-// How many paths of such light a pixel has: its samples, times those of a surfel.
+// The number of paths of such light in a pixel: samples of the pixel times samples of a surfel.
 double transportPaths(const RenderOptions& options);
-// What contributes less is left out of the picture with all transport: paths from diffuse surface
-// to diffuse surface end nowhere by themselves.
+// The cutoff of the picture with all transport. Paths between diffuse surfaces do not end by
+// themselves.
 inline constexpr float kTransportCutoff = 1e-4f;
-// By packets, exact and with all transport, `samples` samples in every pixel.
+// Options of packets that are exact and have all transport, with `samples` samples in every pixel.
 RenderOptions transportOptions(const RenderOptions& options, int samples);
 
 }  // namespace whit::accuracy

@@ -1,4 +1,4 @@
-// The results of a sweep, point by point: the common source of table, CSV, charts and report.
+// The results of a sweep, point by point. The table, the CSV file and the report follow from them.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,15 @@ namespace whit::accuracy {
 enum class PointKind { baseline, knob, preset, joint };
 inline constexpr const char* kPointKindNames[] = {"baseline", "knob", "preset", "joint"};
 
-// A round compares frames of the point with the baseline's frames before and after. Fewer rounds
-// say nothing of the spread of times: such a point lies on no front.
+// A round compares frames of the point with the baseline's frames before and after. The spread of
+// times is known from this many rounds on; a point with fewer lies on no front.
 inline constexpr int kLeastRounds = 3;
-// A time is noisy until it is known within so many per cent, from as many rounds as it takes to be
-// confident.
+// A time is noisy until it is known within this many per cent, from this many rounds.
 inline constexpr double kNoisyPct = 3;
 inline constexpr int kConfidentRounds = 5;
 
 struct Timing {
-  int frames = 0;       // that count
+  int frames = 0;       // without those that warm up
   double medianMs = 0;  // as measured
   double leastMs = 0;
   int rounds = 0;
@@ -34,14 +33,14 @@ struct Timing {
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
-  // Whether the other's time is within the spread of this one's.
+  // True if the other's time is within the spread of this one.
   bool reaches(const Timing& other) const {
     return ratioLow <= other.ratio && other.ratio <= ratioHigh;
   }
   bool noisy() const { return rounds < kConfidentRounds || spreadPct() > kNoisyPct; }
 };
 
-// Packets against the scalar reference with the same options and samples.
+// The difference of packets from the scalar reference with the same options and samples.
 struct ArithmeticError {
   ImageDifference samePath;       // pixels whose path diverged count as equal
   std::uint64_t divergences = 0;  // pixels
@@ -50,8 +49,8 @@ struct ArithmeticError {
   double medianUlp = 0, ulp999 = 0, worstUlp = 0;  // ulp999: 99.9 % are at most that far off
 };
 
-// What all points are measured against: the scalar reference of Whitted's model, or the picture
-// with all transport.
+// The truth that all points are measured against: the scalar reference of Whitted's model, or the
+// picture with all transport.
 enum class Truth { model, transport };
 inline constexpr const char* kTruthNames[] = {"model", "transport"};
 
@@ -60,41 +59,44 @@ struct Point {
   std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
   std::optional<Cause> cause;
   RenderOptions options;
-  bool spare = false;  // of a knob's value that comes last in a quick sweep
+  bool spare = false;  // a quick sweep measures it last
 
   Timing timing;
   FrameStats stats;       // of the last frame: rays by kind
   ImageDifference total;  // against the truth
   double totalHdrFlip = 0;
-  // Of the pipeline without approximations, against what more samples of it lead to: the reference,
-  // or where the point has all transport the picture with that.
+  // The pipeline without approximations against its limit for many samples, which is the reference,
+  // or the picture with all transport if the point has all transport.
   ImageDifference sampling;
   ImageDifference algorithm;  // against the same pipeline without approximations
-  // Of what more samples lead to, against the truth; where that has all transport.
+  // The limit for many samples against the truth, if the truth has all transport.
   std::optional<ImageDifference> transport;
-  // Against the scalar reference, exact, with as many samples; where those are the baseline's.
+  // Against the exact scalar reference with equal samples, if the point has the baseline's samples.
   std::optional<ImageDifference> sameSamples;
   std::optional<ArithmeticError> arithmetic;
   bool onFront = false;  // of `total` over time
-  // On that front, and its time has the time of a neighbor there within its spread.
+  // It is on that front, and the time of a neighbor there is within the spread of its time.
   bool coversNeighbor = false;
   bool onFrontSameSamples = false;  // of `sameSamples` over time
-  // PNG files: the image as it is displayed, its difference from the truth, and from that with as
-  // many samples. Empty where the picture is the baseline's, and of combinations off the front.
+  // PNG files: the displayed image, its difference from the truth and from the exact picture with
+  // equal samples. They are empty if the picture is the baseline's, and for combinations off the
+  // front.
   std::string imagePng, totalMapPng, sameSamplesMapPng;
 
   // "depth=4", "standard"
   std::string label() const;
 };
 
+// A knob or a point that was not measured.
 struct IdleKnob {
   std::string name, because;
 };
 
-// The picture with all transport, but for its pixels.
+// The picture with all transport, without its pixels.
 struct TransportFacts {
   int passes = 0, samples = 0;
-  double standardError = 0, meanRadiance = 0, noiseFlip = 0;  // see TransportPicture
+  double standardError = 0, meanRadiance = 0;  // see PassMean
+  double noiseFlip = 0;                        // mean FLIP between the even passes and the odd ones
   double renderMs = 0;
   bool fromFile = false;
   std::string digest;
@@ -104,7 +106,6 @@ struct SceneSweep {
   std::string scene;
   int width = 0, height = 0;
   Machine machine;
-  double loadMs = 0;
   int referenceSamples = 0;
   float referenceCutoff = 0;
   std::string referenceDigest;
@@ -115,8 +116,16 @@ struct SceneSweep {
   std::vector<IdleKnob> idle;
   std::vector<StageDifference> stages;  // of the baseline
   std::string truthPng;
-  std::optional<TransportFacts> transport;  // there: it is the truth
+  std::optional<TransportFacts> transport;  // set if it is the truth
   Truth truth() const { return transport ? Truth::transport : Truth::model; }
+};
+
+// The machine and the settings, the same for all points of a run.
+struct RunFacts {
+  std::string cpu, compiler, commit;
+  int cores = 1;
+  std::uint32_t seed = 1;
+  bool full = false;
 };
 
 }  // namespace whit::accuracy

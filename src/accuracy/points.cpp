@@ -1,4 +1,4 @@
-// Which options a sweep measures.
+// The choice of the options that a sweep measures.
 #include <algorithm>
 #include <cstdlib>
 #include <random>
@@ -24,7 +24,7 @@ RenderOptions presetOf(const RenderOptions& base, Quality quality) {
   return options;
 }
 
-// Keeps the first of points with the same options.
+// Collects points, without those whose options an earlier point has.
 class PointCollector {
  public:
   explicit PointCollector(std::vector<Point>& points) : points_(points) {
@@ -48,7 +48,7 @@ class PointCollector {
   std::set<std::string> seen_;
 };
 
-// Whether its values are numbers of samples, of pixels, lobes or lights, and nothing else.
+// True if the knob's values are plain numbers of samples of pixels, lobes or lights.
 bool countsSamples(const Knob& knob) {
   return std::all_of(knob.values.begin(), knob.values.end(), [](const KnobValue& value) {
     const bool whole = value.label.find_first_not_of("0123456789") == std::string::npos;
@@ -56,17 +56,18 @@ bool countsSamples(const Knob& knob) {
   });
 }
 
-// The value of a number of samples that is nearest to another's, from below.
-const KnobValue& asManyAs(const Knob& knob, const KnobValue& other) {
+// The largest value of the knob that is at most `other`, or its first value.
+const KnobValue& atMost(const Knob& knob, const KnobValue& other) {
   const auto number = [](const KnobValue& v) { return std::strtod(v.label.c_str(), nullptr); };
-  const KnobValue* as = &knob.values.front();
+  const KnobValue* best = &knob.values.front();
   for (const KnobValue& value : knob.values) {
-    if (number(value) <= number(other) && number(value) > number(*as)) as = &value;
+    if (number(value) <= number(other) && number(value) > number(*best)) best = &value;
   }
-  return *as;
+  return *best;
 }
 
-// All combinations of the knobs' crossed values, named by what differs from `base`.
+// All combinations of the knobs' crossed values. The label of a combination has the values that
+// differ from `base`.
 std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
                                                                 const std::vector<Knob>& knobs) {
   std::vector<std::pair<std::string, RenderOptions>> all{{"", base}};
@@ -91,11 +92,7 @@ std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOpti
 
 }  // namespace
 
-std::string Point::label() const {
-  if (kind == PointKind::joint) return value;
-  if (kind == PointKind::baseline || kind == PointKind::preset) return value;
-  return knob + "=" + value;
-}
+std::string Point::label() const { return kind == PointKind::knob ? knob + "=" + value : value; }
 
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
                      std::size_t jointLimit, std::uint32_t seed) {
@@ -171,9 +168,9 @@ void addTransportPoints(const RenderOptions& base, EffectSet effects,
         std::string label = samples + transport.name + "=" + light.label;
         collector.add(PointKind::joint, "", label, {}, options);
         for (const Knob& knob : samplings) {
-          const KnobValue& as = asManyAs(knob, light);
-          as.apply(options);
-          label += " " + knob.name + "=" + as.label;
+          const KnobValue& samplesOfKnob = atMost(knob, light);
+          samplesOfKnob.apply(options);
+          label += " " + knob.name + "=" + samplesOfKnob.label;
         }
         collector.add(PointKind::joint, "", label, {}, options);
       }

@@ -1,10 +1,10 @@
 #include "accuracy/reference_cache.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "accuracy/digest.h"
-#include "accuracy/pass_mean.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "inspect/metrics.h"
@@ -23,10 +23,12 @@ constexpr const char* kErrorKey = "standardError";
 constexpr const char* kRadianceKey = "meanRadiance";
 constexpr const char* kNoiseKey = "noiseFlip";
 
-// A picture from a file, and what is written beside it.
-class KeptPicture {
+double meanOf(const RgbD& c) { return (c.x + c.y + c.z) / 3; }
+
+// A picture from a file, with the numbers in its metadata.
+class CachedPicture {
  public:
-  KeptPicture(const std::string& path, const Image& shape, const std::string& digest) {
+  CachedPicture(const std::string& path, const Image& shape, const std::string& digest) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return;
     try {
@@ -36,21 +38,67 @@ class KeptPicture {
     } catch (const Error&) {
       return;
     }
-    isThere_ = image_.width == shape.width && image_.height == shape.height &&
+    isValid_ = image_.width == shape.width && image_.height == shape.height &&
                image_.window == shape.window && facts_[kDigestKey] == digest;
   }
 
-  bool isThere() const { return isThere_; }  // and is what it claims to be
+  // True if the file exists and has the digest.
+  bool isValid() const { return isValid_; }
   Image takeImage() { return std::move(image_); }
   double number(const char* key) { return std::strtod(facts_[key].c_str(), nullptr); }
 
  private:
-  bool isThere_ = false;
+  bool isValid_ = false;
   Image image_;
   std::map<std::string, std::string> facts_;
 };
 
 }  // namespace
+
+PassMean::PassMean(const Image& shape)
+    : shape_(shape.width, shape.height, shape.window),
+      mean_(shape.pixels.size()),
+      deviations_(mean_.size()),
+      evens_(mean_.size()),
+      odds_(mean_.size()) {}
+
+void PassMean::add(const Image& pass) {
+  std::vector<RgbD>& half = passes_ % 2 == 0 ? evens_ : odds_;
+  ++passes_;
+  for (std::size_t i = 0; i < mean_.size(); ++i) {
+    const RgbD value(pass.pixels[i]), before = value - mean_[i];
+    mean_[i] += before / static_cast<double>(passes_);
+    deviations_[i] += before * (value - mean_[i]);
+    half[i] += value;
+  }
+}
+
+Image PassMean::picture(const std::vector<RgbD>& sums, int passes) const {
+  Image image = shape_;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    image.pixels[i] = Rgb(sums[i] / static_cast<double>(passes));
+  }
+  return image;
+}
+
+Image PassMean::mean() const { return picture(mean_, 1); }
+
+Image PassMean::half(bool odd) const {
+  return odd ? picture(odds_, passes_ / 2) : picture(evens_, (passes_ + 1) / 2);
+}
+
+double PassMean::standardError() const {
+  double sum = 0;
+  for (const RgbD& d : deviations_) sum += meanOf(d);
+  const double variance = sum / (static_cast<double>(deviations_.size()) * (passes_ - 1));
+  return std::sqrt(variance / passes_);
+}
+
+double PassMean::meanRadiance() const {
+  double sum = 0;
+  for (const RgbD& m : mean_) sum += meanOf(m);
+  return sum / static_cast<double>(mean_.size());
+}
 
 ReferenceCache::ReferenceCache(const Scene& scene, const Camera& camera, std::string folder,
                                const std::string& program)
@@ -66,7 +114,8 @@ ReferenceCache::ReferenceCache(const Scene& scene, const Camera& camera, std::st
 }
 
 std::string ReferenceCache::digest(const RenderOptions& options) const {
-  // The camera counts as it is, whether it was named or described; the size as it turns out.
+  // The digest of the camera is in sceneDigest_, however the options choose it. The size is that of
+  // the film.
   RenderOptions settled = options;
   settled.camera.clear();
   forEachCameraOption([&](auto option, auto /*member*/) { (settled.*option).reset(); });
@@ -87,11 +136,11 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   picture.digest = digest;
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
-  KeptPicture kept(pathOf(digest), film.image, digest);
-  if (kept.isThere()) {
-    picture.image = kept.takeImage();
-    picture.renderMs = kept.number(kTimeKey);
-    picture.rays = kept.number(kRaysKey);
+  CachedPicture cached(pathOf(digest), film.image, digest);
+  if (cached.isValid()) {
+    picture.image = cached.takeImage();
+    picture.renderMs = cached.number(kTimeKey);
+    picture.rays = cached.number(kRaysKey);
     picture.fromFile = true;
   } else {
     Renderer renderer(scene_, options);
@@ -122,13 +171,13 @@ TransportPicture ReferenceCache::transport(const RenderOptions& options, Progres
   picture.samples = kTransportPasses * options.spp;
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
-  KeptPicture kept(pathOf(picture.digest), film.image, picture.digest);
-  if (kept.isThere()) {
-    picture.image = kept.takeImage();
-    picture.standardError = kept.number(kErrorKey);
-    picture.meanRadiance = kept.number(kRadianceKey);
-    picture.noiseFlip = kept.number(kNoiseKey);
-    picture.renderMs = kept.number(kTimeKey);
+  CachedPicture cached(pathOf(picture.digest), film.image, picture.digest);
+  if (cached.isValid()) {
+    picture.image = cached.takeImage();
+    picture.standardError = cached.number(kErrorKey);
+    picture.meanRadiance = cached.number(kRadianceKey);
+    picture.noiseFlip = cached.number(kNoiseKey);
+    picture.renderMs = cached.number(kTimeKey);
     picture.fromFile = true;
     return picture;
   }

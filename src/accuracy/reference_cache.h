@@ -1,10 +1,12 @@
-// Pictures that others are measured against, rendered once and kept in files: those of the scalar
-// reference, and those with all transport.
+// The pictures that points are measured against, rendered once and kept in files: those of the
+// scalar reference and the picture with all transport.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "accuracy/measurement.h"
 #include "bake/scene.h"
 #include "core/image.h"
 #include "core/options.h"
@@ -14,41 +16,66 @@ namespace whit::accuracy {
 
 struct ReferencePicture {
   Image image;
-  std::string digest;     // of all that it depends on; the file's name
-  double renderMs = 0;    // what it took when it was rendered
-  double rays = 0;        // that it took
+  std::string digest;     // covers everything that the picture depends on; the file's name
+  double renderMs = 0;    // the time that rendering took
+  double rays = 0;        // number of rays
   bool fromFile = false;  // rendered by an earlier run
 };
 
-// With all light that whit can transport, by packets in several passes of independent noise. The
-// reference, in double, would take a hundred times as long: it would have that much more noise,
-// which is far above what rounding does (compare standardError with the arithmetic error of a
-// sweep).
-struct TransportPicture {
+// The picture with all light that whit can transport. Packets render it in several passes of
+// independent noise. The reference in double would take a hundred times as long, so that its noise
+// would be far above the rounding errors that it avoids.
+struct TransportPicture : TransportFacts {
   Image image;
-  std::string digest;
-  int passes = 0, samples = 0;  // samples a pixel, of all passes together
-  double standardError = 0;     // PassMean's
-  double meanRadiance = 0;
-  double noiseFlip = 0;  // mean FLIP between the even passes and the odd ones
-  double renderMs = 0;
-  bool fromFile = false;
 };
 
-// A file is used only if its digest covers the same scene tables, camera, options, image window and
-// program, bit for bit. One that cannot be read is rendered again.
+// The number of passes of the picture with all transport; even, so that both halves are alike.
+inline constexpr int kTransportPasses = 8;
+
+// The mean of independent pictures of one view, which differ in their noise, and its error.
+class PassMean {
+ public:
+  // `shape` gives size and window.
+  explicit PassMean(const Image& shape);
+
+  void add(const Image& pass);
+  int passes() const { return passes_; }
+
+  // Needs one pass or more.
+  Image mean() const;
+  // The mean of the passes with even or odd numbers, to tell how visible noise is. Needs two passes
+  // or more.
+  Image half(bool odd) const;
+  // The standard error of the mean in linear radiance: the root mean square over pixels and
+  // channels. Needs two passes or more.
+  double standardError() const;
+  // The mean over pixels and channels.
+  double meanRadiance() const;
+
+ private:
+  Image picture(const std::vector<RgbD>& sums, int passes) const;
+
+  Image shape_;
+  int passes_ = 0;
+  // One value a pixel: the mean so far, the sum of squared deviations from it (Welford 1962), and
+  // the sums of even and odd passes.
+  std::vector<RgbD> mean_, deviations_, evens_, odds_;
+};
+
+// Files are named by a digest of scene tables, camera, options, image window and program. A file
+// with another digest, or one that cannot be read, is rendered again.
 class ReferenceCache {
  public:
-  // `folder` is made if it is not there; `program` identifies the code that renders, Embree and
-  // compiler included.
+  // Makes `folder` if it does not exist. `program` identifies the code that renders, including
+  // Embree and the compiler.
   ReferenceCache(const Scene& scene, const Camera& camera, std::string folder,
                  const std::string& program);
 
-  // `options` must be of Mode::reference. Throws Error(io) when the folder cannot be written.
+  // `options` must have Mode::reference. Throws Error(io) when the folder cannot be written.
   const ReferencePicture& get(const RenderOptions& options, Progress* progress);
 
-  // The mean of kTransportPasses passes with these options, of Mode::packets, each with
-  // options.spp samples. Throws likewise.
+  // The mean of kTransportPasses passes with these options, which must have Mode::packets; each has
+  // options.spp samples. Throws Error(io) when the folder cannot be written.
   TransportPicture transport(const RenderOptions& options, Progress* progress) const;
 
   std::string digest(const RenderOptions& options) const;

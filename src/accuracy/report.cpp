@@ -1,90 +1,114 @@
 #include "accuracy/report.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
-#include "core/formatted.h"
+#include "accuracy/csv.h"
+#include "accuracy/findings.h"
 
 namespace whit::accuracy {
 
 namespace {
 
-std::string machineList(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
-  const Machine& machine = sweeps.front().machine;
-  std::string html = "<h2>Machine and measurement</h2>\n<dl>\n";
-  const auto row = [&](const char* name, const std::string& value) {
-    html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
-  };
-  row("processor", facts.cpu);
-  row("cores, threads", formatted("%d, %d", facts.cores, machine.threads));
-  row("kernels", machine.simd + formatted(", packets of %d", machine.packet));
-  row("Embree", machine.embree);
-  row("compiler", facts.compiler);
-  row("sources", facts.commit);
-  row("sweep", facts.full ? "full" : "quick");
-  row("order",
-      formatted("random, seed %u; every point between frames of the baseline", facts.seed));
-  for (const SceneSweep& sweep : sweeps) {
-    std::string order;
-    for (const std::string& label : sweep.order) order += (order.empty() ? "" : ", ") + label;
-    row(("order of " + sweep.scene).c_str(), order);
+// The build turns report.html into a string literal.
+constexpr std::string_view kTemplate =
+#include "report_html.inc"
+    ;
+
+Json pointsJson(const SceneSweep& sweep, const RunFacts& facts) {
+  Json points = sweepRows(sweep, facts);
+  const std::vector<const Point*> chosen = chosenPoints(sweep);
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const Point& point = sweep.points[i];
+    points[i]["label"] = point.label();
+    points[i]["chosen"] = std::find(chosen.begin(), chosen.end(), &point) != chosen.end();
+    const auto addPicture = [&](const char* name, const std::string& png) {
+      if (!png.empty()) points[i][name] = base64(png);
+    };
+    addPicture("image_png", point.imagePng);
+    addPicture("total_map_png", point.totalMapPng);
+    addPicture("same_samples_map_png", point.sameSamplesMapPng);
   }
-  return html + "</dl>\n";
+  return points;
 }
 
-const char* const kIntroduction =
-    "<p>Each scene is rendered with one knob of accuracy changed at a time and with the presets of "
-    "<code>--quality</code>. Time is that of a frame, beside frames of the baseline. Error is the "
-    "mean FLIP against a double-precision reference without approximations: how visible a "
-    "difference "
-    "is when two pictures alternate on a screen, 0 for none, 1 for the most (Andersson et al. "
-    "2020).</p>\n";
+Json stagesJson(const SceneSweep& sweep) {
+  Json stages = Json::array();
+  for (const StageDifference& row : sweep.stages) {
+    stages.push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
+                      {"column", row.column},
+                      {"slots", row.slots},
+                      {"worst_ulp", row.worstUlp},
+                      {"limit_ulp", row.limitUlp},
+                      {"pixel", Json::array({row.pixelX, row.pixelY})},
+                      {"depth", row.depth}});
+  }
+  return stages;
+}
+
+Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
+  const Noise noise = noiseOf(sweep);
+  Json scene{{"scene", sweep.scene},
+             {"width", sweep.width},
+             {"height", sweep.height},
+             {"packet", sweep.machine.packet},
+             {"reference", referenceText(sweep)},
+             {"noise_time", noise.time},
+             {"noise_flip", noise.flip},
+             {"visible_flip", kVisibleFlip},
+             {"noisy_pct", kNoisyPct},
+             {"least_rounds", kLeastRounds},
+             {"findings", Json::array()},
+             {"points", pointsJson(sweep, facts)},
+             {"truth_png", base64(sweep.truthPng)},
+             {"stages", stagesJson(sweep)},
+             {"not_swept", Json::array()},
+             {"order", sweep.order}};
+  if (sweep.transport) {
+    scene["transport"] = transportText(sweep);
+    scene["choice"] = choiceText(sweep);
+  }
+  for (const Finding& finding : findingsOf(sweep)) {
+    scene["findings"].push_back(
+        {{"holds", finding.holds}, {"claim", finding.claim}, {"found", finding.found}});
+  }
+  for (const IdleKnob& group : groupedByReason(sweep.idle))
+    scene["not_swept"].push_back({{"names", group.name}, {"because", group.because}});
+  return scene;
+}
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
+Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
+  Json report{{"report", "accuracy"}, {"scenes", Json::array()}};
+  for (const SceneSweep& sweep : sweeps) report["scenes"].push_back(sceneJson(sweep, facts));
+  return report;
 }
 
-std::string dataUri(const std::string& png) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = "data:image/png;base64,";
-  text.reserve(text.size() + png.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < png.size(); i += 3) {
+std::string reportPage(const Json& data) {
+  constexpr std::string_view kPlace = "{{data}}";
+  const std::size_t place = kTemplate.find(kPlace);
+  std::string page(kTemplate.substr(0, place));
+  // Only strings hold a '<' in JSON. Escaped, it cannot end the element <script>.
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
+    c == '<' ? page += "\\u003c" : page += c;
+  return page.append(kTemplate.substr(place + kPlace.size()));
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(bytes.size() * 4 / 3 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0u);
+      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
     for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= png.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+      text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }
   return text;
-}
-
-std::string reportHtml(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-      "<title>whit: what accuracy costs in time</title>\n<style>" +
-      std::string(kReportStyle) + "</style></head>\n<body><main>\n" +
-      "<h1>What accuracy costs in time</h1>\n" + kIntroduction + "<nav>";
-  for (std::size_t i = 0; i < sweeps.size(); ++i)
-    html += formatted("<a href=\"#s%zu\">%s</a>", i, escaped(sweeps[i].scene).c_str());
-  html += "</nav>\n";
-  for (std::size_t i = 0; i < sweeps.size(); ++i) html += sceneSection(sweeps[i], i);
-  html += machineList(sweeps, facts);
-  return html + "</main><script>" + kReportScript + "</script></body></html>\n";
 }
 
 }  // namespace whit::accuracy

@@ -1,47 +1,35 @@
-// Sweeps told to people: as text for a terminal, and as an HTML page.
+// The results of a sweep for people: text for a terminal, and the data of an HTML page that draws
+// itself.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "accuracy/csv.h"
 #include "accuracy/measurement.h"
 
 namespace whit::accuracy {
 
-// A line about the scene, the machine and the reference; what the columns are; a row a point; what
-// the causes are for the baseline; what was left out, and why. No line has more than kTableColumns
-// letters.
+using Json = nlohmann::ordered_json;
+
+// A table with a row for each point, the baseline's errors by cause, and what was left out. No line
+// has more than kTableColumns letters.
 inline constexpr std::size_t kTableColumns = 100;
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
-// What was left out, by reason: "depth=8, bvh" because "...".
-std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle);
-// One line about the scalar reference; and one about the picture with all transport, with its
-// standard error, empty where that is not the truth.
+// One line about the scalar reference, and one about the picture with all transport, which is empty
+// if that picture is not the truth.
 std::string referenceText(const SceneSweep& sweep);
 std::string transportText(const SceneSweep& sweep);
 
-// One self-contained HTML page: charts, pictures and tables of every scene, nothing loaded from
-// anywhere. Light and dark as the reader has it; prints.
-std::string reportHtml(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
+// The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
+// rows of sweep.csv, with the label, the pictures as PNG files in base64, and whether the chart of
+// knobs shows the point.
+Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
 
-// The parts of the page.
-extern const char* const kReportStyle;   // the content of <style>
-extern const char* const kReportScript;  // the content of <script>
-// "0.97 to 1.03", times the baseline; "one frame" where nothing is known of it.
-std::string spreadText(const Timing& timing);
-// One line: its label, time and errors.
-std::string numbersOf(const Point& point);
-std::string sceneSection(const SceneSweep& sweep, std::size_t number);
-std::string verdictList(const SceneSweep& sweep);
-std::string pointTable(const SceneSweep& sweep);
-std::string causeTable(const SceneSweep& sweep);
-std::string stageTable(const SceneSweep& sweep);
-
-// "data:image/png;base64,..."
-std::string dataUri(const std::string& png);
-// Text for XML content and attributes.
-std::string escaped(std::string_view text);
+// The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
+// "verify". The page loads nothing from elsewhere.
+std::string reportPage(const Json& data);
+std::string base64(std::string_view bytes);
 
 }  // namespace whit::accuracy

@@ -1,49 +1,75 @@
-// The scope of a sweep: how many samples its reference has, and which points it leaves out so as
-// to end in time.
+// The limits of a sweep, the points that it leaves out to keep them, and its progress.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
 #include "accuracy/measurement.h"
+#include "core/progress.h"
+#include "core/stopwatch.h"
 
 namespace whit::accuracy {
 
-// Counted in rays where they can be: a reference must not depend on the machine's speed.
+// Most limits count rays, so that the reference does not depend on the speed of the machine.
 struct Limits {
   int samples, leastSamples;
-  double referenceRays;  // of the reference of all
-  double transportRays;  // of the picture with all transport
-  double scalarRays;     // of a point that is rendered by the scalar reference
-  double longFrameRays;  // frames of the baseline with more are long
+  double referenceRays;  // for the reference
+  double transportRays;  // for the picture with all transport
+  double scalarRays;     // for a point that the scalar reference renders
+  double longFrameRays;  // a frame of the baseline with more rays is long
   double timingSeconds;  // for all points of a scene
-  std::size_t joint;     // combinations
-  double seconds;        // after which no more point is begun
+  std::size_t joint;     // number of combinations of knobs
+  double seconds;        // no point is begun later
 };
 inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 0, 50};
 inline constexpr Limits kFull{256, 8, 400e6, 4e9, 100e6, 1e300, 600, 40, 1e300};
 
 struct Scope {
   Limits limits;
-  double frameRays = 0;      // of a frame of the baseline
-  double raysPerSample = 0;  // of the exact picture
-  bool chosenKnobs = false;  // by name: all of them are measured
+  double frameRays = 0;      // rays of a frame of the baseline
+  double raysPerSample = 0;  // rays of a sample of the exact picture
+  bool chosenKnobs = false;  // the user named the knobs, and all of them are measured
   int baselineSpp = 1;
-  double transportPaths = 0;  // of a pixel of the picture with all transport; 0: there is none
+  double transportPaths = 0;  // paths of a pixel in the picture with all transport, or 0 without it
 
-  // Of the reference.
+  // Samples a pixel of the reference.
   int samples() const;
-  // Of each pass of the picture with all transport, of so many rays a sample.
+  // Samples a pixel in each pass of the picture with all transport. `rays` is the number of rays of
+  // one sample of the whole picture.
   int transportSamples(double rays) const;
   bool longFrames() const { return frameRays > limits.longFrameRays; }
-  // Why the point is left out; empty where it is measured.
+  // The reason why the point is left out; empty if it is measured.
   std::string leavesOut(const Point& point) const;
-  // Whether so many seconds are all that the sweep has for points; and what it says of the others.
+  // True if no point is begun any more after `seconds`; the sweep gives the reason below.
   bool isOver(double seconds) const { return !chosenKnobs && seconds > limits.seconds; }
   static constexpr const char* kOverBecause =
       "the minute of a quick sweep was over: --full, or --knobs with one of them, measures it";
-  // Whether packets are compared with the scalar reference of the very same options, path by path.
+  // True if packets are compared with the scalar reference of the same options, path by path.
   bool comparesPaths(const Point& point) const;
 };
+
+// Tells the progress of a sweep and the time that it will still take. Work has any unit that the
+// steps share. A running step can report its own fraction.
+class Pace : public Progress {
+ public:
+  Pace(Progress* out, std::string subject) : out_(out), subject_(std::move(subject)) {}
+
+  void plan(double work) { total_ += work; }
+  void begin(const std::string& step, double work);
+  void end();
+  void skip();  // instead of end(), for a step that turned out to be unnecessary
+  void report(const std::string& phase, double fraction) override;
+  double seconds() const { return stopwatch_.ms() / 1000; }
+
+ private:
+  Progress* out_;
+  std::string subject_, step_;
+  double total_ = 0, done_ = 0, current_ = 0;
+  Stopwatch stopwatch_;
+};
+
+// "sponza 35 s left: depth=4"; without a time while it is unknown.
+std::string paceText(const std::string& subject, const std::string& step, double elapsedSeconds,
+                     double fraction);
 
 }  // namespace whit::accuracy

@@ -8,17 +8,17 @@
 #include <random>
 
 #include "accuracy/errors.h"
-#include "accuracy/pace.h"
-#include "accuracy/pareto.h"
+#include "accuracy/findings.h"
 #include "accuracy/scope.h"
 
 namespace whit::accuracy {
 
 namespace {
 
-// Work of a packet frame in units of a scalar frame of one sample, roughly.
+// The approximate work of a packet frame in units of a scalar frame with one sample.
 constexpr double kPacketFrameWork = 0.1;
-// Points of a single frame that one frame of the baseline serves; and where that is long as well.
+// The number of points with a single frame that share a frame of the baseline, also for long
+// frames.
 constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
 
 class SceneSweeper {
@@ -48,7 +48,7 @@ class SceneSweeper {
     measureBaseline(meter);
     measurePoints(meter);
     repeatTimes();
-    settle();
+    finish();
     return std::move(sweep_);
   }
 
@@ -65,7 +65,7 @@ class SceneSweeper {
     sweep_.referenceCutoff = exactness_.cutoff;
   }
 
-  // By counting the rays of the exact picture.
+  // The rays of the exact picture decide.
   void chooseSamples() {
     scope_.raysPerSample =
         cache_.get(exactAtSameSamples(base_, exactness_), nullptr).rays / base_.spp;
@@ -103,8 +103,10 @@ class SceneSweeper {
     if (!scope_.longFrames()) return;
     const std::string& baseline = sweep_.points.front().label();
     if (!scope_.chosenKnobs)
-      sweep_.idle.push_back({"path divergences", "of '" + baseline + "' alone: frames take long"});
-    sweep_.idle.push_back({"stages", "in the middle quarter of the picture alone: likewise"});
+      sweep_.idle.push_back(
+          {"path divergences", "measured for '" + baseline + "' only, because frames take long"});
+    sweep_.idle.push_back(
+        {"stages", "measured in the middle quarter of the picture, because frames take long"});
   }
 
   void renderTransport() {
@@ -115,9 +117,7 @@ class SceneSweeper {
     const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
     transport_ = cache_.transport(options, &pace_);
     scope_.transportPaths = transport_->passes * transportPaths(options);
-    sweep_.transport = {transport_->passes,       transport_->samples,   transport_->standardError,
-                        transport_->meanRadiance, transport_->noiseFlip, transport_->renderMs,
-                        transport_->fromFile,     transport_->digest};
+    sweep_.transport = static_cast<const TransportFacts&>(*transport_);
     pace_.end();
     transportSeconds_ = pace_.seconds();
   }
@@ -151,7 +151,7 @@ class SceneSweeper {
       const Film scratch = makeFilm(sceneFor(base_), scope_.longFrames() ? middleQuarter() : base_);
       sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
     }
-    meter.depict(point, baseline_->film.image);
+    meter.addPictures(point, baseline_->film.image);
     sweep_.truthPng = meter.pngOf(meter.truth());
     pace_.end();
   }
@@ -164,7 +164,7 @@ class SceneSweeper {
     return options;
   }
 
-  // Random; in a quick sweep with what can be spared last.
+  // A random order, in which a quick sweep puts the spare values last.
   std::vector<std::size_t> chooseOrder() const {
     std::vector<std::size_t> order(sweep_.points.size() - 1);
     std::iota(order.begin(), order.end(), std::size_t{1});
@@ -176,7 +176,7 @@ class SceneSweeper {
   }
 
   void measurePoints(ErrorMeter& meter) {
-    std::map<std::string, std::string> unmeasured;  // and why
+    std::map<std::string, std::string> unmeasured;  // label and reason
     const std::vector<std::size_t> order = chooseOrder();
     for (std::size_t k = 0; k < order.size(); ++k) {
       Point& point = sweep_.points[order[k]];
@@ -201,38 +201,38 @@ class SceneSweeper {
     std::erase_if(sweep_.points, [&](const Point& p) { return unmeasured.contains(p.label()); });
   }
 
-  // With so many points to come, itself included. False: in this view the point is the baseline
-  // under another name.
+  // `points` is the number of points that are still to come, including this one. Returns false if
+  // the point has the rays and the picture of the baseline.
   bool measurePoint(Point& point, ErrorMeter& meter, std::size_t points) {
     FrameSource frames(sceneFor(point.options), camera_, point.options);
-    frames.render();  // allocates: its time counts only where there is none for another
+    frames.render();  // this frame allocates; its time counts only if there is no time for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
     timer_->time(point, frames, points);
     if (frames.film.image.pixels == baseline_->film.image.pixels &&
         point.options.srgb == base_.srgb) {
-      takeErrors(point, sweep_.points.front());
+      copyErrors(point, sweep_.points.front());
       point.stats = frames.stats;
       return true;
     }
     meter.measure(point, frames, scope_.comparesPaths(point));
-    if (point.cause == Cause::arithmetic) takeErrorsOfRays(point, sweep_.points.front());
-    meter.depict(point, frames.film.image);
+    if (point.cause == Cause::arithmetic) copyErrorsOfRays(point, sweep_.points.front());
+    meter.addPictures(point, frames.film.image);
     return true;
   }
 
-  // Of the same picture.
-  static void takeErrors(Point& point, const Point& from) {
-    takeErrorsOfRays(point, from);
+  // For points with the same picture.
+  static void copyErrors(Point& point, const Point& from) {
+    copyErrorsOfRays(point, from);
     point.total = from.total;
     point.totalHdrFlip = from.totalHdrFlip;
     point.sameSamples = from.sameSamples;
     point.arithmetic = from.arithmetic;
   }
 
-  // Of a picture by the same samples and the same algorithm.
-  static void takeErrorsOfRays(Point& point, const Point& from) {
+  // For points with the same samples and the same algorithm.
+  static void copyErrorsOfRays(Point& point, const Point& from) {
     point.sampling = from.sampling;
     point.algorithm = from.algorithm;
     point.transport = from.transport;
@@ -245,8 +245,8 @@ class SceneSweeper {
     return frames.film.image.pixels == baseline_->film.image.pixels;
   }
 
-  // With what is left of the time for it: first a spread for those that have none, the cheapest
-  // first, then more rounds for what is noisy.
+  // Uses the rest of the budget. Points without a spread get one first, the cheapest first; then
+  // noisy times get more rounds.
   void repeatTimes() {
     std::vector<Point*> points;
     for (Point& point : sweep_.points) {
@@ -267,8 +267,8 @@ class SceneSweeper {
     }
   }
 
-  // What needs all points: the baseline's time, times without drift, fronts.
-  void settle() {
+  // Computes the baseline's time, times without drift, and fronts, which need all points.
+  void finish() {
     Point& baseline = sweep_.points.front();
     baseline.timing = timer_->baselineTiming();
     for (Point& point : sweep_.points)
@@ -291,12 +291,30 @@ class SceneSweeper {
   Pace pace_;
   std::unique_ptr<FrameSource> baseline_;
   std::optional<PointTimer> timer_;
-  std::optional<TransportPicture> transport_;  // where it is the truth
-  double transportSeconds_ = 0;                // when it was there
+  std::optional<TransportPicture> transport_;  // set if it is the truth
+  double transportSeconds_ = 0;                // time until it was ready
   SceneSweep sweep_;
 };
 
 }  // namespace
+
+const Scene& SceneVariants::with(int sphereSegments) {
+  if (sphereSegments == segmentsGiven_) return given_;
+  const auto found = others_.find(sphereSegments);
+  if (found != others_.end()) return found->second;
+  return others_.emplace(sphereSegments, load_(sphereSegments)).first->second;
+}
+
+std::string SceneVariants::leavesOut(int sphereSegments) {
+  constexpr std::uint64_t kMostTriangles = 20'000'000;
+  if (sphereSegments == 0 || sphereSegments == segmentsGiven_) return {};
+  const Scene& exact = with(0);
+  const std::uint64_t spheres = exact.triangles.size() - exact.firstSphere;
+  const auto segments = static_cast<std::uint64_t>(sphereSegments);
+  if (spheres * segments * segments <= kMostTriangles) return {};
+  return std::to_string(spheres) + " spheres would be more than " +
+         std::to_string(kMostTriangles / 1'000'000) + " million triangles";
+}
 
 SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
                       const SweepSettings& settings, Progress* progress) {

@@ -1,8 +1,10 @@
-// A sweep as a table of text.
+// The results of a sweep as text for a terminal.
 #include <algorithm>
+#include <array>
 #include <sstream>
+#include <string_view>
 
-#include "accuracy/choice.h"
+#include "accuracy/findings.h"
 #include "accuracy/report.h"
 #include "core/formatted.h"
 
@@ -10,17 +12,17 @@ namespace whit::accuracy {
 
 namespace {
 
-constexpr std::size_t kLongestLabel = 25;  // longer ones, of combinations, have a line of their own
+// Longer labels, which combinations have, get a line of their own.
+constexpr std::size_t kLongestLabel = 25;
 
 constexpr const char* kWords =
     "FLIP: how visible a difference is, 0 to 1. RMSE: root of the mean squared difference of "
-    "linear "
-    "radiance. Code: a step of an 8-bit sRGB channel; off: share of the pixels that are off by a "
-    "code "
-    "or more. At equal samples: against the exact picture with as many samples a pixel. ms: of a "
-    "frame; +-: within what it is known.";
+    "linear radiance. Code: a step of an 8-bit sRGB channel; off: share of the pixels that are off "
+    "by a code or more. At equal samples: against the exact picture with as many samples a pixel. "
+    "ms: time of a frame; +-: half the interval that holds its median with 90 % confidence.";
 
-// In lines of kTableColumns at most; the first begins as the text does, the others are indented.
+// Breaks the text into lines of at most kTableColumns letters. The first line keeps its
+// indentation, and the others get `indent`.
 std::string wrapped(const std::string& text, std::size_t indent = 2) {
   std::istringstream words(text);
   std::string all, line(std::min(text.find_first_not_of(' '), text.size()), ' '), word;
@@ -42,43 +44,83 @@ std::string wrapped(const std::string& text, std::size_t indent = 2) {
   return all + line + "\n";
 }
 
-std::string thousands(const FrameStats& stats) {
+// Frames of microseconds on a busy machine have spreads and ratios beyond any column.
+constexpr double kLargest = 9999;
+
+std::string spreadCell(const Point& point) {
+  const Timing& t = point.timing;
+  if (!t.hasSpread()) return "? ";
+  const double pct = t.spreadPct();
+  return (pct <= kLargest ? formatted("%.*f", pct < 10 ? 1 : 0, pct) : ">1e4") +
+         (t.noisy() ? "~" : " ");
+}
+
+std::string thousandRays(const Point& point) {
   double rays = 0;
-  for (const RayTally& tally : stats.meter.tally) rays += static_cast<double>(tally.rays);
+  for (const RayTally& tally : point.stats.meter.tally) rays += static_cast<double>(tally.rays);
   return formatted(rays < 1e6 ? "%.1f" : "%.0f", rays / 1e3);
 }
 
-// In four columns and a mark. On a busy machine a frame of microseconds may take a thousand times
-// as long as the one before.
-std::string spreadColumn(const Timing& t) {
-  if (!t.hasSpread()) return "   ? ";
-  constexpr double kLargest = 9999;
-  const double pct = t.spreadPct();
-  const std::string number = pct <= kLargest ? formatted("%4.*f", pct < 10 ? 1 : 0, pct) : ">1e4";
-  return number + (t.noisy() ? "~" : " ");
+struct Column {
+  std::string_view group, title;
+  int width;  // including the space before it
+  std::string (*cell)(const Point& point);
+};
+
+constexpr std::string_view kAgainstTruth = "against the reference", kEqualSamples = "equal samples";
+constexpr std::array kColumns{
+    Column{"time", "ms", 9, [](const Point& p) { return formatted("%.2f", p.timing.settledMs); }},
+    Column{"time", "+-% ", 6, spreadCell},
+    Column{"time", "x base", 7,
+           [](const Point& p) {
+             const double ratio = p.timing.ratio;
+             return formatted(ratio <= kLargest ? "%.2f" : "%.1e", ratio);
+           }},
+    Column{"thousand", "rays", 9, thousandRays},
+    Column{kAgainstTruth, "FLIP", 9,
+           [](const Point& p) { return formatted("%.5f", p.total.flipMean); }},
+    Column{kAgainstTruth, "RMSE", 8,
+           [](const Point& p) { return formatted("%.1e", p.total.rmse); }},
+    Column{kAgainstTruth, "off %", 8,
+           [](const Point& p) { return formatted("%.2f", p.total.pixelsGe1CodePct); }},
+    Column{kEqualSamples, "FLIP", 9,
+           [](const Point& p) {
+             return p.sameSamples ? formatted("%.5f", p.sameSamples->flipMean) : "-";
+           }},
+    Column{kEqualSamples, "off %", 8, [](const Point& p) {
+             return p.sameSamples ? formatted("%.3f", p.sameSamples->pixelsGe1CodePct) : "-";
+           }}};
+
+std::string rightAligned(std::string_view text, int width) {
+  return formatted("%*.*s", width, static_cast<int>(text.size()), text.data());
 }
 
-std::string ratioColumn(double ratio) {
-  constexpr double kLargest = 9999;
-  return formatted(ratio <= kLargest ? "%6.2f" : "%6.1e", ratio);
+// Two lines: the groups, each right-aligned over its columns, and the titles.
+std::string headOf(const SceneSweep& sweep, std::size_t labelWidth) {
+  std::string groups(labelWidth + 1, ' '), titles = groups;
+  int width = 0;
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    const Column& column = kColumns[i];
+    titles += rightAligned(column.title, column.width);
+    width += column.width;
+    if (i + 1 < kColumns.size() && kColumns[i + 1].group == column.group) continue;
+    const bool transport = sweep.transport && column.group == kAgainstTruth;
+    groups += rightAligned(transport ? "against all transport" : column.group, width);
+    width = 0;
+  }
+  return groups + "\n" + titles + "\n";
 }
 
 std::string rowOf(const Point& point, std::size_t labelWidth) {
-  const Timing& t = point.timing;
   std::string label = point.label(), row;
   if (label.size() > labelWidth) {
     row = wrapped(label);
     label.clear();
   }
-  row += formatted("%-*s%s%9.2f", static_cast<int>(labelWidth), label.c_str(),
-                   point.onFront ? "*" : " ", t.settledMs);
-  row += " " + spreadColumn(t) + " " + ratioColumn(t.ratio);
-  row += formatted(" %8s", thousands(point.stats).c_str());
-  const ImageDifference& d = point.total;
-  row += formatted("  %7.5f %7.1e %7.2f", d.flipMean, d.rmse, d.pixelsGe1CodePct);
-  if (!point.sameSamples) return row + formatted("  %7s %7s\n", "-", "-");
-  return row + formatted("  %7.5f %7.3f\n", point.sameSamples->flipMean,
-                         point.sameSamples->pixelsGe1CodePct);
+  label.resize(labelWidth, ' ');
+  row += label + (point.onFront ? "*" : " ");
+  for (const Column& column : kColumns) row += rightAligned(column.cell(point), column.width);
+  return row + "\n";
 }
 
 std::string causesOf(const Point& point) {
@@ -120,20 +162,6 @@ std::string notFinite(const SceneSweep& sweep) {
 
 }  // namespace
 
-std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {
-  std::vector<IdleKnob> groups;
-  for (const IdleKnob& knob : idle) {
-    const auto same = [&](const IdleKnob& group) { return group.because == knob.because; };
-    const auto group = std::find_if(groups.begin(), groups.end(), same);
-    if (group == groups.end()) {
-      groups.push_back(knob);
-    } else {
-      group->name += ", " + knob.name;
-    }
-  }
-  return groups;
-}
-
 std::string referenceText(const SceneSweep& sweep) {
   return formatted(
       "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
@@ -173,19 +201,13 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   text += wrapped(referenceText(sweep));
   if (sweep.transport) text += wrapped(transportText(sweep));
   text += wrapped(kWords);
-  const int label = static_cast<int>(width);
-  text += formatted("\n%-*s %22s %8s  %23s  %15s\n", label, "", "time", "thousand",
-                    sweep.transport ? "against all transport" : "against the reference",
-                    "equal samples");
-  text += formatted("%-*s %9s %4s %7s %8s  %7s %7s %7s  %7s %7s\n", label, "", "ms", "+-%",
-                    "x base", "rays", "FLIP", "RMSE", "off %", "FLIP", "off %");
+  text += "\n" + headOf(sweep, width);
   for (const Point& point : sweep.points) text += rowOf(point, width);
-  text +=
-      wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? of "
-                        "fewer than %d rounds, and so on no front; measured in random order, seed "
-                        "%u; more columns are in sweep.csv",
-                        kNoisyPct, kLeastRounds, seed)) +
-      "\n";
+  text += wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? "
+                            "fewer than %d rounds, and therefore on no front; measured in random "
+                            "order, seed %u; more columns are in sweep.csv",
+                            kNoisyPct, kLeastRounds, seed)) +
+          "\n";
   if (sweep.transport) text += wrapped(choiceText(sweep)) + "\n";
   text += causesOf(sweep.points.front()) + notFinite(sweep);
   for (const IdleKnob& group : groupedByReason(sweep.idle))

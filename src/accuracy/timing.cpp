@@ -1,8 +1,8 @@
 #include "accuracy/timing.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "accuracy/median_interval.h"
 #include "core/quantile.h"
 #include "core/stopwatch.h"
 
@@ -10,24 +10,46 @@ namespace whit::accuracy {
 
 namespace {
 
-// Of a point's share, what it has when it is first measured: all points are to have an error before
-// any has a good time. What is left serves repeat().
+// The part of a point's share of the budget that time() uses. All points get an error before any
+// gets a good time; repeat() uses the rest.
 constexpr double kFirstShare = 0.25;
 
-// Takes from what is left, while it lives, the time that passes.
-class Charge {
+// Subtracts the time of its lifetime from the budget.
+class BudgetUse {
  public:
-  explicit Charge(double& leftMs) : leftMs_(leftMs) {}
-  ~Charge() { leftMs_ -= stopwatch_.ms(); }
-  Charge(const Charge&) = delete;
-  Charge& operator=(const Charge&) = delete;
+  explicit BudgetUse(double& leftMs) : leftMs_(leftMs) {}
+  ~BudgetUse() { leftMs_ -= stopwatch_.ms(); }
+  BudgetUse(const BudgetUse&) = delete;
+  BudgetUse& operator=(const BudgetUse&) = delete;
 
  private:
   double& leftMs_;
   Stopwatch stopwatch_;
 };
 
+// The number of values that can be left out at either end. The median of the distribution lies
+// beyond the remaining values with P(Binomial(n, 1/2) <= spare) at either end, and half of the
+// error that the confidence allows is available for each.
+std::size_t spareValues(std::size_t n) {
+  // Logarithms, because 2^-n underflows for the thousands of frames of a baseline.
+  double logTerm = -static_cast<double>(n) * std::log(2.0), below = 0;  // P(X = k), P(X < k)
+  std::size_t k = 0;
+  while (below + std::exp(logTerm) <= (1 - kMedianConfidence) / 2) {
+    below += std::exp(logTerm);
+    logTerm += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
+    ++k;
+  }
+  return k == 0 ? 0 : k - 1;
+}
+
 }  // namespace
+
+Interval medianInterval(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t spare = spareValues(values.size());
+  return {values[spare], values[values.size() - 1 - spare]};
+}
 
 FrameSource::FrameSource(const Scene& scene, const Camera& camera, const RenderOptions& options)
     : renderer(scene, options),
@@ -72,8 +94,8 @@ std::vector<double> PointTimer::timeBlock(FrameSource& source, const Block& bloc
   return ms;
 }
 
-// Beside the baseline's frames before and after.
-void PointTimer::takeRound(TimeSamples& samples, FrameSource& frames, const Block& block) {
+// The ratio is to the mean of the baseline's blocks before and after.
+void PointTimer::measureRound(TimeSamples& samples, FrameSource& frames, const Block& block) {
   const double before = lastBlockMs_;
   const std::vector<double> ms = timeBlock(frames, block);
   lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
@@ -82,7 +104,7 @@ void PointTimer::takeRound(TimeSamples& samples, FrameSource& frames, const Bloc
   if (around > 0) samples.ratios.push_back(quantile(ms, 0.5) / around);
 }
 
-void PointTimer::takeRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
+void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
   const Stopwatch stopwatch;
   TimeSamples& samples = samples_[point.label()];
   const double pointMs = frames.stats.frameMs;
@@ -95,31 +117,31 @@ void PointTimer::takeRounds(Point& point, FrameSource& frames, int mostRounds, d
   if (samples.provisional) samples = {};
   lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
   while (left >= cost && samples.timing().rounds < mostRounds && samples.timing().noisy()) {
-    takeRound(samples, frames, block);
+    measureRound(samples, frames, block);
     left = budgetMs - stopwatch.ms();
   }
 }
 
 void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
   const double share = kFirstShare * std::max(leftMs_, 0.0) / static_cast<double>(points);
-  const Charge charge(leftMs_);
+  const BudgetUse use(leftMs_);
   TimeSamples& samples = samples_[point.label()];
   const double first = frames.stats.frameMs;
-  takeRounds(point, frames, kMostRounds, share);
-  if (samples.ratios.empty()) takeFirstFrame(samples, first);
+  measureRounds(point, frames, kMostRounds, share);
+  if (samples.ratios.empty()) useFirstFrame(samples, first);
   point.timing = samples.timing();
 }
 
 void PointTimer::repeat(Point& point, int rounds, const Open& open) {
-  const Charge charge(leftMs_);
+  const BudgetUse use(leftMs_);
   const Stopwatch opening;
   const std::unique_ptr<FrameSource> frames = open();
   frames->render();
-  takeRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - opening.ms());
+  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - opening.ms());
   point.timing = samples_[point.label()].timing();
 }
 
-void PointTimer::takeFirstFrame(TimeSamples& samples, double ms) {
+void PointTimer::useFirstFrame(TimeSamples& samples, double ms) {
   if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
   samples = {{ms}, {ms / baselineMs_.back()}, true};
 }

@@ -1,18 +1,16 @@
-// whit accuracy: what each step of accuracy costs, and what each saving breaks.
+// whit accuracy: measures time and error with one knob of accuracy changed at a time.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
-#include "accuracy/cause_chart.h"
 #include "accuracy/csv.h"
 #include "accuracy/digest.h"
-#include "accuracy/front_chart.h"
-#include "accuracy/knob_chart.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
 #include "cli/app/image_output.h"
@@ -35,9 +33,9 @@ constexpr const char* kAccuracyUsage =
 constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
     "time and in error against a double-precision reference, or against a picture with all light\n"
-    "that can be transported. Writes DIR/report.html, DIR/sweep.csv and the charts\n"
-    "DIR/knobs-SCENE.svg, DIR/pareto-SCENE.svg and DIR/causes-SCENE.svg; references are kept in\n"
-    "DIR/cache.";
+    "that can be transported. Writes DIR/report.html, a page with charts, pictures and tables, "
+    "and\n"
+    "DIR/sweep.csv; references are kept in DIR/cache.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
@@ -69,22 +67,24 @@ std::string knobHelp() {
 OptionList listOptions(AccuracyJob& job) {
   OptionList list;
   list.group("Measuring");
-  list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
+  list.value({"out", "DIR"}, "folder for the results; it is made if it does not exist", job.out);
   list.value({"truth", "model|transport"},
              "what errors are measured against: Whitted's model without approximations, or all "
              "transport of light, with points from a draft to that",
              job.truth);
-  list.flag("quick",
-            "256x256 pixels, up to 64 reference samples, what fits into a minute (the default)",
-            job.quick);
+  list.flag(
+      "quick",
+      "256x256 pixels, up to 64 reference samples, points until a minute is over (the default)",
+      job.quick);
   list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
              job.check);
-  list.value({"time-budget", "SECONDS", 0, 1e6},
-             "for repeating times, a scene, until their spread is known (default: 20, --full 600)",
-             job.timeBudget);
-  list.value({"seed", "N", 0, 1e9}, "of the random order of the measurements", job.seed);
+  list.value(
+      {"time-budget", "SECONDS", 0, 1e6},
+      "time for measuring times of a scene until their spread is known (default: 20, --full 600)",
+      job.timeBudget);
+  list.value({"seed", "N", 0, 1e9}, "seed of the random order of the measurements", job.seed);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
                 std::numeric_limits<std::size_t>::max(), job.scenes);
@@ -108,16 +108,6 @@ std::string readText(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// A name for files: what a scene's name has beyond letters, digits and a few marks becomes '-'.
-std::string fileName(std::string scene) {
-  for (char& c : scene) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_' || c == '.';
-    if (!plain) c = '-';
-  }
-  return scene;
-}
-
 accuracy::RunFacts factsOf(const AccuracyJob& job) {
   const MachineFacts machine = machineFacts();
   accuracy::RunFacts facts;
@@ -130,7 +120,7 @@ accuracy::RunFacts factsOf(const AccuracyJob& job) {
   return facts;
 }
 
-// All pictures of a sweep are shown alike.
+// Automatic exposure is computed once, so that all pictures of a sweep have the same.
 RenderOptions sweptOptions(const OpenScene& open, const CommonOptions& common) {
   RenderOptions options = optionsFor(open.scene, common);
   if (!options.exposure.automatic) return options;
@@ -153,11 +143,11 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   std::vector<accuracy::SceneSweep> sweeps;
   for (const std::string& name : job.scenes) {
     const auto open = openScene(name, job.common, progress.get());
-    openFilm(open->scene, job.common);  // refuses a size that does not fit into memory
+    openFilm(open->scene, job.common);  // throws if the size does not fit into memory
     const RenderOptions options = sweptOptions(*open, job.common);
     accuracy::SceneVariants scenes(open->scene, options.sphereSegments, [&](int segments) {
       CommonOptions other = job.common;
-      other.quiet = true;  // its warnings have been told
+      other.quiet = true;  // the first variant has printed the warnings
       other.load.sphereSegments = segments;
       return std::move(openScene(name, other, nullptr)->scene);
     });
@@ -166,25 +156,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   return sweeps;
 }
 
-void writeResults(const AccuracyJob& job, const std::vector<accuracy::SceneSweep>& sweeps,
-                  const accuracy::RunFacts& facts, const std::string& csv) {
-  const WriteScope scope;
-  const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "sweep.csv").string(), csv);
-  writeTextFile((folder / "report.html").string(), accuracy::reportHtml(sweeps, facts));
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    const accuracy::SceneSweep& sweep = sweeps[i];
-    const accuracy::ChartLinks links{i, "report.html"};
-    const std::string name = fileName(sweep.scene) + ".svg";
-    writeTextFile((folder / ("knobs-" + name)).string(),
-                  accuracy::knobSvg(sweep, accuracy::chosenPoints(sweep), links));
-    writeTextFile((folder / ("pareto-" + name)).string(),
-                  accuracy::frontSvg(sweep, accuracy::Against::reference, links));
-    writeTextFile((folder / ("causes-" + name)).string(), accuracy::causeSvg(sweep, links));
-  }
-}
-
-// The exit status.
+// Returns the exit status.
 int checkAgainst(const AccuracyJob& job, const std::string& csv) {
   const auto before = accuracy::parseCsv(readText(job.check), job.check);
   const auto grown =
@@ -203,13 +175,18 @@ int accuracyCommand(const Words& words) {
     return 0;
   settleOptions(job.common);
   checkJob(job);
-  if (!job.check.empty()) accuracy::parseCsv(readText(job.check), job.check);  // before the work
+  if (!job.check.empty())
+    accuracy::parseCsv(readText(job.check), job.check);  // throws before the long measurement
   const accuracy::RunFacts facts = factsOf(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
   const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
-  writeResults(job, sweeps, facts, csv);
+  const WriteScope scope;
+  const std::filesystem::path folder(job.out);
+  writeTextFile((folder / "sweep.csv").string(), csv);
+  writeTextFile((folder / "report.html").string(),
+                accuracy::reportPage(accuracy::reportJson(sweeps, facts)));
   return job.check.empty() ? 0 : checkAgainst(job, csv);
 }
 

@@ -1,7 +1,9 @@
-// whit effects: one scene as a matte one and then with one effect more at a time; what each adds.
+// whit effects: measures a scene as a matte one and then with one effect more at a time.
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "accuracy/report.h"
 #include "cli/app/image_output.h"
 #include "cli/app/interrupt.h"
 #include "cli/app/progress_bar.h"
@@ -20,11 +22,9 @@ namespace {
 
 constexpr const char* kEffectsUsage = "whit effects [SCENE] --out DIR [options]";
 constexpr const char* kEffectsSummary =
-    "Measures a scene with nothing but point lights and their shadows, then with one effect more "
-    "at\n"
-    "a time until it is complete. The frames of all steps take turns. Writes\n"
-    "DIR/effects.csv, DIR/effects.svg and a picture of each step: DIR/00-matte.png, DIR/01-sky.png "
-    "...";
+    "Measures a scene with nothing but point lights and their shadows, then with one effect more\n"
+    "at a time until it is complete. The frames of all steps take turns. Writes DIR/report.html,\n"
+    "DIR/effects.csv and a picture of each step: DIR/00-matte.png, DIR/01-sky.png ...";
 
 struct EffectsJob {
   CommonOptions common;
@@ -42,7 +42,12 @@ std::shared_ptr<OpenScene> openStep(const SceneDescription& whole, EffectSet kep
   return open;
 }
 
-// Steps for the effects that the scene has; the others would add nothing. Their pictures are saved.
+std::string pictureName(const std::vector<EffectStep>& steps, std::size_t i) {
+  return formatted("%02zu-%s.png", i, steps[i].added.c_str());
+}
+
+// Measures a step for each effect that the scene has, because the others would add nothing, and
+// saves its picture.
 std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) {
   Warnings warnings(job.common.render.strict);
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
@@ -68,8 +73,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
-    const std::string picture = formatted("%02zu-%s.png", i, steps[i].added.c_str());
-    writeImage((std::filesystem::path(job.out) / picture).string(), runs[i]->film(),
+    writeImage((std::filesystem::path(job.out) / pictureName(steps, i)).string(), runs[i]->film(),
                runs[i]->options(), {{"scene", name}, {"effects", "up to " + steps[i].added}});
   }
   return steps;
@@ -91,8 +95,9 @@ int effectsCommand(const Words& words) {
   EffectsJob job;
   OptionList list;
   list.group("Measuring");
-  list.value({"out", "DIR"}, "folder of the results, made if it is not there", job.out);
-  list.value({"frames", "N", 1, 1e6}, "frames of each step that count", job.frames);
+  list.value({"out", "DIR"}, "folder for the results; it is made if it does not exist", job.out);
+  list.value({"frames", "N", 1, 1e6}, "number of frames that are measured for each step",
+             job.frames);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);
@@ -106,7 +111,10 @@ int effectsCommand(const Words& words) {
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "effects.csv").string(), effectsCsv(steps));
-  writeTextFile((folder / "effects.svg").string(), effectsSvg(steps));
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < steps.size(); ++i) pictures.push_back(pictureName(steps, i));
+  writeTextFile((folder / "report.html").string(),
+                accuracy::reportPage(effectsJson(steps, pictures)));
   return 0;
 }
 

@@ -24,7 +24,7 @@ std::string rayDiagram(const RayTree& tree, const Camera& camera, int width, int
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
       "viewBox=\"0 0 %d %d\">\n<image width=\"%d\" height=\"%d\" href=\"",
       width, height, width, height, width, height);
-  svg += accuracy::dataUri(picture) + "\"/>\n";
+  svg += "data:image/png;base64," + accuracy::base64(picture) + "\"/>\n";
   const LineView view(camera, width, height);
   for (const RayLine& line : linesOf(tree)) {
     const auto seen = view.see(line.from, line.to);

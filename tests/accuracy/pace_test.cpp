@@ -1,4 +1,4 @@
-#include "accuracy/pace.h"
+#include "accuracy/scope.h"
 
 #include <gtest/gtest.h>
 

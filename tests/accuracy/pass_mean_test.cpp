@@ -1,5 +1,5 @@
 // The mean of passes and its standard error, where both have a closed form.
-#include "accuracy/pass_mean.h"
+#include "accuracy/reference_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "accuracy/digest.h"
 #include "accuracy/knobs.h"
-#include "accuracy/pass_mean.h"
+#include "accuracy/reference_cache.h"
 #include "cli/run_program.h"
 #include "render/renderer.h"
 #include "unit/scene_builder.h"

@@ -1,10 +1,10 @@
 #!/bin/bash
-# The report of whit accuracy as a browser lays it out, 360, 800 and 1400 pixels wide: nothing is wider
-# than the page, the charts' letters can be read and stand on no others, and a click on a row or a point
-# shows its picture beside the reference. report_in_browser_test.sh WHIT [FOLDER]: with a folder,
-# screenshots are kept there.
+# The reports of whit accuracy, whit effects and whit-verify as a browser lays them out, 360, 800 and 1400
+# pixels wide: every table has as many headers as cells, nothing is wider than the page, the charts' letters
+# can be read and do not overlap, and a click on a row or a point shows its picture beside the reference.
+# report_in_browser_test.sh WHIT VERIFY [FOLDER]: with a folder, screenshots are kept there.
 set -euo pipefail
-whit=$1 keep=${2:-}
+whit=$1 verify=$2 keep=${3:-}
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 if [ -z "$browser" ]; then
   echo "no Chromium here: the report is not looked at"
@@ -13,18 +13,13 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# measured TRUTH KNOBS: its page as it is, and behind it what measures it. It stands in a frame of the
-# wanted width, as windows cannot be that narrow, and tells what is wrong to the page around it.
-measured() {
-  "$whit" accuracy mirrors --truth "$1" --knobs "$2" --size 48x32 --time-budget 2 --quiet \
-    --out "$folder" > /dev/null
-  cat "$folder/report.html" "$folder/measures.html" > "$folder/checked.html"
-}
+# The page that measures the report is put behind it. The report stands in a frame of the wanted width,
+# because windows cannot be that narrow, and tells the page around it what is wrong.
 cat > "$folder/measures.html" <<'HTML'
 <script>
-const wrong = [], page = document.documentElement, leastLetter = 10;
+const wrong = [], element = document.documentElement, leastLetter = 10;
 const say = text => wrong.push(text);
-if (page.scrollWidth > innerWidth) say(`the page is ${page.scrollWidth} of ${innerWidth} pixels wide`);
+if (element.scrollWidth > innerWidth) say(`the page is ${element.scrollWidth} of ${innerWidth} pixels wide`);
 document.querySelectorAll('details').forEach(part => part.open = true);
 document.querySelectorAll('svg').forEach(chart => {
   const scale = chart.getBoundingClientRect().width / chart.viewBox.baseVal.width;
@@ -43,18 +38,25 @@ document.querySelectorAll('svg').forEach(chart => {
     if (x > 1 && y > 3) say(`'${text.textContent}' is written over '${other.textContent}'`);
   }));
 });
+const tables = [...document.querySelectorAll('table')];
+if (data.report !== 'accuracy' && !tables.length) say('there is no table');
+tables.forEach(table => {
+  const counts = [...table.rows].map(row => [...row.cells].reduce((sum, cell) => sum + cell.colSpan, 0));
+  if (new Set(counts).size !== 1 || table.tBodies[0].rows.length < 1) say(`rows of ${counts} cells`);
+});
+if (/undefined|NaN|\[object/.test(document.querySelector('main').textContent)) say('a value is missing');
 const links = [...document.querySelectorAll('svg a')];
-if (links.length < 20) say(`${links.length} links`);
+if (data.report === 'accuracy' && links.length < 20) say(`${links.length} links`);
 links.forEach(link => {
   const row = link.querySelector('[data-point]').dataset.point;
   const figure = document.querySelector(link.getAttribute('href'));
   link.dispatchEvent(new MouseEvent('click', {bubbles: true, cancelable: true}));
   const shown = document.querySelector('.wipe .over'), said = document.querySelector('.wipe .l');
   if (shown.src !== figure.querySelector('img').src) say(`${row}: another picture is shown`);
-  if (said.textContent !== figure.querySelector('button').dataset.label) say(`${row}: another name`);
+  if (said.textContent !== figure.querySelector('b').textContent) say(`${row}: another name`);
   if (!shown.complete || !shown.naturalWidth) shown.decode().catch(() => say(`${row}: no picture`));
 });
-const loaded = performance.getEntriesByType('resource').filter(entry => !entry.name.startsWith('data:'));
+const loaded = performance.getEntriesByType('resource').filter(entry => !/^data:|^file:.*-[a-zA-Z]+.png$/.test(entry.name));
 if (loaded.length) say(`loads ${loaded[0].name}`);
 parent.postMessage(wrong.length ? wrong.join('\n') : `fits ${innerWidth}`, '*');
 </script>
@@ -67,30 +69,41 @@ chrome() {
 }
 
 status=0
-# looked TRUTH WIDTH
-looked() {
-  local truth=$1 width=$2 found
-  cat > "$folder/frame.html" <<HTML
+# look PAGE NAME: at the three widths
+look() {
+  local page=$1 name=$2 width found
+  cat "$page" "$folder/measures.html" > "$(dirname "$page")/checked.html"
+  for width in 360 800 1400; do
+    cat > "$(dirname "$page")/frame.html" <<HTML
 <body style="margin:0"><iframe src="checked.html" style="border:0;width:${width}px;height:2600px">
 </iframe><pre id="found"></pre><script>
 addEventListener('message', event => document.getElementById('found').textContent = event.data);
 </script></body>
 HTML
-  found=$(chrome --dump-dom "file://$folder/frame.html" | sed -n '/<pre id="found">/,/<\/pre>/p')
-  if ! grep -q "<pre id=\"found\">fits $width</pre>" <<< "$found"; then
-    echo "$truth at $width pixels:" "${found:-$(tail -n 3 "$folder/browser.log")}"
-    status=1
-  fi
-  if [ -n "$keep" ]; then
-    mkdir -p "$keep"
-    sed -i s/checked.html/report.html/ "$folder/frame.html"
-    chrome --window-size="$width,2600" --screenshot="$keep/report-$truth-$width.png" \
-      "file://$folder/frame.html"
-  fi
+    found=$(chrome --dump-dom "file://$(dirname "$page")/frame.html" | sed -n '/<pre id="found">/,/<\/pre>/p')
+    if ! grep -q "<pre id=\"found\">fits $width</pre>" <<< "$found"; then
+      echo "$name at $width pixels:" "${found:-$(tail -n 3 "$folder/browser.log")}"
+      status=1
+    fi
+    if [ -n "$keep" ]; then
+      mkdir -p "$keep"
+      sed -i "s/checked.html/$(basename "$page")/" "$(dirname "$page")/frame.html"
+      chrome --window-size="$width,2600" --screenshot="$keep/report-$name-$width.png" \
+        "file://$(dirname "$page")/frame.html"
+    fi
+  done
 }
 
-measured model depth,cutoff,spp,packet
-for width in 360 800 1400; do looked model $width; done
-measured transport spp,indirect
-for width in 360 800 1400; do looked transport $width; done
+# sweep TRUTH KNOBS
+sweep() {
+  "$whit" accuracy mirrors --truth "$1" --knobs "$2" --size 48x32 --time-budget 2 --quiet \
+    --out "$folder/$1" > /dev/null
+  look "$folder/$1/report.html" "$1"
+}
+sweep model depth,cutoff,spp,packet
+sweep transport spp,indirect
+"$whit" effects --size 48x30 --frames 2 --quiet --out "$folder/effects" > /dev/null
+look "$folder/effects/report.html" effects
+"$verify" --only H38,H16 --html "$folder/verify.html" > /dev/null
+look "$folder/verify.html" verify
 exit $status

@@ -83,12 +83,5 @@ TEST(SweepTable, ATimeOfOneFrameHasNoSpread) {
   EXPECT_NE(sweepTable(sweep, 1).find("    ? "), std::string::npos);
 }
 
-TEST(SweepTable, WhatWasLeftOutForOneReasonIsOneLine) {
-  const auto groups = groupedByReason({{"a", "late"}, {"b", "flat"}, {"c", "late"}});
-  ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(groups[0].name, "a, c");
-  EXPECT_EQ(groups[1].because, "flat");
-}
-
 }  // namespace
 }  // namespace whit::accuracy

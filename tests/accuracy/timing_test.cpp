@@ -7,8 +7,6 @@
 #include <numeric>
 #include <random>
 
-#include "accuracy/median_interval.h"
-
 namespace whit::accuracy {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "cli/run_program.h"
 #include "core/options.h"
+#include "embedded_data.h"
 #include "io/image/image_file.h"
 
 namespace whit::cli {
@@ -129,7 +130,9 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
       [](const auto& entry) { return entry.path().extension() == ".png"; });
   EXPECT_EQ(pictures, kLines - 1);
   EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;
-  EXPECT_EQ(readFile(folder / "made/effects.svg").rfind("<svg ", 0), 0u);
+  const auto report = embeddedData(readFile(folder / "made/report.html"));
+  EXPECT_EQ(report["effects"].size(), static_cast<std::size_t>(kLines - 1));
+  EXPECT_EQ(report["pictures"][0], "00-matte.png");
 }
 
 TEST(EffectsCommand, AddsOnlyWhatTheSceneHas) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "accuracy/report.h"
 #include "cli/stage_table.h"
+#include "embedded_data.h"
 
 namespace whit::cli {
 namespace {
@@ -74,33 +77,18 @@ TEST(EffectsCsv, HasThePromisedColumns) {
             "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
             "reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,memory_mb,"
             "added_memory_mb\n"
-            "matte,10.0000,10.0000,6.0000,2048,0,0,0,0,0,2048,1.500,1.500\n"
-            "mirror,15.0000,5.0000,3.0000,2048,0,3000,0,0,0,3000,1.750,0.250\n");
+            "matte,10,10,6,2048,0,0,0,0,0,2048,1.5,1.5\n"
+            "mirror,15,5,3,2048,0,3000,0,0,0,3000,1.75,0.25\n");
 }
 
-TEST(EffectsSvg, ShowsEveryStepInLightAndDark) {
-  const std::string svg = effectsSvg(madeUpSteps());
-  EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
-  EXPECT_NE(svg.find("</svg>\n"), std::string::npos);
-  EXPECT_NE(svg.find("prefers-color-scheme:dark"), std::string::npos);
-  for (const char* text : {">matte<", ">+ mirror<", ">+5.00<", ">+3<", ">+0.25<"}) {
-    EXPECT_NE(svg.find(text), std::string::npos) << text << "\n" << svg;
-  }
-  // The longest bar is as long as the column: 5 ms; 3 of them are outside Embree. No bar for matte.
-  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"99.0\" width=\"150.0\""), std::string::npos);
-  EXPECT_NE(svg.find("class=\"own\" x=\"150.0\" y=\"104.0\" width=\"90.0\""), std::string::npos);
-  EXPECT_EQ(svg.find("y=\"77.0\""), std::string::npos);
-}
-
-TEST(EffectsSvg, SavingsReachToTheLeftOfZero) {
-  std::vector<EffectStep> steps = madeUpSteps();
-  steps.push_back({"textures", madeUpRun({5, 15, 5, 5, 15}, 0), 1.75});  // 10 ms less
-  const std::string svg = effectsSvg(steps);
-  // Zero is two thirds of the way: from 10 ms less to 5 ms more.
-  EXPECT_NE(svg.find("class=\"axis\" x1=\"250.0\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("class=\"time\" x=\"250.0\" y=\"99.0\" width=\"50.0\""), std::string::npos);
-  EXPECT_NE(svg.find("class=\"time\" x=\"150.0\" y=\"121.0\" width=\"100.0\""), std::string::npos);
-  EXPECT_EQ(svg.find("width=\"-"), std::string::npos);
+TEST(EffectsReport, HasTheRowsOfTheCsvFile) {
+  const std::vector<EffectStep> steps = madeUpSteps();
+  const nlohmann::ordered_json data = effectsJson(steps, {"00-matte.png", "01-mirror.png"});
+  EXPECT_EQ(data["effects"], effectsRows(steps));
+  EXPECT_EQ(data["effects"][1]["added_rays"], 3000);
+  EXPECT_EQ(data["pictures"].size(), 2u);
+  EXPECT_EQ(data["turns"], 5);
+  EXPECT_EQ(embeddedData(accuracy::reportPage(data)), data);
 }
 
 }  // namespace

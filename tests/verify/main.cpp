@@ -119,6 +119,7 @@ Json jsonOf(const Machine& machine, const std::vector<Row>& rows) {
     const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     cases.push_back({{"case", row.hardCase->name},
                      {"title", row.hardCase->title},
+                     {"construction", row.hardCase->construction},
                      {"family", row.family},
                      {"input", row.finding.input()},
                      {"worst", finite(worst)},
@@ -127,7 +128,8 @@ Json jsonOf(const Machine& machine, const std::vector<Row>& rows) {
                      {"simd", row.setup.simd},
                      {"packet", row.setup.packet == 0 ? Json("auto") : Json(row.setup.packet)},
                      {"tried", row.finding.seen()},
-                     {"holds", row.finding.holds()}});
+                     {"holds", row.finding.holds()},
+                     {"result", row.result()}});
   }
   return {{"machine", cli::machineJson(machine)}, {"cases", cases}};
 }
@@ -138,64 +140,19 @@ struct HardScene {
   Image picture;
 };
 
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-  }
-  return html;
-}
-
-constexpr const char* kStyle =
-    "<style>:root{color-scheme:light dark}"
-    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem}"
-    "table{border-collapse:collapse;width:100%}"
-    "th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #8884;vertical-align:top}"
-    "td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}"
-    "small{opacity:.7}code{font-size:.8em;overflow-wrap:anywhere}"
-    ".pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(10rem,1fr));gap:.6rem}"
-    "figure{margin:0}figure img{width:100%}figcaption{font-size:.85em;opacity:.8}"
-    "tr.broken td{background:#d3222233}tr.family th{padding-top:1.2rem}</style>";
-
-std::string htmlTable(const std::vector<Row>& rows) {
-  std::string html =
-      "<table><thead><tr><th>case<th>what must hold<th>worst<th>bound<th>holds<th>at<th>worst input"
-      "</tr></thead><tbody>\n";
-  std::string_view family;
-  for (const Row& row : worstRows(rows)) {
-    if (row.family != family) {
-      family = row.family;
-      html += "<tr class=family><th colspan=7>" + escaped(family) + "</th></tr>\n";
-    }
-    html += std::string("<tr") + (row.finding.holds() ? "" : " class=broken") + "><td>" +
-            escaped(row.hardCase->name) + "<td>" + escaped(row.hardCase->title) + "<br><small>" +
-            escaped(row.hardCase->construction) + "</small><td class=n>" +
-            numberText(row.finding.worst()) + "<td class=n>" + numberText(row.finding.bound()) +
-            "<td>" + row.result() + "<td>" + row.setup.simd + ", " + row.packet() + "<td><code>" +
-            escaped(row.finding.input()) + "</code></tr>\n";
-  }
-  return html + "</tbody></table>\n";
-}
-
-std::string htmlPage(const Machine& machine, const std::vector<Row>& rows,
-                     const std::vector<HardScene>& scenes) {
-  const Json facts = cli::machineJson(machine);
-  std::string html =
-      "<!doctype html><html lang=en><meta charset=utf-8>"
-      "<meta name=viewport content=\"width=device-width,initial-scale=1\">"
-      "<title>whit: hard cases</title>" +
-      std::string(kStyle) + "<h1>Hard cases</h1><p>";
-  for (const auto& [key, value] : facts.items()) {
-    html +=
-        escaped(key + ": " + (value.is_string() ? value.get<std::string>() : value.dump())) + "; ";
-  }
-  html += "</p><p>" + summaryOf(rows) + ".</p>\n<div class=pictures>";
+// The data of the page: for each case the run that came closest to its bound, as --json has it, a
+// summary and the pictures.
+Json reportOf(const Machine& machine, const std::vector<Row>& rows,
+              const std::vector<HardScene>& scenes) {
+  Json report = jsonOf(machine, worstRows(rows));
+  report["report"] = "verify";
+  report["summary"] = summaryOf(rows);
+  report["pictures"] = Json::array();
   for (const HardScene& scene : scenes) {
-    html += "<figure><img alt=\"" + escaped(scene.name) + "\" src=\"" +
-            accuracy::dataUri(encodePng(toDisplay(scene.picture, 0, ToneCurve::none))) +
-            "\"><figcaption>" + escaped(scene.name) + "</figcaption></figure>";
+    const auto png = encodePng(toDisplay(scene.picture, 0, ToneCurve::none));
+    report["pictures"].push_back({{"name", scene.name}, {"png", accuracy::base64(png)}});
   }
-  return html + "</div>\n" + htmlTable(rows) + "</html>\n";
+  return report;
 }
 
 constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kSheetGap = 4;
@@ -309,7 +266,7 @@ int run(const std::vector<std::string>& words) {
   if (!json.empty()) cli::writeJson(json, jsonOf(machine, rows));
   if (!html.empty()) {
     const cli::WriteScope scope;
-    writeTextFile(html, htmlPage(machine, rows, scenes));
+    writeTextFile(html, accuracy::reportPage(reportOf(machine, rows, scenes)));
   }
   const bool allHold =
       std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.finding.holds(); });

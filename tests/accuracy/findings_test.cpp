@@ -1,0 +1,279 @@
+// Fronts, choices and findings of made-up sweeps whose best points are plain to see, and the front
+// against its definition by brute force.
+#include "accuracy/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace whit::accuracy {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+TEST(Pareto, ByHand) {
+  EXPECT_EQ(paretoFront({}), Indices{});
+  EXPECT_EQ(paretoFront({{3, 1}}), Indices{0});
+  // The second is beaten by the first in both; the third is dearer but better.
+  EXPECT_EQ(paretoFront({{1, 5}, {2, 6}, {4, 1}}), (Indices{0, 2}));
+  // Equal cost: the better one. Equal error: the cheaper one. Equal in both: the first.
+  EXPECT_EQ(paretoFront({{1, 5}, {1, 4}}), Indices{1});
+  EXPECT_EQ(paretoFront({{2, 4}, {1, 4}}), Indices{1});
+  EXPECT_EQ(paretoFront({{1, 4}, {1, 4}}), Indices{0});
+}
+
+TEST(Pareto, NotFiniteIsNeverOnTheFront) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  EXPECT_EQ(paretoFront({{1, nan}, {nan, 1}, {-inf, 0}, {2, 3}, {1, inf}}), Indices{3});
+}
+
+TEST(Pareto, AgainstTheDefinition) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<CostAndError> points(1 + random() % 12);
+    for (CostAndError& p : points) p = {double(random() % 6), double(random() % 6)};
+    const Indices front = paretoFront(points);
+    const std::set<std::size_t> members(front.begin(), front.end());
+    std::set<std::pair<double, double>> values;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool beaten = false;
+      for (const CostAndError& q : points) {
+        const CostAndError& p = points[i];
+        beaten |= q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error);
+      }
+      EXPECT_FALSE(beaten && members.contains(i));
+      if (!beaten) values.insert({points[i].cost, points[i].error});
+    }
+    EXPECT_EQ(front.size(), values.size()) << "each value once";
+  }
+}
+
+// By brute force over those that have a spread: the others are not on it, and beat nothing.
+TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
+  std::mt19937 random(11);
+  int without = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Point> points(1 + random() % 10);
+    for (Point& p : points) {
+      p.timing.rounds = static_cast<int>(random() % 6);
+      p.timing.settledMs = static_cast<double>(1 + random() % 50);
+      p.total.flipMean = static_cast<double>(random() % 50);
+      if (random() % 2) p.sameSamples.emplace().flipMean = static_cast<double>(random() % 50);
+      p.onFront = p.onFrontSameSamples = random() % 2;  // of an earlier time
+    }
+    markFronts(points);
+    const auto beats = [](double time, double error, double otherTime, double otherError) {
+      return time <= otherTime && error <= otherError && (time < otherTime || error < otherError);
+    };
+    for (const Point& p : points) {
+      without += !p.timing.hasSpread();
+      bool beaten = false, beatenSame = false;
+      for (const Point& q : points) {
+        if (!q.timing.hasSpread()) continue;
+        beaten |= beats(q.timing.settledMs, q.total.flipMean, p.timing.settledMs, p.total.flipMean);
+        beatenSame |= q.sameSamples && p.sameSamples &&
+                      beats(q.timing.settledMs, q.sameSamples->flipMean, p.timing.settledMs,
+                            p.sameSamples->flipMean);
+      }
+      EXPECT_FALSE(p.onFront && (beaten || p.timing.rounds < kLeastRounds));
+      EXPECT_FALSE(p.onFrontSameSamples &&
+                   (beatenSame || !p.sameSamples || p.timing.rounds < kLeastRounds));
+    }
+    const bool timed = std::any_of(points.begin(), points.end(),
+                                   [](const Point& p) { return p.timing.hasSpread(); });
+    const bool front =
+        std::any_of(points.begin(), points.end(), [](const Point& p) { return p.onFront; });
+    EXPECT_EQ(front, timed);
+  }
+  EXPECT_GT(without, 100) << "of which the law speaks";
+}
+
+Point timedPoint(const std::string& name, double ms, double flip, double spread = 0) {
+  Point point;
+  point.kind = PointKind::preset;
+  point.value = name;
+  point.timing.rounds = point.timing.frames = 5;
+  point.timing.settledMs = ms;
+  point.timing.ratio = ms / 10;
+  point.timing.ratioLow = (1 - spread) * ms / 10, point.timing.ratioHigh = (1 + spread) * ms / 10;
+  point.total.flipMean = flip;
+  return point;
+}
+
+SceneSweep roomOf(std::vector<Point> points) {
+  SceneSweep sweep;
+  sweep.scene = "room", sweep.width = 32, sweep.height = 20;
+  sweep.points = std::move(points);
+  return sweep;
+}
+
+TEST(Choice, IsTheLeastErrorWithinTheTime) {
+  const SceneSweep sweep = roomOf({timedPoint("a", 10, 0.2), timedPoint("b", 90, 0.1),
+                                   timedPoint("c", 95, 0.15), timedPoint("d", 5000, 0.01)});
+  EXPECT_EQ(
+      choiceText(sweep),
+      "room at 32x20 pixels: in 16 ms choose a (FLIP 0.2000), in 100 ms b (FLIP 0.1000), in 1 s "
+      "no more than that, in 10 s d (FLIP 0.0100).");
+}
+
+TEST(Choice, SaysThatThereIsNone) {
+  EXPECT_EQ(choiceText(roomOf({timedPoint("a", 500, 0.2)})),
+            "room at 32x20 pixels: in 16 ms nothing that was measured, in 100 ms nothing that was "
+            "measured, in 1 s choose a (FLIP 0.2000), in 10 s no more than that.");
+}
+
+// 15 ms, but perhaps 18.
+TEST(Choice, CountsTheWholeSpread) {
+  const SceneSweep sweep = roomOf({timedPoint("a", 10, 0.2), timedPoint("b", 15, 0.1, 0.2)});
+  EXPECT_EQ(bestWithin(sweep, 16)->value, "a");
+  EXPECT_EQ(bestWithin(sweep, 18.001)->value, "b");
+}
+
+TEST(Choice, IsTheFastestOfEqualErrors) {
+  const SceneSweep sweep = roomOf({timedPoint("a", 10, 0.2), timedPoint("b", 5, 0.2)});
+  EXPECT_EQ(bestWithin(sweep, 16)->value, "b");
+}
+
+TEST(Choice, MarksATimeWithoutASpread) {
+  SceneSweep sweep = roomOf({timedPoint("a", 10, 0.2)});
+  sweep.points[0].timing.rounds = 1;
+  EXPECT_NE(choiceText(sweep).find("a (FLIP 0.2000; a time without a spread)"), std::string::npos);
+}
+
+TEST(Choice, IsNeverAnErrorThatIsNoNumber) {
+  EXPECT_EQ(bestWithin(roomOf({timedPoint("a", 10, std::nan(""))}), 16), nullptr);
+}
+
+Point knobPoint(const std::string& knob, const std::string& value, double ratio, double flip) {
+  Point point;
+  point.knob = knob;
+  point.value = value;
+  point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ratio;
+  point.timing.rounds = point.timing.frames = 5;
+  point.total.flipMean = flip;
+  return point;
+}
+
+// The baseline has a FLIP of 0.04.
+SceneSweep sweepOf(const std::vector<Point>& points) {
+  SceneSweep sweep;
+  sweep.scene = "room";
+  sweep.points.push_back(knobPoint("", "standard", 1, 0.04));
+  sweep.points.front().kind = PointKind::baseline;
+  sweep.points.insert(sweep.points.end(), points.begin(), points.end());
+  return sweep;
+}
+
+std::vector<std::string> chosenLabels(const SceneSweep& sweep) {
+  std::vector<std::string> labels;
+  for (const Point* point : chosenPoints(sweep)) labels.push_back(point->label());
+  return labels;
+}
+
+using Labels = std::vector<std::string>;
+
+TEST(ChosenPoints, SaveTheMostWithoutVisibleHarm) {
+  EXPECT_EQ(
+      chosenLabels(sweepOf({knobPoint("depth", "1", 0.1, 0.2), knobPoint("depth", "4", 0.4, 0.045),
+                            knobPoint("depth", "8", 0.7, 0.041)})),
+      Labels{"depth=4"});
+}
+
+TEST(ChosenPoints, HaveTheLeastErrorIfNothingSavesTime) {
+  EXPECT_EQ(chosenLabels(sweepOf({knobPoint("spp", "2", 2, 0.03), knobPoint("spp", "4", 4, 0.02)})),
+            Labels{"spp=4"});
+  EXPECT_EQ(chosenLabels(
+                sweepOf({knobPoint("packet", "1", 2, 0.04), knobPoint("packet", "4", 1.1, 0.04)})),
+            Labels{"packet=4"});
+}
+
+// 0.9 of the time, known no better than within 0.8 to 1.1, is no saving.
+TEST(ChosenPoints, NoiseIsNoSaving) {
+  SceneSweep sweep =
+      sweepOf({knobPoint("bvh", "low", 0.9, 0.04), knobPoint("bvh", "high", 0.95, 0.039)});
+  EXPECT_EQ(chosenLabels(sweep), Labels{"bvh=low"});
+  for (Point& point : sweep.points) point.timing.ratioLow = 0.8, point.timing.ratioHigh = 1.1;
+  EXPECT_EQ(chosenLabels(sweep), Labels{"bvh=high"});
+}
+
+TEST(ChosenPoints, PreferTimesWithASpread) {
+  std::vector<Point> points{knobPoint("depth", "4", 0.4, 0.045),
+                            knobPoint("depth", "8", 0.7, 0.041)};
+  points[0].timing.rounds = 0;
+  EXPECT_EQ(chosenLabels(sweepOf(points)), Labels{"depth=8"});
+  points[1].timing.rounds = 0;
+  EXPECT_EQ(chosenLabels(sweepOf(points)), Labels{"depth=4"});
+}
+
+TEST(ChosenPoints, BeginWithThePresets) {
+  std::vector<Point> points{
+      knobPoint("quality", "fine", 3.8, 0.02), knobPoint("depth", "8", 0.7, 0.041),
+      knobPoint("cutoff", "0.004", 0.3, 0.045), knobPoint("", "spp=4 depth=2", 0.2, 0.03)};
+  points[0].kind = PointKind::preset;
+  points[3].kind = PointKind::joint;
+  EXPECT_EQ(chosenLabels(sweepOf(points)), (Labels{"fine", "cutoff=0.004", "depth=8"}));
+}
+
+TEST(Noise, IsTheMedianSpread) {
+  SceneSweep sweep = sweepOf({knobPoint("a", "1", 1, 0), knobPoint("b", "1", 2, 0),
+                              knobPoint("c", "1", 1, 0), knobPoint("d", "1", 1, 0)});
+  sweep.points[1].timing.ratioLow = 0.98, sweep.points[1].timing.ratioHigh = 1.02;
+  sweep.points[2].timing.ratioLow = 1.8, sweep.points[2].timing.ratioHigh = 2.2;
+  sweep.points[3].timing.ratioLow = 0.5, sweep.points[3].timing.ratioHigh = 1.5;
+  sweep.points[4].timing.rounds = 1;
+  sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
+  EXPECT_NEAR(noiseOf(sweep).time, 0.1, 1e-12);
+  EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
+}
+
+// Bounds that are broken make a finding fail.
+TEST(Findings, FollowTheNumbers) {
+  SceneSweep sweep = sweepOf({knobPoint("depth", "2", 0.8, 0.03)});
+  Point &base = sweep.points[0], &depth = sweep.points[1];
+  base.sameSamples = ImageDifference();
+  base.arithmetic = ArithmeticError();
+  depth.sameSamples.emplace().flipMean = 0.001;
+  const auto expectHolds = [&](std::vector<bool> expected) {
+    std::vector<bool> holds;
+    for (const Finding& finding : findingsOf(sweep)) holds.push_back(finding.holds);
+    EXPECT_EQ(holds, expected);
+  };
+  expectHolds({true, true, false});  // 0.8 of the time is not half
+  EXPECT_EQ(findingsOf(sweep)[2].found,
+            "the cheapest is depth=2, 0.80 times the time, FLIP 0.00100");
+  base.sameSamples->pixelsGe2CodesPct = 0.2;
+  expectHolds({false, true, false});
+  base.arithmetic->samePath.maxCode = 2;
+  depth.timing.ratio = 0.5;
+  expectHolds({false, false, true});
+  base.sameSamples.reset(), base.arithmetic.reset(), depth.sameSamples.reset();
+  expectHolds({});
+}
+
+// The first of two points is known within 7.5 to 10.5 ms, so it may take longer than the second.
+TEST(Fronts, APointWhoseSpreadReachesItsNeighborCoversIt) {
+  std::vector<Point> points{knobPoint("depth", "2", 8, 0.03), knobPoint("depth", "4", 10, 0.02)};
+  for (Point& point : points) point.timing.settledMs = point.timing.ratio;
+  points[0].timing.ratioLow = 7.5, points[0].timing.ratioHigh = 10.5;
+  markFronts(points);
+  EXPECT_TRUE(points[0].onFront && points[1].onFront);
+  EXPECT_TRUE(points[0].coversNeighbor);
+  EXPECT_FALSE(points[1].coversNeighbor);
+  points[0].timing.ratioHigh = 9.9;
+  markFronts(points);
+  EXPECT_FALSE(points[0].coversNeighbor);
+}
+
+TEST(IdleKnobs, AreGroupedByReason) {
+  const auto groups = groupedByReason({{"a", "late"}, {"b", "flat"}, {"c", "late"}});
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].name, "a, c");
+  EXPECT_EQ(groups[1].because, "flat");
+}
+
+}  // namespace
+}  // namespace whit::accuracy
