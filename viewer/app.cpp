@@ -64,7 +64,7 @@ bool App::step() {
   ScriptStep step;
   if (script_) {
     window_.input = Input();  // a script is the only user
-    step = script_->next(sharp_ && !dialog_.isOpen(), window_.input);
+    step = script_->next(sharp_, window_.input);
     if (step.quit) return false;
     obey(step);
   }

@@ -6,7 +6,6 @@
 
 #include "core/usable_threads.h"
 #include "viewer/camera_control.h"
-#include "viewer/file_dialog.h"
 #include "viewer/frame_rate.h"
 #include "viewer/latency.h"
 #include "viewer/panel.h"
@@ -87,7 +86,6 @@ class App {
   RenderOptions viewOptions() const;
   void saveScene();
   void doWhatThePanelAsks();
-  void askForFile();
 
   // app_scene.cpp
   void watchSceneFile(double seconds);
@@ -112,7 +110,6 @@ class App {
   LatencyMeter latency_;
   NewsMeter news_;
   Panel panel_;
-  FileDialog dialog_;
   PanelSettings settings_;
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;

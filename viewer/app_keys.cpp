@@ -70,7 +70,6 @@ void App::handleInput() {
   }
   for (const int key : input.commands) {
     settings_.saveScene |= key == GLFW_KEY_S;
-    settings_.openScene |= key == GLFW_KEY_O;
     if (key == GLFW_KEY_C) printView();
   }
   if (const auto click = window_.takeClick()) pick(*click);
@@ -81,21 +80,9 @@ void App::doWhatThePanelAsks() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
-    askForFile();
-    if (const auto file = dialog_.takeChosen()) {
-      dialog_.wanted() == FileDialog::Wanted::sky ? showSky(*file) : openFile(*file);
-    }
   } catch (const std::exception& error) {
     fail(error.what());
   }
-}
-
-void App::askForFile() {
-  const bool sky = std::exchange(settings_.openSky, false);
-  const bool any = std::exchange(settings_.openScene, false);
-  if (!sky && !any) return;
-  if (dialog_.isOpen()) return say("a file dialog is open already");
-  dialog_.open(sky ? FileDialog::Wanted::sky : FileDialog::Wanted::any);
 }
 
 // That makes the picture shown.

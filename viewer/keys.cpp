@@ -42,7 +42,6 @@ constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
                              {"F12", "save PNG, EXR, camera and command"},
                              {"F5 F9", "save, restore the camera"},
                              {"R", "reload the scene"},
-                             {"Ctrl+O", "open a scene, a model or a sky"},
                              {"Ctrl+S", "save what was edited as a scene file"},
                              {"drop a file", "open it; an HDR or EXR image as the sky"},
                              {"Esc", "quit"}};

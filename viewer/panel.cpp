@@ -385,15 +385,13 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
-    settings.openScene |= ImGui::Button("open (Ctrl+O)");
-    ImGui::SameLine();
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
     ImGui::TextDisabled("lights");
     edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
     ImGui::TextDisabled("materials");
     edited |= drawItems(scene.materials, "material", settings.rays.material, drawMembers<Material>);
     ImGui::TextDisabled("surroundings");
-    edited |= drawSurroundings(ownSky, settings.openSky, scene);
+    edited |= drawSurroundings(ownSky, scene);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();

@@ -34,9 +34,8 @@ struct PanelSettings {
   bool measureKnobs = false;  // until it is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;                     // the pixel under the pointer
-  bool saveScene = false;                   // asked for
-  bool openScene = false, openSky = false;  // a file is to be chosen
+  bool inspects = true;    // the pixel under the pointer
+  bool saveScene = false;  // asked for
 };
 
 // What the last frames in motion took, as a graph.
@@ -105,10 +104,9 @@ void drawDisplay(RenderOptions& options);
 // The last change, before and after: frame time and rays by kind. Nothing before the first.
 void drawLastChange(const KnobCosts& costs);
 
-// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's, `openFile`
-// is set where the user wants one from a file. Returns whether something was changed. Between
-// ImGui's Begin and End.
-bool drawSurroundings(const SkyChoice& ownSky, bool& openFile, ShadingEdit& scene);
+// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's. Returns
+// whether something was changed. Between ImGui's Begin and End.
+bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene);
 
 // Color and strength of what has no upper limit but `largest`. Likewise.
 bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value);

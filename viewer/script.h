@@ -4,8 +4,7 @@
 //   key Ctrl+NAME
 //   mouse left|right DX DY        dragged by so many pixels
 //   wheel NOTCHES
-//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets
-//                                 no finer and no file dialog is open
+//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
 //   point X Y                     the pointer rests there from now on
