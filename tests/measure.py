@@ -10,7 +10,7 @@
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
 comments of its name; the text around them is written by hand. All figures of a page, and those against
 all transport, are of one commit and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
-its model ($WHIT_DATA), the viewer's figures a display or Xvfb; without them they are left out, loudly.
+its model ($WHIT_DATA); without it its figures are left out, loudly.
 """
 import argparse
 import csv
@@ -101,17 +101,6 @@ def measure_choices():
     keep("choices.json", merged(parts))
 
 
-def measure_viewer():
-    if not (BUILD / "whit-view").exists():
-        return complain("the viewer was not built: its figures are left out")
-    front = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
-    if front and not shutil.which(front[0]):
-        return complain("neither a display nor xvfb-run: the viewer's figures are left out")
-    said = [run([*front, BUILD / "whit-view", scene, "--size", "420x300", "--benchmark"],
-                stderr=subprocess.DEVNULL) for scene in here(CHOICE_SCENES)]
-    keep("viewer.json", {"text": "\n".join(text.rstrip() for text in said)})
-
-
 def measure_spheres():
     """Exact ones and triangles in turn; and POV-Ray's."""
     keep("spheres.json",
@@ -147,7 +136,6 @@ def measure_speed():
     keep("kernels.json", json.loads(run(
         [BUILD / "tests/kernels_bench", "--benchmark_format=json", "--benchmark_min_time=0.02"],
         env={**os.environ, "WHIT_SOURCE_DIR": str(ROOT)})))
-    measure_viewer()
 
 
 def measure_accuracy():
@@ -524,9 +512,6 @@ def write_speed():
     kernels = read("kernels.json")
     if kernels:
         tables["kernels"] = kernel_table(kernels)
-    viewer = read("viewer.json")
-    if viewer:
-        tables["viewer"] = "```\n" + viewer["text"] + "\n```"
     effects = OUT / "effects/effects.csv"
     if effects.exists():
         tables["effects"] = effect_table(list(csv.DictReader(effects.open())))

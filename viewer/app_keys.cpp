@@ -108,18 +108,6 @@ std::string App::viewCommand() const {
   return renderCommand(sceneName_, options_.common, shown_, viewOptions());
 }
 
-void App::obey(const ScriptStep& step) {
-  if (step.resize) window_.resize(*step.resize);
-  if (step.minimize) window_.minimize();
-  if (step.restore) window_.restore();
-  if (step.tellNews) {
-    std::printf("longest without news: %.2f ms\n", news_.longestMs());
-    news_ = NewsMeter();
-  }
-  if (!step.tab.empty()) settings_.tab = step.tab;
-  if (step.showErrors) surviveErrors_ = *step.showErrors;
-}
-
 void App::handleKey(int key) {
   const std::map<int, std::function<void()>> actions{
       // Window and files.
@@ -280,7 +268,6 @@ void App::jump(const Camera& camera) {
   followed_.reset();
   pathTime_.reset();
   restSeconds_ = 0;
-  latency_.changed(serial_ + 1);
 }
 
 }  // namespace whit::view

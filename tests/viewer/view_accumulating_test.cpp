@@ -128,9 +128,9 @@ TEST_F(Viewer, AccumulatesAtRest) {
                "transform": {"translate": [0, 1, 0]}}]
   })";
   std::ofstream(folder_ / "script.txt") << "key H\nwait sharp\nscreenshot shown.png\nkey C\n";
-  const cli::Outcome outcome = runOn(
-      display_.name(), folder_.path().string(),
-      {WHIT_VIEW_PROGRAM, "rough.json", "--quiet", "--glossy", "1", "--script", "script.txt"});
+  const cli::Outcome outcome = runOn(display_.name(), folder_.path().string(),
+                                     {WHIT_VIEW_SCRIPT_PROGRAM, "rough.json", "--quiet", "--glossy",
+                                      "1", "--script", "script.txt"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
