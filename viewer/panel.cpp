@@ -147,7 +147,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
 }
 
 // A box for each effect that the scene calls for; the others grayed; why, for all of them.
-void drawEffects(const TracedFrame& frame, const KnobCosts& costs, EffectSet& disable) {
+void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
@@ -304,8 +304,18 @@ std::string sharpnessText(const FrameRequest& request) {
   return text;
 }
 
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
+  measured.options = request.options;
+  return sameSubject(measured, request);
+}
+
 void Panel::remember(const TracedFrame& frame) {
-  costs_.learn(frame);
+  if (!frame.costs.empty()) {
+    costs_ = frame.costs;
+    measuredFor_ = frame.request;
+  } else if (!isMeasuredView(measuredFor_, frame.request)) {
+    costs_.clear();
+  }
   sofar_.clear();
   if (frame.request.measureKnobs) measured_ = 0;
   if (frame.request.interruptible) return;
@@ -317,7 +327,8 @@ void Panel::remember(const UnfinishedFrame& frame) {
   if (shown) sofar_ = samplesText(frame);
   if (!frame.request.measureKnobs || frame.costs.empty()) return;
   measured_ = frame.done;
-  costs_.learn(frame);
+  costs_ = frame.costs;
+  measuredFor_ = frame.request;
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -366,7 +377,6 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     }
     drawMeasured(costs_);
     drawKnobs(settings.options, costs_);
-    drawLastChange(costs_);
   });
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "render_thread_fixture.h"
-#include "viewer/knob_measurement.h"
 
 namespace whit::view {
 namespace {
@@ -240,7 +239,7 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
                                                    {[] { return false; }, [](auto&&...) {}});
   const auto raysOf = [&](const std::string& name) {
     for (const KnobCost& cost : costs) {
-      if (cost.name == name) return cost.rays();
+      if (cost.name == name) return static_cast<double>(cost.now.allRays() - cost.then.allRays());
     }
     ADD_FAILURE() << name << " was not measured";
     return 0.0;
