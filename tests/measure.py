@@ -10,7 +10,7 @@
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
 comments of its name; the text around them is written by hand. All figures of a page, and those against
 all transport, are of one commit and one machine: where they are not, nothing is written and the exit status is 1. sponza-mirror needs
-its model ($WHIT_DATA), the viewer's figures a display or Xvfb; without them they are left out, loudly.
+its model ($WHIT_DATA); without it its figures are left out, loudly.
 """
 import argparse
 import csv
@@ -95,17 +95,6 @@ def measure_choices():
     keep("choices.json", merged(parts))
 
 
-def measure_viewer():
-    if not (BUILD / "whit-view").exists():
-        return complain("the viewer was not built: its figures are left out")
-    front = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
-    if front and not shutil.which(front[0]):
-        return complain("neither a display nor xvfb-run: the viewer's figures are left out")
-    said = [run([*front, BUILD / "whit-view", scene, "--size", "420x300", "--benchmark"],
-                stderr=subprocess.DEVNULL) for scene in here(CHOICE_SCENES)]
-    keep("viewer.json", {"text": "\n".join(text.rstrip() for text in said)})
-
-
 def measure_spheres():
     """Exact ones and triangles in turn; and POV-Ray's."""
     keep("spheres.json",
@@ -138,7 +127,6 @@ def measure_speed():
                   {"quality": quality}) for quality in ["standard", "draft"]]))
     measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
-    measure_viewer()
 
 
 def measure_accuracy():
@@ -483,9 +471,6 @@ def write_speed():
     against = read("spheres-povray.json")
     if against:
         tables["spheres-povray"] = povray_table(against)
-    viewer = read("viewer.json")
-    if viewer:
-        tables["viewer"] = "```\n" + viewer["text"] + "\n```"
     effects = OUT / "effects/effects.csv"
     if effects.exists():
         put_charts("effects", {"effects": "effects.svg"})

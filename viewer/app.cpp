@@ -5,10 +5,8 @@
 #include <cstdio>
 
 #include "bake/move_scene.h"
-#include "cli/app/interrupt.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "io/image/image_file.h"
 #include "viewer/inspector.h"
 #include "viewer/panel.h"
 
@@ -26,12 +24,11 @@ constexpr int kFramesToAnswer = 3;
 
 }  // namespace
 
-App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
-         std::optional<ScriptPlayer> script, Window& window)
+App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
+         ScriptedUser* scripted)
     : options_(options),
       scene_(scene),
-      script_(std::move(script)),
-      surviveErrors_(!script_),
+      scripted_(scripted),
       window_(window),
       thread_(scene, options.common, &Window::wake),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
@@ -58,15 +55,11 @@ void App::run() {
 bool App::step() {
   window_.poll(waitSeconds());
   const bool fresh = fetchFrame();
-  newsWait_ |= fresh;
   window_.poll(0);  // once more: the next picture has what the user did before this one was there
   const double seconds = tick();
-  ScriptStep step;
-  if (script_) {
-    window_.input = Input();  // a script is the only user
-    step = script_->next(sharp_ && !dialog_.isOpen(), window_.input);
-    if (step.quit) return false;
-    obey(step);
+  if (scripted_) {
+    window_.input = Input();
+    if (!scripted_->act(sharp_, window_.input, settings_)) return false;
   }
   handleInput();
   doWhatThePanelAsks();
@@ -76,14 +69,14 @@ bool App::step() {
   followRays();
   askForFrame();  // before anything is drawn, which the next picture need not wait for
   if (fresh) showPicture();
-  if (worthDrawing(step, fresh, seconds)) draw(step.screenshot);
+  if (worthDrawing(fresh, seconds)) draw();
   window_.input.endFrame();
   messageSeconds_ -= seconds;
   return true;
 }
 
 double App::waitSeconds() const {
-  if (script_) return thread_.busy() ? kScriptSecondsPerFrame : 0;
+  if (scripted_) return thread_.busy() ? ScriptedUser::kSecondsPerFrame : 0;
   if (drawAgain_ > 0) return 0;
   if (thread_.committed()) return kUndrawnSeconds;  // nothing can be asked for until it is there
   const bool active = !window_.input.held.empty() || pathTime_ || settings_.timeline.playing ||
@@ -92,18 +85,18 @@ double App::waitSeconds() const {
 }
 
 // A picture under way should find this thread waiting for it, not drawing the one before once more.
-bool App::worthDrawing(const ScriptStep& step, bool fresh, double seconds) {
+bool App::worthDrawing(bool fresh, double seconds) {
   undrawnSeconds_ += seconds;
   drawAgain_ = window_.input.happened ? kFramesToAnswer : std::max(drawAgain_ - 1, 0);
   const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
-  const bool wanted = fresh || drawAgain_ > 0 || !step.screenshot.empty() || window_.input.pointer;
+  const bool wanted = fresh || drawAgain_ > 0 || scripted_;
   if (awaited && !wanted) return false;
   undrawnSeconds_ = 0;
   return true;
 }
 
 double App::tick() {
-  if (script_) return kScriptSecondsPerFrame;
+  if (scripted_) return ScriptedUser::kSecondsPerFrame;
   const double seconds = std::exchange(sinceTick_, Stopwatch()).ms() / 1000;
   return std::min(seconds, kLongestSeconds);
 }
@@ -114,10 +107,7 @@ bool App::moveCamera(double seconds) {
     return true;
   }
   const bool moved = control_.step(motionOf(window_.input), seconds);
-  if (moved) {
-    latency_.changed(serial_ + 1);
-    followed_.reset();
-  }
+  if (moved) followed_.reset();
   return moved;
 }
 
@@ -162,7 +152,6 @@ bool App::fetchFrame() {
   }
   if (!thread_.take(shown_)) return answered;
   if (unfinished_ && unfinished_->request.serial <= shown_.request.serial) unfinished_.reset();
-  latency_.fetched(shown_.request.serial);
   if (shown_.scene != scene_) {
     const bool elsewhere = !opening_.empty();
     takeScene();
@@ -237,7 +226,7 @@ bool App::supersamples() const {
 FrameRequest App::movingRequest(const ImageSize& window) {
   stillFor_.reset();
   const double pixels = static_cast<double>(window.width) * window.height;
-  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kBlockMs : 0;
+  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kGiveUpMs : 0;
   return requestFor(resolution_.moving(pixels, waitMs), false);
 }
 
@@ -320,7 +309,7 @@ void App::passOnEdit() {
 }
 
 void App::inspectPointed() const {
-  const bool somebodyPoints = !script_ || window_.input.pointer;
+  const bool somebodyPoints = !scripted_ || window_.input.pointer;
   if (!settings_.shown || !settings_.inspects || !somebodyPoints) return;
   const auto at = window_.pointed();
   if (!at) return;
@@ -328,7 +317,7 @@ void App::inspectPointed() const {
   drawInspection(inspect(shown_, compared, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
 }
 
-void App::draw(const std::string& screenshot) {
+void App::draw() {
   window_.begin();
   if (settings_.compare != CompareMode::off && shown_.scene) {
     drawComparison(shown_, settings_.compare, split_, settings_.shown);
@@ -345,13 +334,8 @@ void App::draw(const std::string& screenshot) {
     Panel::drawMessage(message_);
   }
   window_.end();
-  if (!screenshot.empty()) {
-    const cli::WriteScope scope;
-    writePng(screenshot, window_.readPixels(), {});
-  }
+  if (scripted_) scripted_->drawn();
   window_.present();
-  latency_.presented();
-  news_.presented(std::exchange(newsWait_, false), sharp_);
 }
 
 void App::say(const std::string& message) {
@@ -360,7 +344,7 @@ void App::say(const std::string& message) {
 }
 
 void App::fail(const std::string& error) {
-  if (!surviveErrors_) throw Error(ExitStatus::checkFailed, error);
+  if (scripted_ && !scripted_->survivesErrors()) throw Error(ExitStatus::checkFailed, error);
   std::fprintf(stderr, "whit-view: %s\n", printable(error).c_str());
   error_ = error;
 }

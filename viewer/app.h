@@ -6,13 +6,10 @@
 
 #include "core/usable_threads.h"
 #include "viewer/camera_control.h"
-#include "viewer/file_dialog.h"
 #include "viewer/frame_rate.h"
-#include "viewer/latency.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
-#include "viewer/script.h"
 #include "viewer/window.h"
 
 namespace whit::view {
@@ -20,31 +17,40 @@ namespace whit::view {
 // The viewer's command line.
 struct ViewOptions {
   cli::CommonOptions common;
-  std::string scene;   // as given
-  std::string script;  // file; empty: none
-  std::string record;  // folder; empty: none
-  bool benchmark = false;
+  std::string scene;  // as given
   DebugView view = DebugView::none;
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
 
+// Takes the place of keys, mouse and clock: tests play scripts.
+class ScriptedUser {
+ public:
+  static constexpr double kSecondsPerFrame = 1.0 / 60;  // however long frames take
+
+  virtual ~ScriptedUser() = default;
+  // Makes the input of the next frame. `sharp`: nothing moves and the picture gets no finer.
+  // Returns false to end the viewer.
+  virtual bool act(bool sharp, Input& input, PanelSettings& settings) = 0;
+  // Called when a frame was drawn, before it is presented.
+  virtual void drawn() = 0;
+  // True: errors are shown as to a person; false: they end the viewer.
+  virtual bool survivesErrors() const = 0;
+};
+
 class App {
  public:
-  App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
-      std::optional<ScriptPlayer> script, Window& window);
+  App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
+      ScriptedUser* scripted = nullptr);
 
-  // Until the user or the script quits. Errors are shown and survived; with a script that does not
-  // say otherwise they end it: throws Error(checkFailed).
+  // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
+  // scripted user does not survive them.
   void run();
-
-  const LatencyMeter& latency() const { return latency_; }
-  const NewsMeter& news() const { return news_; }
 
  private:
   // app.cpp: the loop
-  bool step();  // false: the script has come to its end
+  bool step();  // returns false when the scripted user ends
   double waitSeconds() const;
-  bool worthDrawing(const ScriptStep& step, bool fresh, double seconds);
+  bool worthDrawing(bool fresh, double seconds);
   double tick();
   bool moveCamera(double seconds);
   bool play(double seconds);
@@ -61,7 +67,7 @@ class App {
   void drawPanel();
   void passOnEdit();
   void inspectPointed() const;
-  void draw(const std::string& screenshot);
+  void draw();
   void say(const std::string& message);
   void fail(const std::string& error);
   const Scene& scene() const { return scene_->scene; }
@@ -81,13 +87,11 @@ class App {
   void forgetRays();
   void jumpToNumber(std::size_t number);
   void jump(const Camera& camera);
-  void obey(const ScriptStep& step);
   std::string command() const;
   std::string viewCommand() const;
   RenderOptions viewOptions() const;
   void saveScene();
   void doWhatThePanelAsks();
-  void askForFile();
 
   // app_scene.cpp
   void watchSceneFile(double seconds);
@@ -103,16 +107,12 @@ class App {
   std::shared_ptr<const cli::OpenScene> scene_;  // of the frame shown
   std::string sceneName_;                        // as given
   std::string opening_;                          // another one's, while it is being read
-  std::optional<ScriptPlayer> script_;
-  bool surviveErrors_;
+  ScriptedUser* scripted_;                       // null: a person
   Window& window_;
   RenderThread thread_;
   CameraControl control_;
   ResolutionControl resolution_;
-  LatencyMeter latency_;
-  NewsMeter news_;
   Panel panel_;
-  FileDialog dialog_;
   PanelSettings settings_;
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
@@ -129,10 +129,9 @@ class App {
   int serial_ = 0;          // of the last request
   double restSeconds_ = 0;  // since something changed
   double undrawnSeconds_ = 0;
-  int drawAgain_ = 0;      // frames, without waiting: the panel answers to what happened before
-  bool sharp_ = false;     // the frame shown gets no finer
-  bool newsWait_ = false;  // something new is to be presented
-  bool selects_ = false;   // the next answer says which material and light
+  int drawAgain_ = 0;     // frames, without waiting: the panel answers to what happened before
+  bool sharp_ = false;    // the frame shown gets no finer
+  bool selects_ = false;  // the next answer says which material and light
   std::optional<double> pathTime_;
   std::optional<std::size_t> followed_;  // the camera of the scene that is looked through
   std::string message_, error_;
@@ -142,5 +141,8 @@ class App {
   double watchSeconds_ = 0;
   Stopwatch sinceTick_;
 };
+
+// The program: reads the command line and shows the scene. Returns the exit status.
+int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted = nullptr);
 
 }  // namespace whit::view

@@ -70,7 +70,6 @@ void App::handleInput() {
   }
   for (const int key : input.commands) {
     settings_.saveScene |= key == GLFW_KEY_S;
-    settings_.openScene |= key == GLFW_KEY_O;
     if (key == GLFW_KEY_C) printView();
   }
   if (const auto click = window_.takeClick()) pick(*click);
@@ -81,21 +80,9 @@ void App::doWhatThePanelAsks() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
-    askForFile();
-    if (const auto file = dialog_.takeChosen()) {
-      dialog_.wanted() == FileDialog::Wanted::sky ? showSky(*file) : openFile(*file);
-    }
   } catch (const std::exception& error) {
     fail(error.what());
   }
-}
-
-void App::askForFile() {
-  const bool sky = std::exchange(settings_.openSky, false);
-  const bool any = std::exchange(settings_.openScene, false);
-  if (!sky && !any) return;
-  if (dialog_.isOpen()) return say("a file dialog is open already");
-  dialog_.open(sky ? FileDialog::Wanted::sky : FileDialog::Wanted::any);
 }
 
 // That makes the picture shown.
@@ -119,18 +106,6 @@ RenderOptions App::viewOptions() const {
 std::string App::viewCommand() const {
   const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, viewOptions());
-}
-
-void App::obey(const ScriptStep& step) {
-  if (step.resize) window_.resize(*step.resize);
-  if (step.minimize) window_.minimize();
-  if (step.restore) window_.restore();
-  if (step.tellNews) {
-    std::printf("longest without news: %.2f ms\n", news_.longestMs());
-    news_ = NewsMeter();
-  }
-  if (!step.tab.empty()) settings_.tab = step.tab;
-  if (step.showErrors) surviveErrors_ = *step.showErrors;
 }
 
 void App::handleKey(int key) {
@@ -293,7 +268,6 @@ void App::jump(const Camera& camera) {
   followed_.reset();
   pathTime_.reset();
   restSeconds_ = 0;
-  latency_.changed(serial_ + 1);
 }
 
 }  // namespace whit::view

@@ -1,13 +1,15 @@
 #include "viewer/frame_tracer.h"
 
 #include <algorithm>
-#include <limits>
+#include <atomic>
+#include <mutex>
 
 #include "bake/edit_shading.h"
 #include "bake/move_scene.h"
 #include "cli/app/frame_summary.h"
 #include "cli/app/image_output.h"
 #include "core/option_table.h"
+#include "core/pixel.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "io/scene/named_sky.h"
@@ -21,8 +23,6 @@ namespace whit::view {
 namespace {
 
 constexpr double kReferenceBandMs = 80;  // of the reference, each of which is shown
-constexpr int kMostRows = 64;
-constexpr int kBlockRows = 4;  // blocks are as high, or a multiple of it
 
 ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
 
@@ -196,19 +196,6 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   return !request.withReference || traceReference(request, frame, calls);
 }
 
-// Milliseconds a pixel of frames in one piece, as those that are measured: blocks have taken
-// longer. Of a coarse frame, and of finer ones while starting the workers may be most of the time.
-double FrameTracer::probe(const Camera& camera, const ImageSize& whole) {
-  double ms = 0;
-  for (int coarser = 8; coarser >= 1 && ms < kMeasuredMs / 8; coarser /= 2) {
-    const ImageSize size{std::max(whole.width / coarser, 1), std::max(whole.height / coarser, 1)};
-    sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
-    renderer_->render(camera, band_);
-    ms = renderer_->render(camera, band_).frameMs;
-  }
-  return ms / static_cast<double>(band_.image.pixels.size());
-}
-
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
   const ImageSize whole = request.options.size.value();
@@ -216,8 +203,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
   RenderOptions traced = options_;
   traced.shadowCache = ShadowCacheMode::off;
   const OptionsInUse used(*renderer_, traced);
-  const double msPerPixel = probe(request.camera, whole);
-  const ImageSize size = measuredSize(whole, msPerPixel);
+  const ImageSize size = measuredSize(whole, msPerSample_ * options_.spp);
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /
                        (static_cast<double>(size.width) * size.height);
@@ -225,195 +211,99 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
     const double done = static_cast<double>(sofar.size()) / static_cast<double>(all);
     calls.showUnfinished({request, {}, done, sofar});
   };
-  frame.costs =
-      measureKnobs(*renderer_, traced, request.camera, band_, scale, {calls.superseded, show});
-  return !calls.superseded();
+  const auto superseded = [&] {
+    calls.answer();
+    return calls.superseded();
+  };
+  frame.costs = measureKnobs(*renderer_, traced, request.camera, band_, scale, {superseded, show});
+  return !superseded();
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
                                const TraceCalls& calls) {
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
+  sizeDisplay(frame.film);
   frame.legend.clear();
   frame.watched.reset();
-  const bool views = request.view != DebugView::none;
-  if (views) watched_.assign(frame.film.image.pixels.size(), WatchedPixel());
-  // One worker does it, and is looked at.
-  constexpr double kViewCosts = 4;  // times as much, until it is known
-  if (const bool viewed = learnedFor_ && learnedFor_->view != DebugView::none; viewed != views) {
-    msPerSample_ *= views ? kViewCosts : 1 / kViewCosts;
-  }
-  const bool deeper = !learnedFor_ || options_.depth > learnedFor_->depth;
-  constexpr double kDeeperCosts = 8;  // times as much, until it is known
-  if (deeper) msPerSample_ *= kDeeperCosts;
-  if (deeper || !sameSubject(request, *learnedFor_)) costs_.clear();
-  learnedFor_ = request;
-  learnedFor_->depth = options_.depth;
-  const double expectedMs = msPerSample_ * samplesOf(request);
-  part_ = {0, options_.spp};
-  sums_.reset();
   frame.sampleError = 0;
-  if (accumulates(request)) {
-    if (!traceInPasses(request, frame, calls)) return false;
-  } else if (request.interruptible && expectedMs > kBlockMs) {
-    if (!traceInBlocks(request, frame, kBlockMs, calls.superseded, calls)) return false;
-  } else if (expectedMs == 0 || expectedMs > kLongBlockMs) {
-    if (!traceInBlocks(request, frame, kLongBlockMs, calls.leaving, calls)) return false;
-  } else {
-    sizeDisplay(frame.film);
-    frame.stats = traceBlock(request, Crop{0, 0, size.width, size.height}, frame);
-  }
-  if (views) finishView(request, frame);
-  msPerSample_ = frame.stats.frameMs / samplesOf(request);
+  const bool complete = accumulates(request) ? traceInPasses(request, frame, calls)
+                                             : traceAtOnce(request, frame, calls);
+  if (complete) msPerSample_ = frame.stats.frameMs / samplesOf(request);
+  return complete;
+}
+
+bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
+                              const TraceCalls& calls) {
+  constexpr double kUncertain = 8;  // factor by which the expected time may be too small
+  const DebugView view = request.view;
+  const bool views = view != DebugView::none;
+  const double expectedMs = kUncertain * msPerSample_ * samplesOf(request);
+  // The passes of adaptive sampling trace some pixels again, so none is final before the last pass.
+  const bool shows = (expectedMs == 0 || expectedMs > kUnfinishedMs) &&
+                     (views || !options_.adaptive || options_.spp == 1);
+  std::vector<WatchedPixel> watched;
+  DisplayImage seen{frame.film.display.width, frame.film.display.height, {}};
+  if (shows) seen.rgba.resize(frame.film.display.rgba.size());
+  std::mutex mutex;  // guards what is seen
+  std::size_t seenPixels = 0;
+  Stopwatch sinceShown;
+  std::atomic<bool> stopped{false};
+  FrameHooks hooks;
+  hooks.stop = [&] {
+    if (request.interruptible ? calls.superseded() || calls.queried() : calls.leaving()) {
+      stopped = true;
+    }
+    return stopped.load();
+  };
+  hooks.finished = [&](std::span<const std::uint32_t> pixels) {
+    if (!shows || stopped) return;
+    const std::lock_guard lock(mutex);
+    if (views) paintTile(view, watched, pixels, frame.film);
+    for (const std::uint32_t pixel : pixels) {
+      const std::size_t at = 4 * frame.film.image.index(pixelX(pixel), pixelY(pixel));
+      std::copy_n(&frame.film.display.rgba[at], 4, &seen.rgba[at]);
+    }
+    seenPixels += pixels.size();
+    if (4 * seenPixels == seen.rgba.size() || sinceShown.ms() < kUnfinishedMs) return;
+    sinceShown = Stopwatch();
+    const double done = 4 * static_cast<double>(seenPixels) / static_cast<double>(seen.rgba.size());
+    calls.showUnfinished({request, seen, done, {}});
+  };
+  frame.stats = views ? watchFrame(*renderer_, request.camera, frame.film, view, watched, &hooks)
+                      : renderer_->render(request.camera, frame.film, {}, &hooks);
+  if (stopped) return false;
+  if (!views) return true;
+  scale_ = scaleOf(view, watched, options_.spp);
+  scaleOf_ = view;
+  paintView(view, watched, options_.spp, scale_, frame.film.display);
+  frame.legend = legendOf(view, scale_);
+  frame.scale = scale_;
+  frame.watched = std::make_shared<const std::vector<WatchedPixel>>(std::move(watched));
   return true;
 }
 
-FrameStats FrameTracer::traceBlock(const FrameRequest& request, const Crop& block,
-                                   TracedFrame& frame) {
-  const ImageSize size = filmSizeOf(frame.film);
-  const bool whole = block == Crop{0, 0, size.width, size.height};
-  if (sums_) {
-    sizeFilm(band_, size, block);
-    const FrameStats stats = renderer_->accumulate(request.camera, band_, part_, *sums_);
-    place(band_, frame.film);
-    return stats;
+// The scale is that of the last picture of this view, or else that of the tiles so far.
+void FrameTracer::paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
+                            std::span<const std::uint32_t> pixels, Film& film) {
+  std::vector<WatchedPixel> tile;
+  for (const std::uint32_t pixel : pixels) {
+    tile.push_back(watched[film.image.index(pixelX(pixel), pixelY(pixel))]);
   }
-  if (whole && request.view == DebugView::none) {
-    return renderer_->render(request.camera, frame.film);
-  }
-  sizeFilm(band_, size, block);
-  const FrameStats stats = request.view == DebugView::none
-                               ? renderer_->render(request.camera, band_)
-                               : watchBlock(request, frame);
-  place(band_, frame.film);
-  return stats;
-}
-
-// Painted by the scale of the last picture of this view; before there is one, by what was seen so
-// far.
-FrameStats FrameTracer::watchBlock(const FrameRequest& request, TracedFrame& frame) {
-  const DebugFrame seen = watchFrame(*renderer_, request.camera, band_, request.view);
-  const Crop& block = band_.image.window;
-  const auto width = static_cast<std::size_t>(block.x1 - block.x0);
-  for (int y = block.y0; y < block.y1; ++y) {
-    const std::size_t from = static_cast<std::size_t>(y - block.y0) * width;
-    const std::size_t to = frame.film.image.index(block.x0, y);
-    std::copy_n(seen.pixels.begin() + static_cast<std::ptrdiff_t>(from), width,
-                watched_.begin() + static_cast<std::ptrdiff_t>(to));
-  }
-  if (scaleOf_ != request.view) {
-    const AmountScale scale = scaleOf(request.view, seen.pixels, options_.spp);
-    const bool first = block.x0 == 0 && block.y0 == 0;
+  if (scaleOf_ != view) {
+    const AmountScale scale = scaleOf(view, tile, options_.spp);
+    const bool first = pixels.front() == packedPixel(0, 0);
     scale_ = first
                  ? scale
                  : AmountScale{std::min(scale_.low, scale.low), std::max(scale_.high, scale.high)};
   }
-  paintView(request.view, seen.pixels, options_.spp, scale_, band_.display);
-  return seen.stats;
-}
-
-void FrameTracer::finishView(const FrameRequest& request, TracedFrame& frame) {
-  scale_ = scaleOf(request.view, watched_, options_.spp);
-  scaleOf_ = request.view;
-  paintView(request.view, watched_, options_.spp, scale_, frame.film.display);
-  frame.legend = legendOf(request.view, scale_);
-  frame.scale = scale_;
-  frame.watched = std::make_shared<const std::vector<WatchedPixel>>(std::move(watched_));
-}
-
-// Whether that part of a picture takes no longer. Where dear pixels are is known from a coarser
-// picture, or they are taken to be anywhere.
-bool FrameTracer::fits(double blockMs, const ImageSize& size, const Crop& part) {
-  constexpr double kUneven = 2;   // dear pixels over the mean, of many
-  constexpr double kShortMs = 1;  // by the mean: what is shorter is not worth a block of its own
-  const double known = costs_.highest(size, part), mean = msPerSample_;
-  const double samples =
-      static_cast<double>(part.x1 - part.x0) * (part.y1 - part.y0) * part_.count();
-  if (mean == 0)
-    return part.y1 - part.y0 <= kBlockRows;  // the first of all, which is coarse and flat
-  return (known > 0 ? known : kUneven * mean) * samples <= blockMs || mean * samples <= kShortMs;
-}
-
-// Row by row: some rows of all columns, or where those would take too long a part of few rows, wide
-// enough for all workers.
-Crop FrameTracer::nextBlock(const ImageSize& size, const Crop& last, double blockMs,
-                            DebugView view) {
-  if (view == DebugView::occupancy) return nextTiles(size, last, blockMs);
-  const int workers = view == DebugView::none ? renderer_->machine().threads : 1;
-  const int narrowest = options_.tile * workers;
-  const auto crop = [&](int x, int y, int width, int height) {
-    return Crop{x, y, std::min(x + width, size.width), std::min(y + height, size.height)};
-  };
-  const auto widen = [&](Crop block) {
-    for (Crop wider = block; block.x1 < size.width; block = wider) {
-      wider.x1 = std::min(block.x1 + narrowest, size.width);
-      if (!fits(blockMs, size, wider)) break;
-    }
-    return block;
-  };
-  const bool rowGoesOn = last.x1 > 0 && last.x1 < size.width;
-  if (rowGoesOn) return widen(crop(last.x1, last.y0, narrowest, last.y1 - last.y0));
-  const int y = last.y1;
-  int rows = kBlockRows;
-  if (!fits(blockMs, size, crop(0, y, size.width, rows))) {
-    while (rows > 1 && !fits(blockMs, size, crop(0, y, size.width, rows))) rows /= 2;
-    return widen(crop(0, y, narrowest, rows));
+  DisplayImage painted{static_cast<int>(tile.size()), 1, {}};
+  painted.rgba.resize(4 * tile.size());
+  paintView(view, tile, options_.spp, scale_, painted);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t at = 4 * film.image.index(pixelX(pixels[i]), pixelY(pixels[i]));
+    std::copy_n(&painted.rgba[4 * i], 4, &film.display.rgba[at]);
   }
-  while (rows < kMostRows && fits(blockMs, size, crop(0, y, size.width, 2 * rows))) rows *= 2;
-  return crop(0, y, size.width, rows);
-}
-
-// Whole ones, which rays go to Embree with as they do of the whole picture.
-Crop FrameTracer::nextTiles(const ImageSize& size, const Crop& last, double blockMs) {
-  const int tile = options_.tile;
-  const bool rowGoesOn = last.x1 > 0 && last.x1 < size.width;
-  const int x = rowGoesOn ? last.x1 : 0, y = rowGoesOn ? last.y0 : last.y1;
-  const int bottom = std::min(y + tile, size.height);
-  Crop block{x, y, std::min(x + tile, size.width), bottom};
-  for (Crop wider = block; block.x1 < size.width; block = wider) {
-    wider.x1 = std::min(block.x1 + tile, size.width);
-    if (!fits(blockMs, size, wider)) break;
-  }
-  return block;
-}
-
-bool FrameTracer::traceBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
-                              const std::function<bool()>& givenUp,
-                              const std::function<void(const Crop&)>& afterBlock) {
-  const ImageSize size = filmSizeOf(frame.film);
-  constexpr double kLeastMs = 1e-9;  // of a sample
-  double leastMs = std::numeric_limits<double>::infinity();
-  for (Crop block; block.y1 < size.height || block.x1 < size.width;) {
-    if (givenUp()) return false;
-    block = nextBlock(size, block, blockMs, request.view);
-    const FrameStats stats = traceBlock(request, block, frame);
-    frame.stats.add(stats);
-    frame.stats.frameMs += stats.frameMs;
-    frame.stats.workers = stats.workers;
-    const double samples =
-        static_cast<double>(block.x1 - block.x0) * (block.y1 - block.y0) * part_.count();
-    // Without what any block takes, however small.
-    leastMs = std::min(leastMs, stats.frameMs);
-    costs_.learn(size, block, std::max((stats.frameMs - leastMs) / samples, kLeastMs));
-    afterBlock(block);
-  }
-  return true;
-}
-
-bool FrameTracer::traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
-                                const std::function<bool()>& givenUp, const TraceCalls& calls) {
-  const ImageSize size = filmSizeOf(frame.film);
-  sizeDisplay(frame.film);
-  std::fill(frame.film.display.rgba.begin(), frame.film.display.rgba.end(), std::uint8_t{0});
-  frame.stats = FrameStats();
-  Stopwatch sinceShown;
-  return traceBlocks(request, frame, blockMs, givenUp, [&](const Crop& block) {
-    const bool last = block.y1 == size.height && block.x1 == size.width;
-    if (last || sinceShown.ms() < kUnfinishedMs) return;
-    sinceShown = Stopwatch();
-    const double done = static_cast<double>(block.y0) / size.height;
-    calls.showUnfinished({request, frame.film.display, done, {}});
-  });
 }
 
 bool FrameTracer::accumulates(const FrameRequest& request) const {
@@ -421,13 +311,13 @@ bool FrameTracer::accumulates(const FrameRequest& request) const {
          !options_.adaptive && renderer_->plan().features.has(Feature::streams);
 }
 
-// What is shown on the way has more samples than the picture before; until then that stays.
+// The pictures that are shown on the way have more samples than the one before; until then that
+// one stays.
 bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
                                 const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
-  sizeDisplay(frame.film);
   frame.stats = FrameStats();
-  sums_.emplace(Crop{0, 0, size.width, size.height});
+  SampleSums sums(Crop{0, 0, size.width, size.height});
   const bool again =
       finished_ && sameSubject(*finished_, request) && finished_->options.size == size;
   const int shown = again ? finished_->spp : 0;
@@ -435,18 +325,22 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
   const double wanted = passMs > 0 ? kPassMs / passMs : 1;
   const int most =
       static_cast<int>(std::clamp(wanted, 1.0, std::max(options_.spp / kLeastPasses, 1.0)));
-  while (part_.first < options_.spp) {
-    part_.end = std::min(part_.first + most, options_.spp);
-    if (!traceBlocks(request, frame, kBlockMs, calls.superseded, [](const Crop&) {})) return false;
-    if (part_.end > 1) frame.sampleError = sums_->relativeError(part_.end);
-    part_.first = part_.end;
-    if (part_.end == options_.spp) break;
-    const double done = static_cast<double>(part_.end) / options_.spp;
-    UnfinishedFrame sight{request, {}, done, {}, part_.end, frame.sampleError};
-    if (part_.end > shown) sight.display = frame.film.display;
+  const FrameHooks hooks{calls.superseded, nullptr};
+  for (SampleRange part; part.end < options_.spp; part.first = part.end) {
+    part.end = std::min(part.first + most, options_.spp);
+    const FrameStats stats = renderer_->accumulate(request.camera, frame.film, part, sums, &hooks);
+    if (calls.superseded()) return false;
+    frame.stats.add(stats);
+    frame.stats.frameMs += stats.frameMs;
+    frame.stats.workers = stats.workers;
+    if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
+    if (part.end == options_.spp) break;
+    const double done = static_cast<double>(part.end) / options_.spp;
+    UnfinishedFrame sight{request, {}, done, {}, part.end, frame.sampleError};
+    if (part.end > shown) sight.display = frame.film.display;
     calls.showUnfinished(std::move(sight));
+    calls.answer();
   }
-  sums_.reset();
   return true;
 }
 
@@ -466,6 +360,7 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     comparison.referenceMs += ms;
     comparison.rows = end;
     msPerRow = std::max(ms / (end - y), 1e-3);
+    calls.answer();
     if (calls.superseded()) return false;
     calls.publish(frame);
   }

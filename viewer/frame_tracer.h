@@ -1,38 +1,38 @@
-// The tracer of the viewer's pictures, which makes what a FrameRequest asks for. Belongs to one
+// The tracer of the viewer's pictures, which makes what a FrameRequest asks for. It belongs to one
 // thread.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
-#include "viewer/cost_map.h"
 #include "viewer/ray_pick.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
 
-// Blocks of interruptible frames are meant to take so long: what a new request waits at most.
-inline constexpr double kBlockMs = 10;
-// Of frames in motion, which are shown whatever is wanted next, those that take longer are traced
-// in blocks as well, of so long: what closing the window waits at most.
-inline constexpr double kLongBlockMs = 50;
-// Between two sights of a picture under way.
+// A new request usually waits no longer than this for a picture at rest to be given up.
+inline constexpr double kGiveUpMs = 10;
+// A picture under way is shown again after this time.
 inline constexpr double kUnfinishedMs = 25;
-// Of a picture that gets more and more samples, each pass over it is meant to take so long; it has
-// one sample a pixel at least.
+// Each pass of a picture that gains samples takes about this long, with at least one sample a
+// pixel.
 inline constexpr double kPassMs = 100;
 inline constexpr double kLeastPasses = 8;  // where there are as many samples
 
 struct TraceCalls {
-  // Asked between blocks of interruptible frames: something else is wanted.
-  std::function<bool()> superseded;
-  // Asked between blocks of the others: nobody will look any more.
-  std::function<bool()> leaving;
+  // These three are asked by the workers, between tiles and samples.
+  std::function<bool()> superseded;  // something else is wanted: pictures at rest are given up
+  std::function<bool()> queried;     // the rays of a pixel are asked for
+  std::function<bool()> leaving;     // the viewer ends: all pictures are given up
+  // Answers a query for the rays of a pixel; called between passes and bands.
+  std::function<void()> answer;
   // Called with frames whose reference is under way.
   std::function<void(const TracedFrame&)> publish;
-  // Called every kUnfinishedMs while a frame is traced in blocks, and after each option measured.
+  // Called every kUnfinishedMs while a picture is traced, by a worker, and after each option that
+  // was measured.
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
@@ -43,19 +43,18 @@ class FrameTracer {
 
   // Reads a scene; the old one stays when that fails.
   void load(const SceneChoice& choice);
-  // Changes materials, lights and surroundings; nothing when the scene is another one by now.
+  // Changes materials, lights and surroundings; does nothing when the scene is another one by now.
   void edit(ShadingEdit edit);
 
-  // The rays of a pixel. Also called from what trace() calls, between blocks; leaves the renderer's
-  // options what they were.
+  // Follows the rays of a pixel; leaves the renderer's options as they were.
   RayPick explain(const RayQuery& query);
 
-  // Computes some of the parts of the shadow cache that the last pictures requested, for about
-  // kBlockMs. False if nothing is left.
+  // Computes some of the parts of the shadow cache that the last pictures requested, which takes
+  // about 10 ms. Returns false if nothing is left.
   bool proveSome();
 
-  // False: given up, and `frame` is not to be shown. Throws when the options ask for what the
-  // machine does not have; the old ones then stay.
+  // Returns false when the picture was given up; `frame` is not to be shown then. Throws when the
+  // options ask for what the machine does not have; the old ones then stay.
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
@@ -64,25 +63,14 @@ class FrameTracer {
   void moveTo(double seconds);
   void applyOptions(const FrameRequest& request);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  // What there is to trace in a part of the picture.
-  FrameStats traceBlock(const FrameRequest& request, const Crop& block, TracedFrame& frame);
-  FrameStats watchBlock(const FrameRequest& request, TracedFrame& frame);
-  void finishView(const FrameRequest& request, TracedFrame& frame);
-  // Blocks are meant to take `blockMs`; false when `givenUp` said so between two of them.
-  bool traceInBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
-                     const std::function<bool()>& givenUp, const TraceCalls& calls);
+  // Traces the picture as one frame, whose finished tiles are shown while it is under way.
+  bool traceAtOnce(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // At rest, where rays are sampled: pass by pass, each with some of the samples of all pixels.
   bool accumulates(const FrameRequest& request) const;
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  // The samples `part_` of all pixels; afterBlock(last block).
-  bool traceBlocks(const FrameRequest& request, TracedFrame& frame, double blockMs,
-                   const std::function<bool()>& givenUp,
-                   const std::function<void(const Crop&)>& afterBlock);
-  // The one after `last`, which is empty before the first.
-  Crop nextBlock(const ImageSize& size, const Crop& last, double blockMs, DebugView view);
-  Crop nextTiles(const ImageSize& size, const Crop& last, double blockMs);
-  bool fits(double blockMs, const ImageSize& size, const Crop& part);
-  double probe(const Camera& camera, const ImageSize& whole);
+  // Paints pixels of a tile of a debug view into the film's display.
+  void paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
+                 std::span<const std::uint32_t> pixels, Film& film);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
@@ -91,20 +79,15 @@ class FrameTracer {
   RenderOptions options_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<std::string> editSettings_;  // of the scene as it is now
-  SkyChoice sky_;                          // that the scene has now
-  Sky ownSky_;                             // its own, while it has another one
-  double seconds_ = 0;                     // when it is, where it moves
-  std::string animation_;                  // that it was read with
-  Film band_;
-  SampleRange part_;                      // of the samples, that is traced at once
-  std::optional<SampleSums> sums_;        // of a picture that is traced in passes
-  std::optional<FrameRequest> finished_;  // the last picture
-  std::vector<WatchedPixel> watched_;     // of the view that is being traced
-  AmountScale scale_;                     // of its last picture, by which the next one begins
+  SkyChoice sky_;                          // the sky that the scene has now
+  Sky ownSky_;                             // the scene's own sky, while it has another one
+  double seconds_ = 0;                     // the instant that a moving scene is at
+  std::string animation_;                  // the animation that the scene was read with
+  Film band_;                              // rows of the reference; frames that are measured
+  std::optional<FrameRequest> finished_;   // the last picture
+  AmountScale scale_;  // scale of the last debug view, with which the next begins
   DebugView scaleOf_ = DebugView::none;
-  double msPerSample_ = 0;                  // 0: nothing traced yet
-  CostMap costs_;                           // of samples, ms
-  std::optional<FrameRequest> learnedFor_;  // that both were last learned from
+  double msPerSample_ = 0;  // 0: nothing traced yet
 };
 
 }  // namespace whit::view

@@ -1,14 +1,9 @@
-// Keys by name, for scripts and for the help.
+// The help on the keys.
 #pragma once
 
 #include <span>
-#include <string>
 
 namespace whit::view {
-
-// The GLFW code of "W", "7", "F12", "Left", "Shift", "Space", "+", "["...; throws Error(usage)
-// naming the nearest.
-int keyNamed(const std::string& name);
 
 struct KeyHelp {
   const char* keys;

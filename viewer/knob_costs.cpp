@@ -1,73 +1,96 @@
 #include "viewer/knob_costs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "core/option_values.h"
+#include "core/formatted.h"
+#include "core/option_table.h"
 
 namespace whit::view {
 
 namespace {
 
-// Of every option, as on the command line.
-std::map<std::string, std::string> valuesOf(const RenderOptions& options) {
-  std::map<std::string, std::string> values;
-  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
-    const std::string value = formatValue(spec, field);
-    values[std::string(spec.name)] = value.empty() ? "none" : value;
+struct Candidate {
+  std::string name, other;
+  RenderOptions options;
+};
+
+std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOptions& options) {
+  std::vector<Candidate> candidates;
+  forEachOption(options, [&](const OptionSpec& spec, const auto&) {
+    if (spec.cheapest.empty()) return;
+    Candidate candidate{std::string(spec.name), std::string(spec.cheapest), options};
+    setOption(candidate.options, candidate.name, candidate.other);
+    candidates.push_back(std::move(candidate));
   });
-  return values;
-}
-
-// Whether nothing but options can make the two cost different amounts.
-bool comparable(const FrameRequest& a, FrameRequest b) {
-  b.options = a.options;
-  return sameSubject(a, b);
-}
-
-void append(std::string& list, const std::string& word) {
-  list += (list.empty() ? "" : ", ") + word;
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto effect = static_cast<Effect>(i);
+    if (!renderer.plan().effects.has(effect)) continue;
+    Candidate candidate{std::string(kEffectNames[static_cast<std::size_t>(i)].name), "off",
+                        options};
+    candidate.options.disable = candidate.options.disable.with(effect);
+    candidates.push_back(std::move(candidate));
+  }
+  std::erase_if(candidates, [&](const Candidate& c) {
+    return c.options == options || !renderer.canSetOptions(c.options);
+  });
+  return candidates;
 }
 
 }  // namespace
 
-void KnobCosts::learn(const TracedFrame& frame) {
-  const FrameRequest& request = frame.request;
-  if (!frame.costs.empty()) {
-    measured_ = frame.costs;
-    measuredFor_ = request;
-  } else if (!comparable(measuredFor_, request)) {
-    measured_.clear();
-  }
-  if (!request.interruptible || request.coarse || request.spp != request.options.spp) return;
-  const auto before = std::exchange(baseline_, Baseline{request, frame.stats});
-  if (!before || before->request.options.size != request.options.size ||
-      !comparable(before->request, request)) {
-    return;
-  }
-  const auto old = valuesOf(before->request.options), now = valuesOf(request.options);
-  std::string name;
-  KnobChange change{"", "", before->stats, frame.stats};
-  for (const auto& [option, value] : now) {
-    if (old.at(option) == value) continue;
-    append(name, option);
-    append(change.from, old.at(option));
-    append(change.to, value);
-  }
-  if (name.empty()) return;
-  lastChanged_ = name;
-  changes_[name] = change;
+std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs) {
+  std::erase_if(costs, [](const KnobCost& cost) { return !cost.significant(); });
+  std::stable_sort(costs.begin(), costs.end(), [](const KnobCost& a, const KnobCost& b) {
+    return std::abs(a.ms()) > std::abs(b.ms());
+  });
+  return costs;
 }
 
-void KnobCosts::learn(const UnfinishedFrame& frame) {
-  measured_ = frame.costs;
-  measuredFor_ = frame.request;
+std::string costText(const KnobCost& cost) {
+  const double ms = std::abs(cost.ms());
+  return formatted("%s would be %.*f ms %s", cost.other.c_str(), ms < 10 ? 1 : 0, ms,
+                   cost.ms() > 0 ? "faster" : "slower");
 }
 
-const KnobCost* KnobCosts::measured(const std::string& name) const {
-  const auto found = std::find_if(measured_.begin(), measured_.end(),
-                                  [&](const KnobCost& cost) { return cost.name == name; });
-  return found == measured_.end() ? nullptr : &*found;
+ImageSize measuredSize(const ImageSize& window, double msPerPixel) {
+  const double ms = msPerPixel * window.width * window.height;
+  const double side = ms > kMeasuredMs ? std::sqrt(kMeasuredMs / ms) : 1;
+  const auto scaled = [&](int pixels) {
+    return std::max(static_cast<int>(std::lround(pixels * side)), 1);
+  };
+  return {scaled(window.width), scaled(window.height)};
+}
+
+std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& options,
+                                   const Camera& camera, Film& film, double scale,
+                                   const MeasureCalls& calls) {
+  // The first frame after a change fills new queues and does not count.
+  const auto frameWith = [&](const RenderOptions& chosen) {
+    renderer.setOptions(chosen);
+    renderer.render(camera, film);
+    return renderer.render(camera, film);
+  };
+  std::vector<KnobCost> costs;
+  const std::vector<Candidate> candidates = candidatesOf(renderer, options);
+  FrameStats now = frameWith(options);
+  for (const Candidate& candidate : candidates) {
+    accuracy::TimeSamples samples;
+    FrameStats then;
+    for (int round = 0; round < accuracy::kConfidentRounds; ++round) {
+      if (calls.superseded()) return {};
+      const double before = now.frameMs;
+      then = frameWith(candidate.options);
+      now = frameWith(options);
+      samples.ms.push_back(now.frameMs);
+      samples.ratios.push_back(2 * then.frameMs / (before + now.frameMs));
+    }
+    const accuracy::Timing timing = samples.timing();
+    costs.push_back({candidate.name, candidate.other, now, then, timing, scale * timing.medianMs});
+    calls.show(costs, candidates.size());
+  }
+  return costs;
 }
 
 }  // namespace whit::view

@@ -1,46 +1,51 @@
-// What turning a knob has done to a frame: its time and its rays, before and after.
+// The cost of each option and each effect at the present view: frames with it and without it, timed
+// in turns as `whit accuracy` does.
 #pragma once
 
-#include <map>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "viewer/traced_frame.h"
+#include "accuracy/timing.h"
+#include "render/renderer.h"
 
 namespace whit::view {
 
-struct KnobChange {
-  std::string from, to;  // values as on the command line, "none" where there is nothing to say
-  FrameStats before, after;
+struct KnobCost {
+  std::string name;         // of the option, or of the effect
+  std::string other;        // the setting that is compared with, "off" for an effect
+  FrameStats now, then;     // with the present setting and with the other
+  accuracy::Timing timing;  // of frames with the other setting; the present one is the baseline
+  double presentMs = 0;     // of a frame of the whole window
+
+  // What the present setting costs of a frame of the whole window.
+  double ms() const { return presentMs * (1 - timing.ratio); }
+  // Whether the difference is more than what the machine's other work may have made.
+  bool significant() const { return timing.ratioLow > 1 || timing.ratioHigh < 1; }
 };
 
-class KnobCosts {
- public:
-  // Takes over what was measured. Otherwise only frames at rest, with the samples that the options
-  // ask for, can be compared: others are passed over. A change is noticed when nothing but options
-  // differs from the last such frame.
-  void learn(const TracedFrame& frame);
-  // Takes over what has been measured so far.
-  void learn(const UnfinishedFrame& frame);
+// The costs that can be told from noise, the largest first.
+std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs);
+// "off would be 35 ms faster".
+std::string costText(const KnobCost& cost);
 
-  // The last change of each option, by its name; of several at once, "a, b".
-  const std::map<std::string, KnobChange>& changes() const { return changes_; }
-  const std::string& lastChanged() const { return lastChanged_; }  // empty: nothing yet
-  // What was measured of the view and scene that the last frame shows; null where there is none of
-  // that name.
-  const KnobCost* measured(const std::string& name) const;
-  const std::vector<KnobCost>& measured() const { return measured_; }
+// The size of the frames that are measured for a window of that size: smaller where a frame of it
+// would take longer than kMeasuredMs.
+ImageSize measuredSize(const ImageSize& window, double msPerPixel);
+inline constexpr double kMeasuredMs = 50;
 
- private:
-  struct Baseline {
-    FrameRequest request;
-    FrameStats stats;
-  };
-  std::optional<Baseline> baseline_;
-  std::map<std::string, KnobChange> changes_;
-  std::string lastChanged_;
-  std::vector<KnobCost> measured_;
-  FrameRequest measuredFor_;
+struct MeasureCalls {
+  std::function<bool()> superseded;  // asked between two frames
+  // Called after each knob with what is known, and how many knobs there are.
+  std::function<void(const std::vector<KnobCost>& sofar, std::size_t all)> show;
 };
+
+// Leaves out options that are at their cheapest setting already, and those that need another
+// acceleration structure. `film` is overwritten; a pixel of it stands for `scale` pixels of the
+// window. The renderer has `options` before and after. Returns nothing when `superseded` said so.
+std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& options,
+                                   const Camera& camera, Film& film, double scale,
+                                   const MeasureCalls& calls);
 
 }  // namespace whit::view

@@ -74,39 +74,30 @@ void drawPresets(RenderOptions& options) {
 
 }  // namespace
 
-void drawCost(const KnobCosts& costs, const std::string& name) {
-  const KnobCost* measured = costs.measured(name);
-  const auto found = costs.changes().find(name);
-  if (!measured && found == costs.changes().end()) return;
-  if (measured) {
-    if (!measured->significant()) return;
-    ImGui::SameLine();
-    ImGui::TextDisabled("%+.1f ms", measured->ms());
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s: %+.0f rays, against %s", name.c_str(), measured->rays(),
-                        measured->other.c_str());
-    }
-    return;
-  }
-  const KnobChange& change = found->second;
+void drawCost(const std::vector<KnobCost>& costs, const std::string& name) {
+  const auto found = std::find_if(costs.begin(), costs.end(),
+                                  [&](const KnobCost& cost) { return cost.name == name; });
+  if (found == costs.end() || !found->significant()) return;
   ImGui::SameLine();
-  ImGui::TextDisabled("%+.2f ms", change.after.frameMs - change.before.frameMs);
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s: from %s to %s", name.c_str(), change.from.c_str(), change.to.c_str());
-  }
+  ImGui::TextDisabled("%+.1f ms", found->ms());
+  if (!ImGui::IsItemHovered()) return;
+  const auto rays = [](const FrameStats& stats) { return static_cast<double>(stats.allRays()); };
+  ImGui::SetTooltip("%s: %+.0f %% of the rays, against %s", name.c_str(),
+                    100 * (1 - rays(found->then) / std::max(rays(found->now), 1.0)),
+                    found->other.c_str());
 }
 
-void drawMeasured(const KnobCosts& costs) {
-  if (costs.measured().empty()) return;
-  const std::vector<KnobCost> told = toldFromNoise(costs.measured());
+void drawMeasured(const std::vector<KnobCost>& costs) {
+  if (costs.empty()) return;
+  const std::vector<KnobCost> told = toldFromNoise(costs);
   for (const KnobCost& cost : told) {
     ImGui::BulletText("%s: %s", cost.name.c_str(), costText(cost).c_str());
   }
-  const std::size_t others = costs.measured().size() - told.size();
+  const std::size_t others = costs.size() - told.size();
   if (others > 0) ImGui::TextDisabled("%zu more make no difference above the noise", others);
 }
 
-void drawKnobs(RenderOptions& options, const KnobCosts& costs) {
+void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs) {
   drawPresets(options);
   ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
   forEachOption(options, [&](const OptionSpec& spec, auto& field) {
@@ -130,36 +121,6 @@ void drawDisplay(RenderOptions& options) {
     }
   });
   ImGui::PopItemWidth();
-}
-
-void drawLastChange(const KnobCosts& costs) {
-  if (costs.lastChanged().empty()) return;
-  const KnobChange& change = costs.changes().at(costs.lastChanged());
-  ImGui::TextWrapped("%s: %s to %s", costs.lastChanged().c_str(), change.from.c_str(),
-                     change.to.c_str());
-  if (!ImGui::BeginTable("change", 4)) return;
-  for (const char* heading : {"", "before", "after", "%"}) ImGui::TableSetupColumn(heading);
-  ImGui::TableHeadersRow();
-  const auto row = [](const char* name, double before, double after) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(name);
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", before);
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", after);
-    ImGui::TableNextColumn();
-    if (before > 0) ImGui::Text("%+.1f", 100 * (after / before - 1));
-  };
-  row("frame, ms", change.before.frameMs, change.after.frameMs);
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    const auto thousands = [&](const FrameStats& s) {
-      return static_cast<double>(s.meter.tally[i].rays) / 1e3;
-    };
-    if (change.before.meter.tally[i].rays + change.after.meter.tally[i].rays == 0) continue;
-    row((std::string(kRayKinds[i].name) + ", k").c_str(), thousands(change.before),
-        thousands(change.after));
-  }
-  ImGui::EndTable();
 }
 
 }  // namespace whit::view

@@ -20,7 +20,6 @@ namespace whit::view {
 namespace {
 
 constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
-constexpr float kLargestIntensity = 1e6f;
 
 bool drawColor(const char* label, Rgb& color) {
   if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
@@ -28,49 +27,28 @@ bool drawColor(const char* label, Rgb& color) {
   return true;
 }
 
-// A direction that was dragged to nowhere stays as it was.
-bool drawDirection(Vec3f& direction) {
-  Vec3f turned = normalized(direction, {0, -1, 0});
-  if (!ImGui::DragFloat3("direction", &turned.x, 0.005f, -1, 1)) return false;
-  direction = normalized(turned, direction);
-  return true;
-}
-
-bool drawCone(Light& light) {
-  constexpr auto kLeast = static_cast<float>(kLeastConeAngle);
-  constexpr auto kLargest = static_cast<float>(kLargestConeAngle);
-  bool changed =
-      ImGui::SliderFloat("outer cone", &light.outerConeAngle, kLeast, kLargest, "%.1f", kClamp);
-  changed |= ImGui::SliderFloat("inner cone", &light.innerConeAngle, 0, kLargest, "%.1f", kClamp);
-  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
-  return changed;
-}
-
-bool drawLight(Light& light) {
-  const bool directional = light.kind == Light::Kind::directional;
-  bool changed = drawBright("color", directional ? "irradiance" : "intensity", kLargestIntensity,
-                            light.intensity);
-  if (light.kind != Light::Kind::point) changed |= drawDirection(light.direction);
-  if (light.kind == Light::Kind::spot) changed |= drawCone(light);
-  if (directional) return changed;
-  const float step = 0.002f * std::max(1.0f, maxComponent(abs(light.position)));
-  constexpr float kFarthest = 1e18f;
-  return ImGui::DragFloat3("position", &light.position.x, step, -kFarthest, kFarthest, "%.3f",
-                           kClamp) ||
-         changed;
-}
+// The change of a value without limits for each pixel that the mouse is dragged.
+float dragStep(float value) { return 0.002f * std::max(1.0f, std::abs(value)); }
 
 template <typename Noun, typename Value>
 bool drawMember(const Member<Noun, Value>& member, Value& value) {
   const auto low = static_cast<float>(member.rules.low);
   const auto high = static_cast<float>(std::min(member.rules.high, member.rules.usual));
-  if constexpr (std::is_same_v<Value, bool>) {
+  if constexpr (std::is_same_v<Value, Light::Kind>) {
+    return false;  // the kind decides which members there are
+  } else if constexpr (std::is_same_v<Value, bool>) {
     return ImGui::Checkbox(member.name, &value);
   } else if constexpr (std::is_same_v<Value, int>) {
     return ImGui::SliderInt(member.name, &value, static_cast<int>(low), static_cast<int>(high),
                             "%d", kClamp);
   } else if constexpr (std::is_same_v<Value, float>) {
-    return ImGui::SliderFloat(member.name, &value, low, high, "%.3f", kClamp);
+    const bool endless = member.rules.usual >= kLargestNumber;
+    return endless
+               ? ImGui::DragFloat(member.name, &value, dragStep(value), low, high, "%.3f", kClamp)
+               : ImGui::SliderFloat(member.name, &value, low, high, "%.3f", kClamp);
+  } else if (member.rules.kind != MemberKind::color) {
+    const float step = dragStep(maxComponent(abs(value)));
+    return ImGui::DragFloat3(member.name, &value.x, step, low, high, "%.3f", kClamp);
   } else if (member.rules.high <= 1) {
     return drawColor(member.name, value);
   } else {
@@ -87,6 +65,14 @@ bool drawMembers(Noun& noun) {
     changed |= drawMember(member, noun.*member.field);
   });
   return changed;
+}
+
+bool drawLight(Light& light) {
+  const Vec3f before = light.direction;
+  if (!drawMembers(light)) return false;
+  if (light.direction == Vec3f()) light.direction = before;
+  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
+  return true;
 }
 
 // A foldable node for each item, under its name or number; `selected` is unfolded and scrolled to,
@@ -161,7 +147,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
 }
 
 // A box for each effect that the scene calls for; the others grayed; why, for all of them.
-void drawEffects(const TracedFrame& frame, const KnobCosts& costs, EffectSet& disable) {
+void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
@@ -318,8 +304,18 @@ std::string sharpnessText(const FrameRequest& request) {
   return text;
 }
 
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
+  measured.options = request.options;
+  return sameSubject(measured, request);
+}
+
 void Panel::remember(const TracedFrame& frame) {
-  costs_.learn(frame);
+  if (!frame.costs.empty()) {
+    costs_ = frame.costs;
+    measuredFor_ = frame.request;
+  } else if (!isMeasuredView(measuredFor_, frame.request)) {
+    costs_.clear();
+  }
   sofar_.clear();
   if (frame.request.measureKnobs) measured_ = 0;
   if (frame.request.interruptible) return;
@@ -331,7 +327,8 @@ void Panel::remember(const UnfinishedFrame& frame) {
   if (shown) sofar_ = samplesText(frame);
   if (!frame.request.measureKnobs || frame.costs.empty()) return;
   measured_ = frame.done;
-  costs_.learn(frame);
+  costs_ = frame.costs;
+  measuredFor_ = frame.request;
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -380,20 +377,17 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     }
     drawMeasured(costs_);
     drawKnobs(settings.options, costs_);
-    drawLastChange(costs_);
   });
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
-    settings.openScene |= ImGui::Button("open (Ctrl+O)");
-    ImGui::SameLine();
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
     ImGui::TextDisabled("lights");
     edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
     ImGui::TextDisabled("materials");
     edited |= drawItems(scene.materials, "material", settings.rays.material, drawMembers<Material>);
     ImGui::TextDisabled("surroundings");
-    edited |= drawSurroundings(ownSky, settings.openSky, scene);
+    edited |= drawSurroundings(ownSky, scene);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();

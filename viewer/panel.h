@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <string>
 
-#include "viewer/knob_costs.h"
 #include "viewer/ray_panel.h"
 #include "viewer/timeline.h"
 
@@ -34,9 +33,8 @@ struct PanelSettings {
   bool measureKnobs = false;  // until it is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;                     // the pixel under the pointer
-  bool saveScene = false;                   // asked for
-  bool openScene = false, openSky = false;  // a file is to be chosen
+  bool inspects = true;    // the pixel under the pointer
+  bool saveScene = false;  // asked for
 };
 
 // What the last frames in motion took, as a graph.
@@ -60,6 +58,9 @@ std::string samplesText(const UnfinishedFrame& frame);
 // "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
 std::string sharpnessText(const FrameRequest& request);
 
+// Whether nothing but options differs from the view that was measured.
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
+
 class Panel {
  public:
   void remember(const TracedFrame& frame);
@@ -81,34 +82,28 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  KnobCosts costs_;
+  std::vector<KnobCost> costs_;  // of the view and scene of the last frame, as far as measured
+  FrameRequest measuredFor_;
   double measured_ = 0;  // share of the options, while they are measured
   std::string sofar_;    // of a picture that gets more and more samples, while it does
   FrameGraph graph_;
 };
 
-// knobs.cpp, the options of a render as sliders, boxes and lists, with what each has cost:
-// Presets, then every option that the table of options has in this tab. Between ImGui's Begin and
-// End.
-void drawKnobs(RenderOptions& options, const KnobCosts& costs);
-
-// Beside the control of that knob or effect: what it costs, as measured, or else what its last
-// change has done; nothing where neither is known.
-void drawCost(const KnobCosts& costs, const std::string& name);
-
-// What was measured and can be told from noise, the largest first.
-void drawMeasured(const KnobCosts& costs);
-
-// Those that it has in the picture's tab: exposure and tone curve.
+// knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
+// Begin and End.
+// Draws presets, then every option that the table of options has in the tab of knobs.
+void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs);
+// Draws the options that the table has in the picture's tab: exposure and tone curve.
 void drawDisplay(RenderOptions& options);
+// Draws the cost of that knob or effect beside its control, where it was measured and can be told
+// from noise.
+void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
+// Lists the costs that can be told from noise, the largest first.
+void drawMeasured(const std::vector<KnobCost>& costs);
 
-// The last change, before and after: frame time and rays by kind. Nothing before the first.
-void drawLastChange(const KnobCosts& costs);
-
-// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's, `openFile`
-// is set where the user wants one from a file. Returns whether something was changed. Between
-// ImGui's Begin and End.
-bool drawSurroundings(const SkyChoice& ownSky, bool& openFile, ShadingEdit& scene);
+// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's. Returns
+// whether something was changed. Between ImGui's Begin and End.
+bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene);
 
 // Color and strength of what has no upper limit but `largest`. Likewise.
 bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value);

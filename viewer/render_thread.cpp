@@ -24,7 +24,7 @@ RenderThread::~RenderThread() {
   thread_.join();
 }
 
-// Wakes the tracing thread, unless `change` says that nothing has changed for it.
+// Wakes the tracing thread, unless `change` returns false.
 bool RenderThread::post(const std::function<bool()>& change) {
   {
     const std::lock_guard lock(mutex_);
@@ -36,34 +36,50 @@ bool RenderThread::post(const std::function<bool()>& change) {
 }
 
 bool RenderThread::ask(const FrameRequest& request) {
-  return post([&] { return exchange_.ask(request); });
+  return post([&] {
+    if (fresh_ || isCommitted()) return false;
+    asked_ = request;
+    return true;
+  });
 }
 
 void RenderThread::load(const SceneChoice& scene) {
-  post([&] { return exchange_.load(scene), true; });
+  post([&] {
+    scene_ = scene;
+    return true;
+  });
 }
 
 void RenderThread::edit(ShadingEdit edit) {
-  post([&] { return exchange_.edit(std::move(edit)), true; });
+  post([&] {
+    edit_ = std::move(edit);
+    return true;
+  });
 }
 
 void RenderThread::query(const RayQuery& query) {
-  post([&] { return exchange_.query(query), true; });
+  post([&] {
+    query_ = query;
+    return true;
+  });
 }
 
 std::optional<RayPick> RenderThread::takePick() {
   const std::lock_guard lock(mutex_);
-  return exchange_.takePick();
+  return std::exchange(pick_, std::nullopt);
 }
 
 bool RenderThread::take(TracedFrame& frame) {
   const std::lock_guard lock(mutex_);
-  return exchange_.take(frame);
+  if (!fresh_) return false;
+  std::swap(frame, ready_);
+  fresh_ = false;
+  return true;
 }
 
 std::optional<UnfinishedFrame> RenderThread::takeUnfinished() {
   const std::lock_guard lock(mutex_);
-  return exchange_.takeUnfinished();
+  return std::exchange(unfinished_, std::nullopt);
 }
 
 std::string RenderThread::takeError() {
@@ -78,30 +94,21 @@ bool RenderThread::busy() const {
 
 bool RenderThread::committed() const {
   const std::lock_guard lock(mutex_);
-  return exchange_.committed();
-}
-
-bool RenderThread::superseded() const {
-  const std::lock_guard lock(mutex_);
-  return exchange_.waiting() || quit_;
-}
-
-bool RenderThread::leaving() const {
-  const std::lock_guard lock(mutex_);
-  return quit_;
+  return isCommitted();
 }
 
 void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    busy_ = exchange_.hasWork();
+    busy_ = hasWork();
     waitForWork(lock);
     if (quit_) return;
     try {
       serve(lock);
     } catch (const std::exception& error) {
       if (!lock.owns_lock()) lock.lock();
-      exchange_.giveUp();
+      tracing_.reset();
+      unfinished_.reset();
       error_ = error.what();
     }
     lock.unlock();
@@ -112,7 +119,7 @@ void RenderThread::loop() {
 
 // At rest the time goes into what makes the next pictures quicker.
 void RenderThread::waitForWork(std::unique_lock<std::mutex>& lock) {
-  const auto wanted = [this] { return exchange_.hasWork() || quit_; };
+  const auto wanted = [this] { return hasWork() || quit_; };
   while (!wake_.wait_for(lock, kRest, wanted)) {
     bool more = true;
     while (more && !wanted()) {
@@ -130,47 +137,67 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
     work();
     lock.lock();
   };
-  if (const auto scene = exchange_.nextScene()) {
+  if (const auto scene = std::exchange(scene_, std::nullopt)) {
     unlocked([&] { tracer_.load(*scene); });
-  } else if (auto edit = exchange_.nextEdit()) {
+  } else if (auto edit = std::exchange(edit_, std::nullopt)) {
     unlocked([&] { tracer_.edit(std::move(*edit)); });
-  } else if (const auto request = exchange_.begin()) {
-    unlocked([&] { trace(*request); });
-  } else {
+  } else if (query_) {
     unlocked([&] { answerQuery(); });
+  } else {
+    tracing_ = std::exchange(asked_, std::nullopt);
+    unlocked([&] { trace(*tracing_); });
   }
 }
 
 TraceCalls RenderThread::calls() {
+  const auto locked = [this](auto&& of) {
+    return [this, of] {
+      const std::lock_guard lock(mutex_);
+      return of();
+    };
+  };
   TraceCalls calls;
-  calls.superseded = [this] {
-    answerQuery();
-    return superseded();
+  calls.superseded = locked([this] { return isWaiting() || quit_; });
+  calls.queried = locked([this] { return query_.has_value(); });
+  calls.leaving = locked([this] { return quit_; });
+  calls.answer = [this] { answerQuery(); };
+  calls.publish = [this](const TracedFrame& frame) {
+    TracedFrame copy = frame;
+    {
+      const std::lock_guard lock(mutex_);
+      std::swap(copy, ready_);
+      fresh_ = true;
+    }
+    onChange_();
   };
-  calls.leaving = [this] {
-    answerQuery();
-    return leaving();
+  calls.showUnfinished = [this](UnfinishedFrame frame) {
+    {
+      const std::lock_guard lock(mutex_);
+      unfinished_ = std::move(frame);
+    }
+    onChange_();
   };
-  calls.publish = [this](const TracedFrame& frame) { publish(frame); };
-  calls.showUnfinished = [this](UnfinishedFrame frame) { publish(std::move(frame)); };
   return calls;
 }
 
 void RenderThread::trace(const FrameRequest& request) {
   const bool complete = tracer_.trace(request, back_, calls());
   const std::lock_guard lock(mutex_);
-  if (complete) {
-    exchange_.finish(back_);
-  } else {
-    exchange_.giveUp();
+  if (complete && (isCommitted() || !isWaiting())) {
+    std::swap(back_, ready_);
+    fresh_ = true;
+  } else if (!complete && !isWaiting()) {
+    asked_ = request;  // it was interrupted for a query only
   }
+  tracing_.reset();
+  unfinished_.reset();
 }
 
 void RenderThread::answerQuery() {
   std::optional<RayQuery> query;
   {
     const std::lock_guard lock(mutex_);
-    query = exchange_.nextQuery();
+    query = std::exchange(query_, std::nullopt);
   }
   if (!query) return;
   std::optional<RayPick> pick;
@@ -182,25 +209,8 @@ void RenderThread::answerQuery() {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (pick) exchange_.answer(std::move(*pick));
+    if (pick) pick_ = std::move(pick);
     if (!error.empty()) error_ = error;
-  }
-  onChange_();
-}
-
-void RenderThread::publish(const TracedFrame& frame) {
-  TracedFrame copy = frame;
-  {
-    const std::lock_guard lock(mutex_);
-    exchange_.show(copy);
-  }
-  onChange_();
-}
-
-void RenderThread::publish(UnfinishedFrame frame) {
-  {
-    const std::lock_guard lock(mutex_);
-    exchange_.showUnfinished(std::move(frame));
   }
   onChange_();
 }

@@ -1,5 +1,10 @@
 // The tracing thread, apart from the window's: frames are handed over by exchanging buffers, so
 // that neither thread waits for the other.
+//
+// Pictures in motion are not queued. One is asked for when the one before is finished and taken, so
+// that it shows what the user has done by then; thus at most two pictures are finished after a key
+// up to its own, that one included. A picture at rest is given up for anything else, or dropped if
+// it has just been finished.
 #pragma once
 
 #include <condition_variable>
@@ -7,33 +12,36 @@
 #include <mutex>
 #include <thread>
 
-#include "viewer/frame_exchange.h"
 #include "viewer/frame_tracer.h"
 
 namespace whit::view {
 
 class RenderThread {
  public:
-  // Builds the renderer on the calling thread; throws as Renderer does. `onChange` is called on the
-  // tracing thread whenever a frame, a scene or an error is there to be fetched.
+  // Builds the renderer on the calling thread; throws as Renderer does. `onChange` is called on
+  // another thread whenever a frame, a scene or an error is there to be fetched.
   RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
                std::function<void()> onChange);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
 
-  // False: not now, as FrameExchange has it; `onChange` tells when to ask again.
+  // Replaces the request that was not begun yet. Returns false while a picture is traced that
+  // nothing stops, or waits to be taken; `onChange` tells when to ask again.
   bool ask(const FrameRequest& request);
-  // Reads a scene, between frames; the old one stays when that fails.
+  // Reads a scene before the next frame; the old one stays when that fails.
   void load(const SceneChoice& scene);
-  // Changes materials and lights, between frames; nothing when the scene is another one by then.
+  // Changes materials and lights before the next frame; does nothing when the scene is another one
+  // by then.
   void edit(ShadingEdit edit);
-  // Follows the rays of a pixel, before the next frame or between two bands of this one.
+  // Follows the rays of a pixel. A picture at rest is interrupted for it and begun again; one that
+  // gains samples goes on.
   void query(const RayQuery& query);
+  // The newest answer since the last call; null: there is none.
   std::optional<RayPick> takePick();
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
-  // What there is of the one that is being traced; null: nothing new.
+  // What there is of the picture that is being traced; null: nothing new.
   std::optional<UnfinishedFrame> takeUnfinished();
   std::string takeError();  // empty: none
   bool busy() const;        // tracing, or about to
@@ -45,22 +53,32 @@ class RenderThread {
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);
   TraceCalls calls();
-  void publish(const TracedFrame& frame);
-  void publish(UnfinishedFrame frame);
   void answerQuery();
   void waitForWork(std::unique_lock<std::mutex>& lock);
-  bool superseded() const;
-  bool leaving() const;
+  // The mutex must be held for these three.
+  bool isCommitted() const { return tracing_ && !tracing_->interruptible; }
+  bool isWaiting() const { return scene_ || edit_ || asked_; }
+  bool hasWork() const { return isWaiting() || query_; }
 
   const std::function<void()> onChange_;
   FrameTracer tracer_;  // the tracing thread's own, as is the next
   TracedFrame back_;
 
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards all that follows
   std::condition_variable wake_;
-  FrameExchange exchange_;
-  bool busy_ = false, quit_ = false;
+  // What the window wants; each is handed to the tracing thread once, in this order.
+  std::optional<SceneChoice> scene_;
+  std::optional<ShadingEdit> edit_;
+  std::optional<RayQuery> query_;
+  std::optional<FrameRequest> asked_;
+  std::optional<FrameRequest> tracing_;
+  // What the tracing thread has made.
+  std::optional<RayPick> pick_;
+  std::optional<UnfinishedFrame> unfinished_;
+  TracedFrame ready_;
   std::string error_;
+  bool fresh_ = false;  // ready_ is still to be taken
+  bool busy_ = false, quit_ = false;
   std::thread thread_;
 };
 

@@ -6,7 +6,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "${1:-$root/scenes/pictures}"
 folder=$(cd "${1:-$root/scenes/pictures}" && pwd)
-view=$root/build/whit-view
+view=$root/build/whit-view-script
 largest=500000  # bytes a picture
 
 if [ ! -x "$view" ]; then

@@ -20,7 +20,7 @@ std::string nameOf(const SkyChoice& sky) {
   return std::filesystem::path(sky.source).filename().string();
 }
 
-bool drawChoice(const SkyChoice& own, bool& openFile, SkyChoice& sky) {
+bool drawChoice(const SkyChoice& own, SkyChoice& sky) {
   const SkyChoice before = sky;
   if (!ImGui::BeginCombo("sky", nameOf(sky).c_str())) return false;
   const auto offer = [&](const SkyChoice& choice) {
@@ -31,13 +31,12 @@ bool drawChoice(const SkyChoice& own, bool& openFile, SkyChoice& sky) {
   for (const char* source : {kNoSky, kStudio}) {
     if (own.source != source) offer(chooseSky(source));
   }
-  openFile |= ImGui::Selectable("an image ...");
   ImGui::EndCombo();
   return sky != before;
 }
 
-bool drawSky(const SkyChoice& own, bool& openFile, SkyChoice& sky) {
-  bool changed = drawChoice(own, openFile, sky);
+bool drawSky(const SkyChoice& own, SkyChoice& sky) {
+  bool changed = drawChoice(own, sky);
   if (sky.kind == Sky::Kind::none) return changed;
   changed |= ImGui::SliderFloat("brightness", &sky.scale, 0, kLargestScale, "%.3g", kLogarithmic);
   if (sky.kind == Sky::Kind::image) {
@@ -71,9 +70,9 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
 
 }  // namespace
 
-bool drawSurroundings(const SkyChoice& ownSky, bool& openFile, ShadingEdit& scene) {
+bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene) {
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
-  bool changed = drawSky(ownSky, openFile, scene.sky);
+  bool changed = drawSky(ownSky, scene.sky);
   changed |= drawAmbient(scene.sky.kind != Sky::Kind::none, scene.ambient);
   ImGui::PopItemWidth();
   return changed;

@@ -12,7 +12,7 @@
 #include "inspect/debug_view.h"
 #include "io/image/image_file.h"
 #include "viewer/comparison.h"
-#include "viewer/knob_measurement.h"
+#include "viewer/knob_costs.h"
 #include "viewer/sky_choice.h"
 
 namespace whit::view {

@@ -91,7 +91,7 @@ Window::Window(const std::string& title, const ImageSize& size) {
   if (!window_) throwUsage("no window with OpenGL 2.1 can be opened here" + glfwReason());
   glfwSetWindowUserPointer(window_, this);
   glfwMakeContextCurrent(window_);
-  setVsync(true);
+  glfwSwapInterval(1);
   glfwSetKeyCallback(window_, onKey);
   glfwSetMouseButtonCallback(window_, onButton);
   glfwSetCursorPosCallback(window_, onCursor);
@@ -149,8 +149,6 @@ void Window::setClipboard(const std::string& text) {
   glfwSetClipboardString(window_, text.c_str());
 }
 
-void Window::setVsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
-
 void Window::toggleFullScreen() {
   if (glfwGetWindowMonitor(window_)) {
     glfwSetWindowMonitor(window_, nullptr, windowedX_, windowedY_, windowed_.width,
@@ -164,12 +162,6 @@ void Window::toggleFullScreen() {
   glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
-
-void Window::resize(const ImageSize& size) { glfwSetWindowSize(window_, size.width, size.height); }
-
-void Window::minimize() { glfwIconifyWindow(window_); }
-
-void Window::restore() { glfwRestoreWindow(window_); }
 
 std::optional<Input::Click> Window::pointed() const {
   if (ImGui::GetIO().WantCaptureMouse || looking_ || orbiting_) return std::nullopt;
@@ -274,23 +266,6 @@ void Window::end() {
 }
 
 void Window::present() { glfwSwapBuffers(window_); }
-
-void Window::finish() const { glFinish(); }
-
-DisplayImage Window::readPixels() const {
-  const ImageSize size = pixels();
-  DisplayImage image{size.width, size.height, {}};
-  const std::size_t row = static_cast<std::size_t>(size.width) * 4;
-  std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(size.height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
-  image.rgba.reserve(upwards.size());
-  for (std::size_t end = upwards.size(); end >= row && row > 0; end -= row) {
-    const auto last = upwards.begin() + static_cast<std::ptrdiff_t>(end);
-    image.rgba.insert(image.rgba.end(), last - static_cast<std::ptrdiff_t>(row), last);
-  }
-  return image;
-}
 
 void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   Input& input = windowOf(window).input;

@@ -44,11 +44,7 @@ class Window {
   std::array<int, 2> pixelAt(const Input::Click& place) const;
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
-  void setVsync(bool on);
   void toggleFullScreen();
-  void resize(const ImageSize& size);
-  void minimize();
-  void restore();
 
   // The last click on the picture since the last call, the user's or a script's pointer's.
   std::optional<Input::Click> takeClick() { return std::exchange(click_, std::nullopt); }
@@ -73,8 +69,6 @@ class Window {
   // Draws what ImGui was given.
   void end();
   void present();
-  DisplayImage readPixels() const;  // after end(), before present()
-  void finish() const;              // until everything is drawn
 
  private:
   static void onKey(GLFWwindow* window, int key, int scancode, int action, int mods);

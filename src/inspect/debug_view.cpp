@@ -34,13 +34,12 @@ Rgb colorOf(EffectSet effects) {
 // Sums, a pixel of the window each, of whatever the view shows.
 class Watcher : public StageObserver {
  public:
-  Watcher(const Renderer& renderer, const Crop& window, DebugView view)
-      : renderer_(renderer), window_(window), view_(view), last_(Clock::now()) {
+  Watcher(const Renderer& renderer, const Crop& window, DebugView view,
+          std::vector<WatchedPixel>& pixels)
+      : renderer_(renderer), window_(window), view_(view), pixels_(pixels), last_(Clock::now()) {
     const auto width = static_cast<std::size_t>(window.x1 - window.x0);
-    pixels_.resize(width * static_cast<std::size_t>(window.y1 - window.y0));
+    pixels_.assign(width * static_cast<std::size_t>(window.y1 - window.y0), WatchedPixel());
   }
-
-  std::vector<WatchedPixel> takePixels() { return std::move(pixels_); }
 
   void after(Stage stage, const Chunk& chunk) override {
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
@@ -121,8 +120,8 @@ class Watcher : public StageObserver {
   const Renderer& renderer_;
   const Crop window_;
   const DebugView view_;
+  std::vector<WatchedPixel>& pixels_;
   PixelTracker tracker_;
-  std::vector<WatchedPixel> pixels_;
   Clock::time_point last_;
 };
 
@@ -156,13 +155,11 @@ std::string namesOf(EffectSet effects) {
 
 std::span<const EffectColor> effectColors() { return kEffectColors; }
 
-DebugFrame watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
-  Watcher watcher(renderer, film.image.window, view);
+FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
+                      std::vector<WatchedPixel>& pixels, const FrameHooks* hooks) {
+  Watcher watcher(renderer, film.image.window, view, pixels);
   StageObserver* const observers[] = {&watcher};
-  DebugFrame frame;
-  frame.stats = renderer.observe(camera, film, observers);
-  frame.pixels = watcher.takePixels();
-  return frame;
+  return renderer.observe(camera, film, observers, hooks);
 }
 
 AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples) {
@@ -243,7 +240,8 @@ std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
 }
 
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
-  DebugFrame frame = watchFrame(renderer, camera, film, view);
+  DebugFrame frame;
+  frame.stats = watchFrame(renderer, camera, film, view, frame.pixels);
   const int samples = renderer.options().spp;
   frame.scale = scaleOf(view, frame.pixels, samples);
   paintView(view, frame.pixels, samples, frame.scale, film.display);

@@ -34,10 +34,11 @@ struct DebugFrame {
 // Several samples are averaged. film.image is what render() makes of it. `view` is not none.
 DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
 
-// The parts of the above, for pictures that are watched piece by piece: `frame.pixels` and its
-// statistics; then for any pixels, of so many samples each, scale, picture and words. A pixel's
-// occupancy is that of a whole picture only where pieces are of whole tiles.
-DebugFrame watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
+// The parts of the above, for pictures that are shown tile by tile: what is seen of the window's
+// pixels, which `hooks` may look at; then for any pixels, of so many samples each, scale, picture
+// and words.
+FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
+                      std::vector<WatchedPixel>& pixels, const FrameHooks* hooks = nullptr);
 AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples);
 void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
                const AmountScale& scale, DisplayImage& display);

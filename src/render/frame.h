@@ -2,6 +2,9 @@
 // the probe samples and the sums, of which each pixel is written by one worker.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "render/film.h"
@@ -11,6 +14,14 @@
 #include "stages/chunk.h"
 
 namespace whit {
+
+// Called by the workers while they trace a frame, possibly several at a time.
+struct FrameHooks {
+  // Asked between tiles and between samples. True: the frame is given up, and its film is useless.
+  std::function<bool()> stop;
+  // Called when the film holds the pixels of a tile; null: not wanted. Batches do not call it.
+  std::function<void(std::span<const std::uint32_t> pixels)> finished;
+};
 
 struct Frame {
   FrameConstants constants;
@@ -24,6 +35,8 @@ struct Frame {
   SampleSums* sums = nullptr;
   // Part of the frame's work: sees the chunks of all workers, at the same time.
   StageObserver* observer = nullptr;
+  const FrameHooks* hooks = nullptr;
+  bool stops() const { return hooks && hooks->stop(); }
 };
 
 }  // namespace whit

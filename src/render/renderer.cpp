@@ -120,7 +120,8 @@ const std::vector<Vec2f>& Renderer::pattern() {
   return pattern_;
 }
 
-Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
+Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window,
+                        const FrameHooks* hooks) {
   scheduler_.layOut(plan_, options_, window);
   sizeDisplay(film);
   Frame frame;
@@ -133,12 +134,15 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window) {
                                 static_cast<std::uint32_t>(nearestToCenter(frame.samples))};
   }
   frame.film = &film;
+  frame.hooks = hooks;
   return frame;
 }
 
-FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch) {
-  Frame frame = frameOf(camera, film,
-                        adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
+FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch,
+                            const FrameHooks* hooks) {
+  Frame frame =
+      frameOf(camera, film,
+              adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window, hooks);
   if (watch) frame.constants.shadowCache = nullptr;  // who looks on sees all rays
   const Stopwatch stopwatch;
   FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
@@ -151,8 +155,8 @@ FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::W
 }
 
 FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
-                                SampleSums& sums) {
-  Frame frame = frameOf(camera, film, film.image.window);
+                                SampleSums& sums, const FrameHooks* hooks) {
+  Frame frame = frameOf(camera, film, film.image.window, hooks);
   frame.firstSample = static_cast<std::size_t>(samples.first);
   frame.endSample = static_cast<std::size_t>(samples.end);
   frame.sums = &sums;
@@ -166,8 +170,8 @@ FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRa
 }
 
 FrameStats Renderer::observe(const Camera& camera, Film& film,
-                             std::span<StageObserver* const> observers) {
-  Frame frame = frameOf(camera, film, film.image.window);
+                             std::span<StageObserver* const> observers, const FrameHooks* hooks) {
+  Frame frame = frameOf(camera, film, film.image.window, hooks);
   frame.constants.shadowCache = nullptr;  // as above
   const Stopwatch stopwatch;
   FrameStats stats = scheduler_.observe(frame, observers);

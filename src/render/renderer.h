@@ -44,18 +44,20 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // film.image must have its size and window set. Allocates on the first call and when sizes
-  // change. `watch`, if any, looks on (render/scheduler.h).
-  FrameStats render(const Camera& camera, Film& film, const Scheduler::Watch& watch = {});
+  // change. `watch`, if any, looks on (render/scheduler.h); `hooks`, if any, are called.
+  FrameStats render(const Camera& camera, Film& film, const Scheduler::Watch& watch = {},
+                    const FrameHooks* hooks = nullptr);
 
   // Traces some of the samples of the film's pixels, without adaptive sampling, and adds them to
   // `sums`, which has those before them. The film shows the mean of all so far: with the last of
   // options().spp samples it is render()'s, bit for bit. The window of `sums` holds the film's.
   FrameStats accumulate(const Camera& camera, Film& film, const SampleRange& samples,
-                        SampleSums& sums);
+                        SampleSums& sums, const FrameHooks* hooks = nullptr);
 
   // Traces all samples of the film's pixels, without adaptive sampling, each observer looking on at
   // a worker of its own; no more of them than machine().threads.
-  FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers);
+  FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers,
+                     const FrameHooks* hooks = nullptr);
 
   // Renders the same image with the scalar reference, which takes its candidates from this
   // renderer's Embree scene.
@@ -120,7 +122,7 @@ class Renderer {
 
  private:
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
-  Frame frameOf(const Camera& camera, Film& film, const Crop& window);
+  Frame frameOf(const Camera& camera, Film& film, const Crop& window, const FrameHooks* hooks);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   bool usesShadowCache(const RenderOptions& options) const;

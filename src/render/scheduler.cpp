@@ -57,8 +57,9 @@ FrameStats Scheduler::forWorkers(
 FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists, const Watch& watch) {
   std::atomic<std::size_t> next{0};
   return forWorkers([&](std::size_t worker, FrameStats& stats) {
-    for (std::size_t i = next++; i < lists.size(); i = next++) {
+    for (std::size_t i = next++; i < lists.size() && !frame.stops(); i = next++) {
       tracers_[worker].trace(frame, lists[i], stats, nullptr, watch ? watch(i) : nullptr);
+      if (frame.hooks && frame.hooks->finished) frame.hooks->finished(lists[i]);
     }
   });
 }
@@ -77,8 +78,9 @@ FrameStats Scheduler::observe(const Frame& frame, std::span<StageObserver* const
   std::atomic<std::size_t> next{0};
   return forWorkers([&](std::size_t worker, FrameStats& stats) {
     if (worker >= observers.size()) return;
-    for (std::size_t i = next++; i < all_.tiles.size(); i = next++) {
+    for (std::size_t i = next++; i < all_.tiles.size() && !frame.stops(); i = next++) {
       tracers_[worker].trace(frame, all_.tiles[i], stats, nullptr, observers[worker]);
+      if (frame.hooks && frame.hooks->finished) frame.hooks->finished(all_.tiles[i]);
     }
   });
 }

@@ -29,8 +29,8 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
       traceSample(watch);
-    } else {
-      traceSamples(frame, watch);
+    } else if (!traceSamples(frame, watch)) {
+      return;
     }
     work_.returnToPixels(chunk_);
     for (const Step& step : plan_.perTile) run(step, stats);
@@ -39,12 +39,13 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
   }
 }
 
-// The mean over the samples so far.
-void TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
+// Leaves the mean over the samples so far. Returns false when the frame is given up.
+bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
   const std::size_t n = chunk_.pixels.size();
   sums_.assign(n, SampleSum());
   takeUpSums(frame);
   for (std::size_t s = frame.firstSample; s < frame.endSample; ++s) {
+    if (frame.stops()) return false;
     chunk_.sample = frame.samples[s];
     chunk_.sampleNumber = static_cast<std::uint32_t>(s);
     traceSample(watch);
@@ -58,6 +59,7 @@ void TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
     const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
     radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
   }
+  return true;
 }
 
 void TileTracer::addSample(const Frame& frame) {

@@ -44,7 +44,7 @@ class TileTracer {
     StageObserver *frameObserver, *observer;
   };
 
-  void traceSamples(const Frame& frame, const Watch& watch);
+  bool traceSamples(const Frame& frame, const Watch& watch);
   void addSample(const Frame& frame);
   // Loads the sums of the earlier samples.
   void takeUpSums(const Frame& frame);

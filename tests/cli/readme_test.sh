@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The commands of README.md and other pages, as they stand there but for sizes and counts that would
-# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW]; whit-verify lies beside WHIT. Commands are the lines of code blocks, and
+# take long: readme_test.sh PAGE.md... WHIT [WHIT-VIEW-SCRIPT]; whit-verify lies beside WHIT. Commands are the lines of code blocks, and
 # code within text that has arguments. Those of the programs and of scenes/farm are run; those that install,
 # build or test the whole are named, and so is whatever this machine lacks something for.
 set -uo pipefail
@@ -68,7 +68,7 @@ commandsOf() {
 # The same without what takes long and shows nothing more: the atrium alone is made in two seconds.
 cheap() {
   sed -E -e 's/ *((&&|\|) ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
-    -e 's/COMMAND/render/' -e '/--crop|--frames|--record|mpirun|--widths/s/atrium/whitted/g' \
+    -e 's/COMMAND/render/' -e '/--crop|--frames|mpirun|--widths/s/atrium/whitted/g' \
     -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
     -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/--depth N/--depth 4/' -e 's/--sphere-segments N/--sphere-segments 8/' \
     -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) FILE/\1 whitted/' -e 's/1\.\.48/1..2/' -e 's/0\.\.239/0..2/' \
@@ -77,8 +77,7 @@ cheap() {
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
     -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
     -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff --time-budget 0/' -e 's/(whit-verify).*/\1 --only H13/' \
-    -e '/whit-view .*--record/s/$/ --size 64x40/' \
-    -e '/whit-view/{/--(benchmark|record|script)/!s/$/ --script leave.txt --size 64x40/}'
+    -e '/whit-view/s/$/ --script leave.txt --size 64x40/'
 }
 
 openDisplay() {

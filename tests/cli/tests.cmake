@@ -9,13 +9,17 @@ endif()
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/cli)
 whit_program_test(cli completion.knows_what_help_knows ${folder}/completion_test.sh ${programs})
 whit_program_test(cli manual.says_what_help_says ${folder}/manual_test.sh ${programs})
+set(readers $<TARGET_FILE:whit>)
+if(TARGET whit-view)
+  list(APPEND readers $<TARGET_FILE:whit-view-script>)  # which ends by itself
+endif()
 # What the pages say does not depend on sanitizers, under which it would take minutes.
 if(NOT WHIT_SANITIZE)
   whit_program_test(cli readme.commands_work
                     ${folder}/readme_test.sh
                     ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/viewer/README.md
                     ${CMAKE_SOURCE_DIR}/scenes/README.md ${CMAKE_SOURCE_DIR}/tests/bench/README.md
-                    ${CMAKE_SOURCE_DIR}/src/accuracy/README.md ${programs})
+                    ${CMAKE_SOURCE_DIR}/src/accuracy/README.md ${readers})
   # Takes longest: begins first.
   set_tests_properties(readme.commands_work PROPERTIES TIMEOUT 600 COST 1000)
 endif()

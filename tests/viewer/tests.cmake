@@ -1,7 +1,13 @@
-# Some on a virtual display.
+# Some on a virtual display, by whit-view-script, which is whit-view with a scripted user.
 if(TARGET whit-view)
+  add_executable(whit-view-script viewer/whit_view_script.cpp viewer/script.cpp)
+  target_link_libraries(whit-view-script PRIVATE whit_view)
+  if(WHIT_SANITIZE MATCHES address)
+    target_sources(whit-view-script PRIVATE ${CMAKE_SOURCE_DIR}/viewer/keep_drivers.cpp)
+  endif()
   whit_tests(viewer whit_view)
-  whit_runs_programs(viewer whit whit-view)
+  target_sources(viewer_test PRIVATE viewer/script.cpp)
+  whit_runs_programs(viewer whit whit-view whit-view-script)
   if(NOT WHIT_SANITIZE)
     whit_program_test(viewer viewer.takes_real_input
                       ${CMAKE_CURRENT_SOURCE_DIR}/viewer/real_input_test.sh $<TARGET_FILE:whit-view>)

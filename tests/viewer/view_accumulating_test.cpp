@@ -1,6 +1,8 @@
 // Pictures at rest whose rays are sampled: more and more samples, and what they say of themselves.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "cli/run_program.h"
 #include "viewer/frame_tracer.h"
 #include "viewer/panel.h"
@@ -22,6 +24,8 @@ class Accumulating : public testing::Test {
     request_.interruptible = true;
     request_.spp = 32;
     calls_.superseded = calls_.leaving = [this] { return ++pieces_ > most_; };
+    calls_.queried = [] { return false; };
+    calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
     calls_.showUnfinished = [this](UnfinishedFrame sight) { sights_.push_back(std::move(sight)); };
   }
@@ -40,7 +44,8 @@ class Accumulating : public testing::Test {
   FrameRequest request_;
   TraceCalls calls_;
   std::vector<UnfinishedFrame> sights_;
-  int pieces_ = 0, most_ = 1'000'000;
+  std::atomic<int> pieces_{0};  // workers count
+  int most_ = 1'000'000;
 };
 
 TEST_F(Accumulating, EndsWithThePictureOfSoManySamplesBitForBit) {
@@ -91,7 +96,8 @@ TEST_F(Accumulating, IsGivenUpInBetween) {
   TracedFrame frame;
   most_ = 3;
   EXPECT_FALSE(tracer.trace(request_, frame, calls_));
-  EXPECT_EQ(pieces_, 4);
+  EXPECT_GE(pieces_, 4);
+  EXPECT_LT(pieces_, 20) << "workers go on";
 }
 
 TEST_F(Accumulating, OnlyWhereRaysAreSampled) {
@@ -128,9 +134,9 @@ TEST_F(Viewer, AccumulatesAtRest) {
                "transform": {"translate": [0, 1, 0]}}]
   })";
   std::ofstream(folder_ / "script.txt") << "key H\nwait sharp\nscreenshot shown.png\nkey C\n";
-  const cli::Outcome outcome = runOn(
-      display_.name(), folder_.path().string(),
-      {WHIT_VIEW_PROGRAM, "rough.json", "--quiet", "--glossy", "1", "--script", "script.txt"});
+  const cli::Outcome outcome = runOn(display_.name(), folder_.path().string(),
+                                     {WHIT_VIEW_SCRIPT_PROGRAM, "rough.json", "--quiet", "--glossy",
+                                      "1", "--script", "script.txt"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;

@@ -1,5 +1,7 @@
-// Debug views traced piece by piece are those of a whole picture.
+// Debug views that are shown tile by tile are those of a whole picture.
 #include <gtest/gtest.h>
+
+#include <atomic>
 
 #include "cli/run_program.h"
 #include "viewer/frame_tracer.h"
@@ -19,6 +21,8 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     request_.view = static_cast<DebugView>(GetParam());
     request_.interruptible = true;
     calls_.superseded = calls_.leaving = [this] { return ++pieces_ > most_; };
+    calls_.queried = [] { return false; };
+    calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
     calls_.showUnfinished = [](const UnfinishedFrame&) {};
   }
@@ -51,7 +55,8 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
   std::shared_ptr<cli::OpenScene> scene_;
   FrameRequest request_;
   TraceCalls calls_;
-  int pieces_ = 0, most_ = 1'000'000;
+  std::atomic<int> pieces_{0};  // workers count
+  int most_ = 1'000'000;
 };
 
 TEST_P(ViewPieces, AreThoseOfAWholePicture) { expectAsWhole(); }

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "render_thread_fixture.h"
-#include "viewer/knob_measurement.h"
 
 namespace whit::view {
 namespace {
@@ -27,11 +27,10 @@ TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
   expectRightPicture(thread);
 }
 
-TEST_F(RenderThreadTest, BandsMakeTheSamePicture) {
+TEST_F(RenderThreadTest, InterruptibleFramesMakeTheSamePicture) {
   RenderThread thread(opened_, common_, [] {});
-  traced(thread);  // from which it learns how long bands take
   request_.interruptible = true;
-  request_.spp = 256;  // long enough for more than one band on any machine of today
+  request_.spp = 256;
   request_.options.size = {480, 200};
   expectRightPicture(thread);
 }
@@ -63,7 +62,7 @@ TEST_F(RenderThreadTest, PicturesAreSeenWhileTheyAreTraced) {
         ASSERT_EQ(frame.display.rgba[i + c], film.display.rgba[i + c]) << i;
       }
     }
-    EXPECT_GE(static_cast<double>(opaque), frame.done * 480 * 320);
+    EXPECT_DOUBLE_EQ(static_cast<double>(opaque), frame.done * 480 * 320);
     EXPECT_LT(opaque, 480u * 320u);
   }
 }
@@ -110,6 +109,73 @@ TEST_F(RenderThreadTest, TheNewestRequestWins) {
   ASSERT_TRUE(thread.take(frame));
   EXPECT_TRUE(samePicture(frame.request, request_));
   EXPECT_FALSE(thread.take(frame));
+}
+
+TEST_F(RenderThreadTest, NothingQueuesBehindAPictureInMotion) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {480, 320};
+  request_.spp = 64;
+  request_.serial = 1;
+  EXPECT_TRUE(thread.ask(request_));
+  while (!thread.committed()) std::this_thread::yield();
+  request_.serial = 2;
+  EXPECT_FALSE(thread.ask(request_));
+  ASSERT_TRUE(waitFor(thread));
+  EXPECT_FALSE(thread.ask(request_)) << "the user has not seen the first one";
+  TracedFrame frame;
+  ASSERT_TRUE(thread.take(frame));
+  EXPECT_EQ(frame.request.serial, 1);
+  EXPECT_FALSE(thread.take(frame));
+  EXPECT_TRUE(thread.ask(request_));
+}
+
+TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
+  RenderThread thread(opened_, common_, [] {});
+  FrameRequest long_ = request_;
+  long_.options.size = {4000, 4000};
+  long_.spp = 64;
+  long_.interruptible = true;
+  EXPECT_TRUE(thread.ask(long_));
+  std::optional<UnfinishedFrame> begun;
+  while (!begun) begun = thread.takeUnfinished();
+  EXPECT_FALSE(thread.committed());
+  request_.serial = 2;
+  EXPECT_TRUE(thread.ask(request_));
+  ASSERT_TRUE(waitFor(thread));
+  TracedFrame frame;
+  ASSERT_TRUE(thread.take(frame));
+  EXPECT_EQ(frame.request.serial, 2);
+  EXPECT_FALSE(thread.take(frame));
+}
+
+// The window's loop as App::step() has it, with keys at any time: a picture with serial n shows the
+// first n keys.
+TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.options.size = {24, 16};
+  std::mt19937 random(1);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::vector<int> takenAtKey;  // pictures that were taken when it was struck
+  int taken = 0, asked = 0, answered = 0, worst = 0;
+  for (int turn = 0; turn < 3000; ++turn) {
+    TracedFrame frame;
+    if (thread.take(frame)) {
+      ++taken;
+      for (; answered < frame.request.serial; ++answered) {
+        worst = std::max(worst, taken - takenAtKey[static_cast<std::size_t>(answered)]);
+      }
+    }
+    if (below(3) == 0) takenAtKey.push_back(taken);
+    const int struck = static_cast<int>(takenAtKey.size());
+    request_.serial = struck;
+    request_.interruptible = struck == asked;
+    request_.options.exposure.ev = static_cast<float>(turn);
+    if ((struck > asked || below(2) == 0) && thread.ask(request_)) asked = struck;
+    if (below(3) == 0) takenAtKey.push_back(taken);
+    if (below(2) == 0) std::this_thread::sleep_for(std::chrono::microseconds(below(300)));
+  }
+  EXPECT_GT(answered, 20) << "hardly any key was answered";
+  EXPECT_EQ(worst, 2);
 }
 
 TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
@@ -173,7 +239,7 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
                                                    {[] { return false; }, [](auto&&...) {}});
   const auto raysOf = [&](const std::string& name) {
     for (const KnobCost& cost : costs) {
-      if (cost.name == name) return cost.rays();
+      if (cost.name == name) return static_cast<double>(cost.now.allRays() - cost.then.allRays());
     }
     ADD_FAILURE() << name << " was not measured";
     return 0.0;

@@ -31,7 +31,7 @@ class SavedScenes : public Viewer {
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 244\nwait 5 frames\nclick 100 289\nkey H\nwait 20 frames\nwait sharp\n"
+      "click 30 244\nwait 5 frames\nclick 100 313\nkey H\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "viewer/script.h"
+#include "script.h"
 
 namespace whit::view {
 namespace {
@@ -38,8 +38,7 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
             "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, point, panel, drop, "
-            "resize, "
-            "minimize, restore, errors, news or quit, got 'jump'");
+            "resize, minimize, restore, errors or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {

@@ -24,7 +24,7 @@ class Viewer : public testing::Test {
   }
 
   cli::Outcome view(std::vector<std::string> words) {
-    words.insert(words.begin(), {WHIT_VIEW_PROGRAM, "tiny.json", "--quiet"});
+    words.insert(words.begin(), {WHIT_VIEW_SCRIPT_PROGRAM, "tiny.json", "--quiet"});
     cli::Outcome outcome;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       outcome = runOn(display_.name(), folder_.path().string(), words);

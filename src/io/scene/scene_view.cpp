@@ -10,16 +10,6 @@
 namespace whit {
 namespace {
 
-// Reads the members that are given; the others keep their values.
-void readCamera(JsonObject& object, Camera& camera) {
-  readMembers(object, camera);
-  const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
-  if (forward == Vec3d()) object.value().fail("eye and at to differ");
-  const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
-  constexpr double kLeastSine = 1e-6;
-  if (!(length(right) > kLeastSine)) object.value().fail("an up that is not along the view");
-}
-
 // The node that carries something from now on.
 std::uint32_t addMover(const std::shared_ptr<const Motion>& motion, const std::string& name,
                        SceneDescription& scene) {
@@ -82,6 +72,15 @@ void readLight(JsonObject& object, Light& light) {
 }
 
 }  // namespace
+
+void readCamera(JsonObject& object, Camera& camera) {
+  readMembers(object, camera);
+  const Vec3d forward = Vec3d(camera.at) - Vec3d(camera.eye);
+  if (forward == Vec3d()) object.value().fail("eye and at to differ");
+  const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
+  constexpr double kLeastSine = 1e-6;
+  if (!(length(right) > kLeastSine)) object.value().fail("an up that is not along the view");
+}
 
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene) {
   if (const auto size = file.find("size")) {

@@ -9,6 +9,8 @@
 
 namespace whit {
 
+// Reads the members of a camera that are given; the others keep their values.
+void readCamera(JsonObject& object, Camera& camera);
 // "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
 // degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);

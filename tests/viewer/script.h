@@ -4,8 +4,7 @@
 //   key Ctrl+NAME
 //   mouse left|right DX DY        dragged by so many pixels
 //   wheel NOTCHES
-//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets
-//                                 no finer and no file dialog is open
+//   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
 //   click X Y [X2 Y2]             on the panel, in the window's pixels; from there dragged to X2 Y2
 //   point X Y                     the pointer rests there from now on
@@ -13,8 +12,6 @@
 //   drop FILE                     a file dropped on the window
 //   resize W H | minimize | restore
 //   errors show | errors end      errors are shown as to a user; by default they end the script
-//   news                          prints the longest time without anything new on screen, of a
-//                                 picture that was not sharp yet, since the last such line
 //   quit
 //
 // Time is that of the frames: 1/60 s each, however long they take.
@@ -25,12 +22,9 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
-#include "viewer/input.h"
+#include "viewer/app.h"
 
 namespace whit::view {
-
-inline constexpr double kScriptSecondsPerFrame = 1.0 / 60;
 
 // What a script asks for in one frame, apart from its input.
 struct ScriptStep {
@@ -38,7 +32,6 @@ struct ScriptStep {
   bool quit = false;       // the end of the script quits too
   std::optional<ImageSize> resize;
   bool minimize = false, restore = false;
-  bool tellNews = false;
   std::string tab;                     // of the panel; empty: it stays
   std::optional<Input::Pointer> rest;  // of the pointer, from now on
   std::optional<bool> showErrors;      // false: they end the script

@@ -1,6 +1,10 @@
-#include "viewer/script.h"
+#define GLFW_INCLUDE_NONE
+#include "script.h"
+
+#include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -8,7 +12,6 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "viewer/keys.h"
 #include "viewer/panel.h"
 
 namespace whit::view {
@@ -19,7 +22,31 @@ using Words = std::vector<std::string>;
 
 constexpr double kLargestNumber = 1e6;
 
+constexpr std::pair<const char*, int> kNamed[] = {
+    {"Left", GLFW_KEY_LEFT},      {"Right", GLFW_KEY_RIGHT},    {"Up", GLFW_KEY_UP},
+    {"Down", GLFW_KEY_DOWN},      {"Space", GLFW_KEY_SPACE},    {"Shift", GLFW_KEY_LEFT_SHIFT},
+    {"Escape", GLFW_KEY_ESCAPE},  {"+", GLFW_KEY_KP_ADD},       {"-", GLFW_KEY_MINUS},
+    {"[", GLFW_KEY_LEFT_BRACKET}, {"]", GLFW_KEY_RIGHT_BRACKET}};
+
 [[noreturn]] void expected(const std::string& what) { throwUsage("expected " + what); }
+
+// The GLFW code of "W", "7", "F12", "Left", "Shift", "Space", "+", "["...
+int keyNamed(const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& [text, code] : kNamed) {
+    if (name == text) return code;
+    known.emplace_back(text);
+  }
+  // GLFW's codes of letters and digits are their ASCII codes.
+  if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0]))) {
+    return std::toupper(static_cast<unsigned char>(name[0]));
+  }
+  for (int i = 1; i <= 12; ++i) {
+    if (name == "F" + std::to_string(i)) return GLFW_KEY_F1 + i - 1;
+    known.push_back("F" + std::to_string(i));
+  }
+  throwUsage("there is no key '" + name + "'" + didYouMean(name, known));
+}
 
 double number(const std::string& text) {
   double value = 0;
@@ -32,7 +59,7 @@ double number(const std::string& text) {
 }
 
 int framesOf(double seconds) {
-  return std::max(1, static_cast<int>(std::lround(seconds / kScriptSecondsPerFrame)));
+  return std::max(1, static_cast<int>(std::lround(seconds / ScriptedUser::kSecondsPerFrame)));
 }
 
 ScriptCommand keyCommand(const Words& words) {
@@ -147,7 +174,6 @@ constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = 
 constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
     {"minimize", &ScriptStep::minimize},
     {"restore", &ScriptStep::restore},
-    {"news", &ScriptStep::tellNews},
     {"quit", &ScriptStep::quit}};
 
 ScriptCommand commandOf(const Words& words) {
@@ -160,8 +186,7 @@ ScriptCommand commandOf(const Words& words) {
   }
   expected(
       "key, mouse, wheel, wait, screenshot, click, point, panel, drop, resize, minimize, restore, "
-      "errors, "
-      "news or quit, got '" +
+      "errors or quit, got '" +
       words[0] + "'");
 }
 
