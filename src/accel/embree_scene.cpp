@@ -1,6 +1,7 @@
 #include "accel/embree_scene.h"
 
 #include <algorithm>
+#include <new>
 
 #include "bake/instance_bounds.h"
 #include "core/error.h"
@@ -90,9 +91,24 @@ std::string deviceConfiguration(const AccelOptions& options) {
   throwLimit(what + ": memory or threads ran out");
 }
 
+// Embree 3.13 ends the program if memory runs out while its threads start, instead of reporting it.
+// Threads take addresses for their stacks and heaps, most of which they never touch.
+void requireRoomForThreads(int threads) {
+  constexpr std::size_t kMegabytes = 128, kMegabytesPerThread = 16;
+  const std::size_t needed = kMegabytes + kMegabytesPerThread * static_cast<std::size_t>(threads);
+  // Volatile, so that the allocation is not optimized away.
+  void* const volatile room = ::operator new(needed << 20, std::nothrow);
+  ::operator delete(room);
+  if (!room) {
+    throwLimit("Embree's threads need " + std::to_string(needed) +
+               " MB of addresses: memory ran out");
+  }
+}
+
 }  // namespace
 
 EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
+  requireRoomForThreads(options.threads);
   device_.reset(rtcNewDevice(deviceConfiguration(options).c_str()));
   if (!device_) throwNoDevice(options);
   const auto has = [this](RTCDeviceProperty what) {

@@ -43,13 +43,6 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(nearest, 2.75, delta=0.01)
         self.assertAlmostEqual(farthest, 3.25, delta=0.01)
 
-    def test_error_against_time(self):
-        try:
-            import matplotlib  # noqa: F401
-        except ImportError:
-            self.skipTest("no matplotlib here")
-        self.run_example("Error against time", "error.png")
-
     def test_a_film(self):
         self.run_example("A film", *[f"frame{i:04}.png" for i in range(12)])
 
@@ -57,7 +50,7 @@ class Examples(unittest.TestCase):
         self.run_example("Compared with the reference")
 
     def test_all_are_tested(self):
-        self.assertEqual(len(examples()), 5)
+        self.assertEqual(len(examples()), 4)
 
 
 class Signatures(unittest.TestCase):
