@@ -145,7 +145,7 @@ def measure_accuracy():
     try:
         keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
     except subprocess.CalledProcessError:
-        complain("tests/targets.sh fails: its table stays as it is")
+        complain("tests/targets.sh fails: its columns stay empty")
 
 
 def measure_transport():
@@ -269,15 +269,30 @@ def povray_table(times):
                   for name, ms in times.items()])
 
 
-def compare_table(data):
+def compare_table(data, targets):
     def row(r):
         worst = max(s["worst_ulp"] / s["limit_ulp"] if s["limit_ulp"] else s["worst_ulp"]
                     for s in r["stages"])
         return [r["scene"], f"{100 - r['pixels_ge_2_codes_pct']:.3f} %", f"{r['flip_mean']:.5f}",
                 f"{r['rmse']:.1e}", number(r["path_flips_per_mpx"], 0), number(worst, 2),
-                str(r["nonfinite"])]
+                str(r["nonfinite"]), *targets.get(r["scene"], ["", ""])]
     return table(["scene", "within one code", "FLIP", "RMSE", "path divergences a Mpixel",
-                  "worst stage, share of its limit", "not finite"], [row(r) for r in data["runs"]])
+                  "worst stage, share of its limit", "not finite", "SIMD targets, depth 64",
+                  "SIMD targets, depth 8"], [row(r) for r in data["runs"]])
+
+
+def worst_targets(text):
+    """By scene, for both tables of tests/targets.sh: the worst of all pairs of targets."""
+    scenes = {}
+    for block, lines in enumerate(text.split("At depth 8")):
+        for line in lines.splitlines():
+            cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+            if len(cells) == 5 and " and " in cells[0]:
+                pairs = scenes.setdefault(cells[0].split(",")[0], ([], []))[block]
+                pairs.append((float(cells[2].removesuffix(" %")), float(cells[3])))
+    def worst(pairs):
+        return f"{min(w for w, _ in pairs):.3f} %, {max(largest for _, largest in pairs):.0f}"
+    return {scene: [worst(default), worst(eight)] for scene, (default, eight) in scenes.items()}
 
 
 def transport_table(rows):
@@ -293,7 +308,7 @@ def transport_table(rows):
 
 
 def transport_charts(scenes):
-    return "\n".join(f"![Error against all transport over time, {scene}]"
+    return " ".join(f"![Error against all transport over time, {scene}]"
                      f"(../../scenes/pictures/transport-{scene}.svg)" for scene in scenes)
 
 
@@ -317,12 +332,6 @@ def value(row, column):
     return float(row[column]) if row and row[column] else None
 
 
-def name_of(row):
-    if row["kind"] in ("baseline", "preset"):
-        return f"`{row['value']}`"
-    return f"`{row['knob']}={row['value']}`" if row["knob"] else f"`{row['value']}`"
-
-
 def sweep_scenes(rows):
     return list(dict.fromkeys(scene_of(r) for r in rows))
 
@@ -344,55 +353,58 @@ def rays(row):
 
 
 def knob_table(rows):
-    chosen = [r for r in rows if scene_of(r) == "whitted"]
-    return table(["whitted", "time", "FLIP", "FLIP, equal samples"],
-                 [[name_of(r), number(value(r, "x_baseline"), 2), number(value(r, "total_flip"), 5),
-                   number(value(r, "same_samples_flip"), 5)] for r in chosen])
+    """A row a knob, with its values side by side."""
+    knobs = {}
+    for row in rows:
+        if scene_of(row) == "whitted" and row["kind"] != "joint":
+            knobs.setdefault(row["knob"] or "quality", []).append(row)
+    columns = [("x_baseline", 2), ("total_flip", 4), ("same_samples_flip", 4)]
+    return table(["whitted", "values", "time", "FLIP", "FLIP, equal samples"],
+                 [[f"`--{knob}`", ", ".join(row["value"] for row in of_knob),
+                   *(", ".join(number(value(row, column), digits) or "-" for row in of_knob)
+                     for column, digits in columns)] for knob, of_knob in knobs.items()])
 
 
 def preset_table(rows):
-    scenes = sweep_scenes(rows)
-    cells = []
-    for preset in ["draft", "standard", "fine", "reference"]:
-        cells.append([f"`{preset}`"])
-        for scene in scenes:
-            row = (baseline(rows, scene) if preset == "standard"
-                   else find(rows, scene, "quality", preset))
-            cells[-1].append(f"{number(value(row, 'x_baseline'), 2)}, "
-                             f"{number(value(row, 'total_flip'), 4)}" if row else "")
-    return table(["time, FLIP", *scenes], cells)
-
-
-def standard_table(rows):
+    """A row a scene: the presets, and what standard leaves at equal samples."""
+    def preset(scene, name):
+        row = baseline(rows, scene) if name == "standard" else find(rows, scene, "quality", name)
+        return (f"{number(value(row, 'x_baseline'), 2)}, {number(value(row, 'total_flip'), 4)}"
+                if row else "")
+    names = ["draft", "standard", "fine", "reference"]
     cells = []
     for scene in sweep_scenes(rows):
         row, eight = baseline(rows, scene), find(rows, scene, "depth", "8")
-        cells.append([scene, f"{value(row, 'same_samples_ge2_pct'):.3f} %",
+        cells.append([scene, *(preset(scene, name) for name in names),
+                      f"{value(row, 'same_samples_ge2_pct'):.3f} %",
                       number(value(row, "same_samples_flip"), 4),
                       number(value(row, "path_flips_per_mpx"), 0),
                       number(value(row, "arithmetic_max_code"), 0),
                       number(rays(row) / rays(eight), 2) if eight else ""])
-    return table(["", "two codes or more", "FLIP", "path divergences a Mpixel",
-                  "largest difference on the same path, codes", "rays over those of `--depth 8`"],
-                 cells)
+    return table(["time, FLIP", *(f"`{name}`" for name in names), "two codes or more", "FLIP",
+                  "path divergences a Mpixel", "codes on the same path", "rays over depth 8"], cells)
 
 
 def adaptive_table(rows):
+    """A row a scene, with the contrasts side by side."""
     cells = []
     for scene in sweep_scenes(rows):
         all16 = find(rows, scene, "spp", "16")
-        for knob, wanted in [("adaptive", "on"), ("contrast", "4"), ("contrast", "16"),
-                             ("contrast", "24")]:
-            row = find(rows, scene, knob, wanted)
-            if row is None or all16 is None:
-                continue
-            contrast = "8" if knob == "adaptive" else wanted
-            cells.append([f"{scene}, `--contrast {contrast}`", number(rays(row) / rays(all16), 2),
-                          number(value(row, "x_baseline") / value(all16, "x_baseline"), 2),
-                          f"{value(row, 'total_relmse'):.1e}", f"{value(all16, 'total_relmse'):.1e}",
-                          number(value(row, "total_flip"), 4), number(value(all16, "total_flip"), 4)])
-    return table(["`--adaptive on --spp 24`", "rays", "time", "relMSE", "of 16 samples", "FLIP",
-                  "of 16 samples"], cells)
+        found = {contrast: find(rows, scene, *knob) for contrast, knob in
+                 [("4", ("contrast", "4")), ("8", ("adaptive", "on")), ("16", ("contrast", "16")),
+                  ("24", ("contrast", "24"))]}
+        found = {contrast: row for contrast, row in found.items() if row}
+        if not all16 or not found:
+            continue
+        def beside(text):
+            return ", ".join(text(row) for row in found.values())
+        cells.append([scene, ", ".join(found), beside(lambda row: number(rays(row) / rays(all16), 2)),
+                      beside(lambda row: number(value(row, "x_baseline") / value(all16, "x_baseline"), 2)),
+                      beside(lambda row: f"{value(row, 'total_relmse'):.1e}"),
+                      beside(lambda row: number(value(row, "total_flip"), 4)),
+                      f"{value(all16, 'total_relmse'):.1e}, {number(value(all16, 'total_flip'), 4)}"])
+    return table(["`--adaptive on --spp 24`", "contrast", "rays", "time", "relMSE", "FLIP",
+                  "16 samples: relMSE, FLIP"], cells)
 
 
 def home_speed(frames):
@@ -500,12 +512,11 @@ def write_accuracy():
     if swept:
         swept["cores"] = int(swept["cores"])
     require_one_machine([("compare.json", compared["machine"]), ("sweep.csv", swept)])
-    tables = {"machine": machine_line(compared, "compare.json"), "compare": compare_table(compared)}
-    if targets:
-        tables["targets"] = targets["text"][targets["text"].index("| scene"):]
+    tables = {"machine": machine_line(compared, "compare.json"),
+              "compare": compare_table(compared, worst_targets(targets["text"]) if targets else {})}
     if rows:
         tables |= {"presets": preset_table(rows), "knobs": knob_table(rows),
-                   "standard": standard_table(rows), "adaptive": adaptive_table(rows)}
+                   "adaptive": adaptive_table(rows)}
         put_charts("accuracy", {"knobs-whitted": "accuracy-whitted.svg"})
     put(ACCURACY_PAGE, tables)
     put("README.md", {"accuracy": home_accuracy(compared)})
@@ -519,9 +530,9 @@ def write_transport():
     swept["cores"] = int(swept["cores"])
     require_one_machine([("transport.json", machine["machine"]), ("transport/sweep.csv", swept)])
     put_charts("transport", {f"pareto-{scene}": f"transport-{scene}.svg" for scene in sweep_scenes(rows)})
-    put(ACCURACY_PAGE, {"transport-machine": machine_line(machine, "transport.json"),
-                        "transport-choices": choices(),
-                        "transport-charts": transport_charts(sweep_scenes(rows)), "transport-causes": transport_table(rows)})
+    put(ACCURACY_PAGE, {"transport": "\n\n".join(
+        [machine_line(machine, "transport.json"), choices(), transport_charts(sweep_scenes(rows)),
+         transport_table(rows)])})
 
 
 def main():

@@ -33,20 +33,6 @@ Json pointsJson(const SceneSweep& sweep, const RunFacts& facts) {
   return points;
 }
 
-Json stagesJson(const SceneSweep& sweep) {
-  Json stages = Json::array();
-  for (const StageDifference& row : sweep.stages) {
-    stages.push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
-                      {"column", row.column},
-                      {"slots", row.slots},
-                      {"worst_ulp", row.worstUlp},
-                      {"limit_ulp", row.limitUlp},
-                      {"pixel", Json::array({row.pixelX, row.pixelY})},
-                      {"depth", row.depth}});
-  }
-  return stages;
-}
-
 Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
   const Noise noise = noiseOf(sweep);
   Json scene{{"scene", sweep.scene},
@@ -62,7 +48,7 @@ Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
              {"findings", Json::array()},
              {"points", pointsJson(sweep, facts)},
              {"truth_png", base64(sweep.truthPng)},
-             {"stages", stagesJson(sweep)},
+             {"stages", stagesJson(sweep.stages)},
              {"not_swept", Json::array()},
              {"order", sweep.order}};
   if (sweep.transport) {
@@ -79,6 +65,20 @@ Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
 }
 
 }  // namespace
+
+Json stagesJson(const std::vector<StageDifference>& stages) {
+  Json json = Json::array();
+  for (const StageDifference& row : stages) {
+    json.push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
+                    {"column", row.column},
+                    {"slots", row.slots},
+                    {"worst_ulp", row.worstUlp},
+                    {"limit_ulp", row.limitUlp},
+                    {"pixel", Json::array({row.pixelX, row.pixelY})},
+                    {"depth", row.depth}});
+  }
+  return json;
+}
 
 Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
   Json report{{"report", "accuracy"}, {"scenes", Json::array()}};

@@ -22,6 +22,7 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
 std::string referenceText(const SceneSweep& sweep);
 std::string transportText(const SceneSweep& sweep);
 
+Json stagesJson(const std::vector<StageDifference>& stages);
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
 // rows of sweep.csv, with the label, the pictures as PNG files in base64, and whether the chart of
 // knobs shows the point.

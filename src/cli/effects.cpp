@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/csv.h"
 #include "accuracy/report.h"
 #include "cli/app/image_output.h"
 #include "cli/app/interrupt.h"
@@ -10,6 +11,7 @@
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/effects_report.h"
+#include "cli/json_report.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "io/atomic_file.h"
@@ -107,14 +109,14 @@ int effectsCommand(const Words& words) {
   auto progress = makeProgressBar(job.common);
   const std::vector<EffectStep> steps = measureSteps(job, progress.get());
   progress.reset();
-  if (!job.common.quiet) std::printf("%s", effectsTable(steps).c_str());
-  const WriteScope scope;
-  const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "effects.csv").string(), effectsCsv(steps));
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < steps.size(); ++i) pictures.push_back(pictureName(steps, i));
-  writeTextFile((folder / "report.html").string(),
-                accuracy::reportPage(effectsJson(steps, pictures)));
+  const Json report = effectsJson(steps, pictures);
+  if (!job.common.quiet) std::printf("%s", effectsTable(report).c_str());
+  const WriteScope scope;
+  const std::filesystem::path folder(job.out);
+  writeTextFile((folder / "effects.csv").string(), accuracy::csvOf(report["effects"]));
+  writeTextFile((folder / "report.html").string(), accuracy::reportPage(report));
   return 0;
 }
 

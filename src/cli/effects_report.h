@@ -1,5 +1,4 @@
-// The costs that each effect adds to a frame: as a table for people, as CSV, and as data for a
-// report.
+// The costs that each effect adds to a frame, as data for a report and as a table for people.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,28 +17,16 @@ struct EffectStep {
   double memoryMb = 0;  // scene and renderer
 };
 
-// All but frameMs are differences from the step before; the first step's cost is its own.
-struct EffectCost {
-  double frameMs = 0;
-  double addedMs = 0;
-  double outsideMs = 0;  // outside Embree
-  double addedRays = 0, addedMb = 0;
-};
-// Times are medians of the differences between frames of the same turn, so that disturbances of
-// both frames cancel.
-std::vector<EffectCost> effectCosts(const std::vector<EffectStep>& steps);
-
-// Ends with effectsNote().
-std::string effectsTable(const std::vector<EffectStep>& steps);
-// Explains why the times do not add up, and by how much.
-std::string effectsNote(const std::vector<EffectStep>& steps);
 // An object for each step: effect, frame_ms, added_ms, added_outside_embree_ms, rays by kind,
-// added_rays, memory_mb, added_memory_mb.
+// added_rays, memory_mb, added_memory_mb. Values that are added are differences from the step
+// before; the first step's are its own. Added times are medians of the differences between frames
+// of the same turn, so that disturbances of both frames cancel.
 nlohmann::ordered_json effectsRows(const std::vector<EffectStep>& steps);
-std::string effectsCsv(const std::vector<EffectStep>& steps);
-// Data for accuracy::reportPage(). `pictures` has the file of each step's picture, seen from the
-// page.
+// The rows as "effects", with data for accuracy::reportPage(). `pictures` has the file of each
+// step's picture, seen from the page.
 nlohmann::ordered_json effectsJson(const std::vector<EffectStep>& steps,
                                    const std::vector<std::string>& pictures);
+// A table for people of what effectsJson() returns.
+std::string effectsTable(const nlohmann::ordered_json& effects);
 
 }  // namespace whit::cli

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "accuracy/report.h"
 #include "cli/app/interrupt.h"
 #include "cli/machine_facts.h"
 #include "core/option_table.h"
@@ -170,17 +171,7 @@ Json compareJson(const Comparison& comparison) {
     }
     json["channels"].push_back(std::move(row));
   }
-  if (!comparison.stages) return json;
-  json["stages"] = Json::array();
-  for (const StageDifference& row : *comparison.stages) {
-    json["stages"].push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
-                              {"column", row.column},
-                              {"slots", row.slots},
-                              {"worst_ulp", row.worstUlp},
-                              {"limit_ulp", row.limitUlp},
-                              {"pixel", Json::array({row.pixelX, row.pixelY})},
-                              {"depth", row.depth}});
-  }
+  if (comparison.stages) json["stages"] = accuracy::stagesJson(*comparison.stages);
   return json;
 }
 

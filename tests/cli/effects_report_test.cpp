@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/csv.h"
 #include "accuracy/report.h"
 #include "cli/stage_table.h"
 #include "embedded_data.h"
@@ -38,20 +39,23 @@ std::vector<EffectStep> madeUpSteps() {
           {"mirror", madeUpRun({15, 45, 15, 15, 45}, 3000), 1.75}};
 }
 
-TEST(EffectCosts, AreMediansOfDifferencesWithinATurn) {
-  const std::vector<EffectCost> costs = effectCosts(madeUpSteps());
-  ASSERT_EQ(costs.size(), 2u);
-  EXPECT_DOUBLE_EQ(costs[0].addedMs, 10);
-  EXPECT_DOUBLE_EQ(costs[0].outsideMs, 6);
-  EXPECT_DOUBLE_EQ(costs[0].addedRays, 2048);
-  EXPECT_DOUBLE_EQ(costs[1].frameMs, 15);
-  EXPECT_DOUBLE_EQ(costs[1].addedMs, 5);
-  EXPECT_DOUBLE_EQ(costs[1].outsideMs, 3);
-  EXPECT_DOUBLE_EQ(costs[1].addedRays, 3000);
-  EXPECT_DOUBLE_EQ(costs[1].addedMb, 0.25);
+TEST(EffectsRows, HaveMediansOfDifferencesWithinATurn) {
+  const nlohmann::ordered_json rows = effectsRows(madeUpSteps());
+  ASSERT_EQ(rows.size(), 2u);
+  const auto number = [&](std::size_t row, const char* key) {
+    return rows[row][key].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(number(0, "added_ms"), 10);
+  EXPECT_DOUBLE_EQ(number(0, "added_outside_embree_ms"), 6);
+  EXPECT_DOUBLE_EQ(number(0, "added_rays"), 2048);
+  EXPECT_DOUBLE_EQ(number(1, "frame_ms"), 15);
+  EXPECT_DOUBLE_EQ(number(1, "added_ms"), 5);
+  EXPECT_DOUBLE_EQ(number(1, "added_outside_embree_ms"), 3);
+  EXPECT_DOUBLE_EQ(number(1, "added_rays"), 3000);
+  EXPECT_DOUBLE_EQ(number(1, "added_memory_mb"), 0.25);
 }
 
-TEST(EffectCosts, RatiosAreMediansOfRatiosWithinATurn) {
+TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   const std::vector<EffectStep> steps = madeUpSteps();
   const RunRatio ratio = ratioOf(steps[1].run, steps[0].run);
   EXPECT_DOUBLE_EQ(ratio.frame, 1.5);
@@ -62,7 +66,7 @@ TEST(EffectCosts, RatiosAreMediansOfRatiosWithinATurn) {
 }
 
 TEST(EffectsTable, HasARowForEachStep) {
-  const std::string table = effectsTable(madeUpSteps());
+  const std::string table = effectsTable(effectsJson(madeUpSteps(), {}));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 4);
   // Medians of a turn: 10 ms and 5 more; the last step's own is 15.
   EXPECT_NE(table.find("come to 15.00 ms; the last frame takes 15.00 ms."), std::string::npos)
@@ -72,8 +76,8 @@ TEST(EffectsTable, HasARowForEachStep) {
       << table;
 }
 
-TEST(EffectsCsv, HasThePromisedColumns) {
-  EXPECT_EQ(effectsCsv(madeUpSteps()),
+TEST(EffectsRows, AreTheLinesOfTheCsvFile) {
+  EXPECT_EQ(accuracy::csvOf(effectsRows(madeUpSteps())),
             "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
             "reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,memory_mb,"
             "added_memory_mb\n"
@@ -81,7 +85,7 @@ TEST(EffectsCsv, HasThePromisedColumns) {
             "mirror,15,5,3,2048,0,3000,0,0,0,3000,1.75,0.25\n");
 }
 
-TEST(EffectsReport, HasTheRowsOfTheCsvFile) {
+TEST(EffectsReport, HasTheRows) {
   const std::vector<EffectStep> steps = madeUpSteps();
   const nlohmann::ordered_json data = effectsJson(steps, {"00-matte.png", "01-mirror.png"});
   EXPECT_EQ(data["effects"], effectsRows(steps));
