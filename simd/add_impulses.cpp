@@ -1,4 +1,5 @@
-// The surfels that send rays on, the children that these become, and the way back.
+// The surfels that send rays on, the children that these become, and the way back; and what mirror
+// and transmission leave for the diffuse color.
 #include <limits>
 
 #include "simd/kernels.h"
@@ -108,18 +109,17 @@ HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, const V3& mirror, V
   return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), mirror);
 }
 
-// The share of the light that a dielectric transmits, of what Fresnel's law does not reflect. The
-// coat comes first.
-HWY_INLINE V3 TransmittanceUnder(const V3& coat, const V3& transmission) {
+// The color, reduced to what is left of the light where the share `taken` of it is not.
+HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
   const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(transmission);
-  const MF enough = hn::Ge(hn::Sub(one, MaxComponent(coat)), largest);
-  if (HWY_LIKELY(hn::AllTrue(d, enough))) return transmission;
-  const auto share = [&](VF reflected) HWY_ATTR {
-    const VF left = hn::Max(hn::Sub(one, reflected), zero);
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(color);
+  const MF enough = hn::Ge(hn::Sub(one, MaxComponent(taken)), largest);
+  if (HWY_LIKELY(hn::AllTrue(d, enough))) return color;
+  const auto share = [&](VF gone) HWY_ATTR {
+    const VF left = hn::Max(hn::Sub(one, gone), zero);
     return hn::IfThenElse(hn::Ge(left, largest), one, hn::Div(left, largest));
   };
-  return Mul3(transmission, {share(coat.x), share(coat.y), share(coat.z)});
+  return Mul3(color, {share(taken.x), share(taken.y), share(taken.z)});
 }
 
 // The coverage of the surfels at i.
@@ -239,6 +239,33 @@ void AddReflections(Chunk& c) noexcept {
   c.childCount = count;
 }
 
+// The scalar reference is limitDiffuse in src/reference/add_impulses.cpp.
+void LimitDiffuse(Chunk& c) noexcept {
+  const FloatTag d;
+  const ImpulseJob job = ImpulseJobOf(c);
+  const SurfelColumns& surfels = job.surfels;
+  const VF one = hn::Set(d, 1.0f);
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialLimitsDiffuse>(job, i);
+    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    V3 taken = CoatReflectance(material, material.Mirror().mirror, lanes.cosine);
+    VF passed = one;
+    if (job.transmission) {
+      const V3 through = Limited(material.Transmission(), taken);
+      const MF transmits = hn::And(lanes.dielectric, hn::Gt(MaxComponent(through), hn::Zero(d)));
+      taken = Select3(transmits, Add3(taken, through), taken);
+      const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
+      passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);
+    }
+    const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    const V3 limited = Scale3(Limited(diffuse, taken), passed);
+    Store3(Select3(lanes.live, limited, diffuse), surfels.diffuseR, surfels.diffuseG,
+           surfels.diffuseB, i);
+  }
+}
+
 // The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
 // one.
 struct GlossySamples {
@@ -335,8 +362,8 @@ void AddRefractions(Chunk& c) noexcept {
     const auto [mirror, ownShare] = material.Mirror();
     const VF impulseShare = hn::IfThenElse(lanes.hidden, one, ownShare);
     const VF through = hn::Sub(one, interface.reflectance);
-    V3 transmittance = TransmittanceUnder(CoatReflectance(material, mirror, lanes.cosine),
-                                          material.Transmission());
+    V3 transmittance =
+        Limited(material.Transmission(), CoatReflectance(material, mirror, lanes.cosine));
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
@@ -401,6 +428,7 @@ void ReturnToEye(Chunk& c) noexcept {
   }
 }
 
+StepFunction FindLimitDiffuse(size_t /*index*/) { return LimitDiffuse; }
 StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
 StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddSamples<GlossySamples>; }
 StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
@@ -413,6 +441,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
+WHIT_EXPORT_KERNEL(LimitDiffuse)
 WHIT_EXPORT_KERNEL(AddReflections)
 WHIT_EXPORT_KERNEL(AddGlossyReflections)
 WHIT_EXPORT_KERNEL(AddRefractions)

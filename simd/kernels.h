@@ -76,6 +76,7 @@ StepFunction findGenerateRays(std::size_t index);
 StepFunction findInterpolateSurfels(std::size_t index);
 StepFunction findLookUpRoughness(std::size_t index);
 StepFunction findLookUpCoverage(std::size_t index);
+StepFunction findLimitDiffuse(std::size_t index);
 StepFunction findLiftShadowOrigins(std::size_t index);
 StepFunction findWriteEmittedAndReflectiveAmbient(std::size_t index);
 StepFunction findFindRadianceAndShadowRays(std::size_t index);
@@ -116,6 +117,11 @@ inline constexpr Kernel kLookUpRoughness{
 inline constexpr Kernel kLookUpCoverage{"lookUpCoverage",   Stage::findIntersections,
                                         findLookUpCoverage, {Part::rays, Part::hits, Part::surfels},
                                         {Part::surfels},    {}};
+
+// Scales diffuse colors to the light that mirror, Fresnel's law and transmission leave.
+inline constexpr Kernel kLimitDiffuse{"limitDiffuse",   Stage::findIntersections,
+                                      findLimitDiffuse, {Part::rays, Part::surfels},
+                                      {Part::surfels},  {}};
 
 // Computes how far shadow rays start above the facet, for surfels between vertex normals that
 // differ, into the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II,
@@ -210,6 +216,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kInterpolateSurfels,
                                      kLookUpRoughness,
                                      kLookUpCoverage,
+                                     kLimitDiffuse,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,

@@ -40,17 +40,19 @@ RgbD coatReflectance(const Material& material, double c) {
   return normal + (grazing - normal) * schlickTerm(c);
 }
 
-// The share of the light that a dielectric transmits, of what Fresnel's law does not reflect. The
-// coat comes first: it takes what the transmission leaves, and beyond that only the missing part,
-// in proportion, so that the glass keeps its hue.
-RgbD transmittanceUnder(const RgbD& coat, const Material& material) {
-  const RgbD transmission(material.transmission);
-  const double largest = maxComponent(transmission);
-  const auto share = [&](double reflected) {
-    const double left = std::max(0.0, 1 - reflected);
+// The color, reduced to what is left of the light where the share `taken` of it is not: in
+// proportion, so that glass keeps its hue under a coat.
+RgbD limited(const RgbD& color, const RgbD& taken) {
+  const double largest = maxComponent(color);
+  const auto share = [&](double gone) {
+    const double left = std::max(0.0, 1 - gone);
     return left >= largest ? 1 : left / largest;
   };
-  return transmission * RgbD(share(coat.x), share(coat.y), share(coat.z));
+  return color * RgbD(share(taken.x), share(taken.y), share(taken.z));
+}
+
+double cosineOf(const Surfel& surfel) {
+  return std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
 }
 
 // Seen from nearer to the normal than this, as a sine, the plane of incidence is lost in rounding,
@@ -124,7 +126,7 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     return result;
   }
   const Material& material = scene.materials[surfel.material];
-  const double c = std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
+  const double c = cosineOf(surfel);
   const bool mirrors = effects.has(Effect::mirror);
   const RgbD coat = mirrors ? coatReflectance(material, c) : RgbD();
   RgbD reflectance = coat * surfel.coverage;
@@ -133,7 +135,7 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     const double passed = 1 - interface.reflectance;
     if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
     if (passed > 0) {
-      const RgbD through = transmittanceUnder(coat, material) * surfel.coverage;
+      const RgbD through = limited(RgbD(material.transmission), coat) * surfel.coverage;
       result.refracted = {(through + RgbD(1 - surfel.coverage)) * passed,
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
@@ -142,6 +144,20 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     result.reflected = {reflectance, reflectedRay(surfel, choices), stack};
   }
   return result;
+}
+
+void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                  const ShadingChoices& choices, Surfel& surfel) {
+  const Material& material = scene.materials[surfel.material];
+  if (crossing.hidden || !material.limitsDiffuse()) return;
+  const double c = cosineOf(surfel);
+  RgbD taken = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
+  double passed = 1;
+  if (crossing.dielectric && material.hasTransmission()) {
+    taken += limited(RgbD(material.transmission), taken);
+    passed -= makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
+  }
+  surfel.diffuse = limited(surfel.diffuse, taken) * passed;
 }
 
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {

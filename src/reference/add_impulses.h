@@ -42,6 +42,11 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
                       const Crossing& crossing, MediaStack stack,
                       const ShadingChoices& choices = {});
 
+// Scales the diffuse color to the light that mirror, Fresnel's law and transmission leave, so that
+// a surface never sends out more light than it gets (scene/material.h).
+void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                  const ShadingChoices& choices, Surfel& surfel);
+
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
 // below: shading normals would send some through to the wrong side (hard case H32). Less than the
 // viewer's own elevation, so that reflections are left alone where the normals agree; of refracted

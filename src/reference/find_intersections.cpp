@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bake/sphere.h"
+#include "reference/add_impulses.h"
 #include "reference/media.h"
 #include "reference/sphere.h"
 #include "reference/texture_sampling.h"
@@ -412,11 +413,12 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const TextureLookup lookup{chunk.options().shading.textureFilter, world.maps,
                              surfelOf(chunk, slot).cone};
   const std::uint32_t others = alsoCrossedAt(chunk, slot);
-  const Surfel s =
+  Surfel s =
       makeSurfel(world.scene, world.effects, candidate, hit, ray, lookup, others >= kSharesPlace);
   const std::uint32_t media = mediaOf(chunk, slot);
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
+  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading, s);
   const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);

@@ -4,6 +4,7 @@
 
 #include "bake/sphere.h"
 #include "core/worker_pool.h"
+#include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
@@ -32,7 +33,12 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   if (!met) return values;
   const Candidate& candidate = met->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const Surfel surfel = surfelAt(ray, *met, hit);
+  Surfel surfel = surfelAt(ray, *met, hit);
+  const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
+  limitDiffuse(
+      scene_, effects_,
+      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed),
+      options_.shading, surfel);
   values.distance = static_cast<float>(hit.t);
   values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
   values.position = Vec3f(surfel.position);

@@ -47,9 +47,10 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const Candidate& candidate = met->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  const Surfel surfel = surfelAt(ray, *met, hit);
+  Surfel surfel = surfelAt(ray, *met, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
+  limitDiffuse(scene_, effects_, crossing, options_.shading, surfel);
 
   const double left = throughput * maxComponent(arrives);
   RgbD radiance;

@@ -25,6 +25,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
+  if (m.limitsDiffuse()) flags |= kMaterialLimitsDiffuse;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   for (const Lobe& lobe : kLobes) {

@@ -47,6 +47,9 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
             e.has(Effect::glossy) && e.has(Effect::textures) &&
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
+      .with(Feature::limitedDiffuse,
+            std::any_of(scene.materials.begin(), scene.materials.end(),
+                        [](const Material& m) { return m.limitsDiffuse(); }))
       .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
@@ -151,6 +154,10 @@ class Planner {
     }
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage, plan_.effects));
+    }
+    if (plan_.features.has(Feature::limitedDiffuse)) {
+      plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse, plan_.effects));
+      plan_.perQueue.back().wants = kMaterialLimitsDiffuse;
     }
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));

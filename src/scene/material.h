@@ -19,7 +19,9 @@
 // dielectric),
 //   reflectance = m + (1 - m) * F
 //   transmittance = (1 - F) * transmission * min(1, (1 - m) / largest channel of the transmission)
-// so that they never make light: the mirror comes first, and what it leaves is all that passes.
+// so that they never make light: the mirror comes first, and what it leaves is all that passes. The
+// diffuse color gets the rest: with t the part of the transmission that passes, it is multiplied by
+//   (1 - F) * min(1, (1 - m - t) / largest channel of the diffuse color).
 #pragma once
 
 #include <algorithm>
@@ -98,6 +100,12 @@ struct Material {
   bool diffuses(EffectSet effects) const {
     return effects.has(Effect::indirect) && hasDiffuseReflection();
   }
+  // Mirror or transmission may leave less light than the diffuse color asks for.
+  bool limitsDiffuse() const {
+    const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
+    const float color = maxComponent(diffuse);
+    return color > 0 && (hasTransmission() || (coat > 0 && coat + color > 1));
+  }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   bool isPartlyThere() const { return coverage < 1 || coverageMap != kNoTexture; }
@@ -142,7 +150,8 @@ inline float Material::impulseShare(EffectSet effects) const {
   const bool reflectsByLobe = effects.has(Effect::glossyReflection) && hasGlossyReflection();
   const Rgb grazing(std::min(1.0f, 25 * maxComponent(specular)));
   const float lobe = reflectsByLobe ? meanReflectance(specular, grazing) : 0.0f;
-  const float scattered = diffuses(effects) ? maxComponent(diffuse) : 0.0f;
+  const float left = std::max(0.0f, 1 - both);  // by the rule above
+  const float scattered = diffuses(effects) ? std::min(maxComponent(diffuse), left) : 0.0f;
   return 1 / std::max(1.0f, both + lobe + scattered);
 }
 

@@ -47,6 +47,8 @@ inline constexpr std::uint32_t kMaterialVariesRoughness = 1024, kMaterialIsPartl
 inline constexpr std::uint32_t kMaterialMapped = 4096;
 // Under --indirect its diffuse color reflects the scene, in place of ambient light.
 inline constexpr std::uint32_t kMaterialDiffuses = 8192;
+// Material::limitsDiffuse().
+inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x
 // kTexelCells bilinear footprints that begin in it whole, so that neighbors repeat a row and a

@@ -193,6 +193,35 @@ void Tracer::pass(Media& media, const Ray& ray, const Hit& hit) const {
   dot(ray.direction, hit.outward) < 0 ? media.enter(medium) : media.leave(medium);
 }
 
+namespace {
+
+// The coat comes first; what it leaves is the most that passes.
+double leftBy(double coat, double largest) {
+  return std::min(1.0, std::max(0.0, 1 - coat) / largest);
+}
+
+Color underCoat(const Color& transmission, const Color& coat) {
+  const double most = largest(transmission);
+  if (!(most > 0)) return {};
+  return transmission * Color{leftBy(coat.x, most), leftBy(coat.y, most), leftBy(coat.z, most)};
+}
+
+}  // namespace
+
+// A surface sends on no more light than it gets: the diffuse color has what the coat, the
+// interface and what passes leave.
+Color Tracer::diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const {
+  const Material& material = surface.material;
+  const double cosine = std::clamp(dot(surface.toViewer, surface.normal), 0.0, 1.0);
+  const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
+  if (!material.transmits()) return underCoat(material.diffuse, coat);
+  const double n1 = before.current().ior, n2 = behind.current().ior;
+  const double interface =
+      options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+  const Color through = underCoat(material.transmission, coat);
+  return underCoat(material.diffuse, coat + through) * (1 - interface);
+}
+
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
   if (branch.weight < kNegligible) return {};
   const Color absorption = branch.media.current().absorption;
@@ -207,7 +236,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   there.weight *= largest(left);
   there.width = widthAfter(branch.width, meeting->hit.t);
 
-  const Surface surface = surfaceAt(ray, meeting->hit, there.width);
+  Surface surface = surfaceAt(ray, meeting->hit, there.width);
   Media behind = branch.media;
   const bool isDielectric = surface.material.isDielectric();
   if (isDielectric) pass(behind, ray, meeting->hit);
@@ -218,6 +247,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     there.media = behind;
     return trace({surface.position, ray.direction}, there, random) * left;
   }
+  surface.material.diffuse = diffuseLeft(surface, branch.media, behind);
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission +
                    surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
@@ -298,21 +328,6 @@ bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
   const Vec way = surface.position + arrival.toLight * arrival.distance - start;
   return !geometry_.blocked({start, normalized(way)}, length(way));
 }
-
-namespace {
-
-// The coat comes first; what it leaves is the most that passes.
-double leftBy(double coat, double largest) {
-  return std::min(1.0, std::max(0.0, 1 - coat) / largest);
-}
-
-Color underCoat(const Color& transmission, const Color& coat) {
-  const double most = largest(transmission);
-  if (!(most > 0)) return {};
-  return transmission * Color{leftBy(coat.x, most), leftBy(coat.y, most), leftBy(coat.z, most)};
-}
-
-}  // namespace
 
 Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
                      Random& random) const {

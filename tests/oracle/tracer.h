@@ -50,6 +50,7 @@ class Tracer {
   Sight lightFromSphere(const Surface& surface, const Light& light, const Branch& branch,
                         Random& random) const;
   bool lit(const Surface& surface, const Arrival& arrival) const;
+  Color diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const;
   Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
                  Random& random) const;
   Sight follow(const Surface& surface, const Branch& branch, const Impulse& impulse,

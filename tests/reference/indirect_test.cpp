@@ -152,6 +152,73 @@ TEST(IndirectFurnace, IsTheGeometricSeriesUnderRouletteToo) {
   }
 }
 
+Scene ballInWhiteRoom(const Material& material) {
+  SceneBuilder builder;
+  Mesh ball;
+  ball.spheres = {{Affine{}}};
+  ball.materials = {builder.add(material)};
+  builder.add(std::move(ball));
+  builder.sky(1);
+  return builder.build();
+}
+
+// Mirror, transmission and diffuse color of a surface share what light it gets: in a room of
+// radiance 1 no path brings back more than 1, inside the ball included, where what is not shared
+// would grow at every bounce.
+TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
+  test::Numbers numbers(17);
+  const auto color = [&] {
+    return Rgb(numbers.in(0, 1) < 0.2
+                   ? Vec3d(1.0)
+                   : Vec3d{numbers.in(0, 1), numbers.in(0, 1), numbers.in(0, 1)});
+  };
+  double largest = 0;
+  for (int i = 0; i < 500; ++i) {
+    Material m;
+    m.diffuse = color();
+    if (numbers.in(0, 1) < 0.5) m.mirror = m.mirrorGrazing = color();
+    if (numbers.in(0, 1) < 0.3) m.mirrorGrazing = Rgb(1.0f);
+    if (numbers.in(0, 1) < 0.7) m.transmission = color();
+    m.ior = static_cast<float>(numbers.in(0.6, 2.5));
+    m.thin = numbers.in(0, 1) < 0.2;
+    Settings settings = indirect(1, 12);
+    settings.options.cutoff = 1e-3f;
+    const Scene scene = ballInWhiteRoom(m);
+    Looking looking(scene, settings);
+    for (std::uint32_t path = 0; path < 8; ++path) {
+      const Vec3d eye = numbers.direction() * 4.0;
+      const Vec3d to = numbers.direction() * numbers.in(0, 1);
+      const RgbD seen = looking.along(eye, to - eye, path);
+      largest = std::max(largest, maxComponent(seen));
+      EXPECT_LE(maxComponent(seen), 1 + 1e-9) << i << ' ' << path;
+    }
+  }
+  std::printf("500 mixtures: at most %.12f\n", largest);
+}
+
+// Opaque and thin surfaces that absorb nothing send back all of the light. Within a solid the
+// diffuse color also scatters light to where it is reflected totally for ever.
+TEST(IndirectFurnace, MixturesThatAbsorbNothingKeepAllLight) {
+  for (const float transmission : {0.0f, 0.1f, 0.5f, 0.9f, 1.0f}) {
+    for (const float mirror : {0.0f, 0.3f, 1.0f}) {
+      Material m;
+      m.diffuse = Rgb(1.0f);
+      m.transmission = Rgb(transmission);
+      m.thin = true;
+      m.mirror = m.mirrorGrazing = Rgb(mirror);
+      SceneBuilder builder;
+      builder.add(test::floorAt(0, 2, builder.add(m)));
+      builder.sky(1);
+      const Scene scene = builder.build();
+      Looking looking(scene, indirect(1));
+      for (std::uint32_t path = 0; path < 4; ++path) {
+        const double seen = looking.along({3, 0.8, 0.2}, {-3, -0.8, 0.1}, path).x;
+        EXPECT_NEAR(seen, 1, 1e-6) << transmission << ' ' << mirror;
+      }
+    }
+  }
+}
+
 TEST(IndirectScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(0.5f))));

@@ -32,7 +32,9 @@ TEST(ImpulseShare, CountsLobesThatAreSampledByTheirMean) {
   m.specular = Rgb(0);
   EXPECT_EQ(m.impulseShare(indirect), 1.0f);
   m.mirror = Rgb(0.5f);
-  EXPECT_LT(m.impulseShare(indirect), 0.8f) << "more light than arrives";
+  EXPECT_EQ(m.impulseShare(indirect), 1.0f) << "the diffuse color gets what the mirror leaves";
+  m.specular = Rgb(0.9f);
+  EXPECT_LT(m.impulseShare(indirect.with(Effect::glossyReflection)), 0.8f) << "lobe and color";
 }
 
 // A closed room that emits 1 - a and reflects a has the radiance 1 everywhere, to what the depth
