@@ -46,6 +46,10 @@ RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> f
 // bytes; false where it cannot be read.
 bool holdsRadiance(const std::string& path);
 
+// Pixel number `i` as linear RGB: 8-bit codes are decoded from sRGB, gray is spread to three
+// channels, alpha is dropped.
+Rgb linearPixel(const RawImage& raw, std::size_t i);
+
 // As linear RGB: 8-bit codes decoded from sRGB, gray spread to three channels, alpha dropped. EXR
 // keeps its data window (the part inside the display window), and floats keep their bits, NaN and
 // infinities included.
@@ -56,12 +60,12 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings& wa
 // DWAA.
 enum class ExrStorage { zip, none, half, dwaa };
 
-// Where the values of a channel beside the colors lie: one a pixel of the window, row by row from
-// the top, so many values apart. One of the two pointers is not null.
+// Refers to the values of a channel beside the colors: one for each pixel of the window, row by row
+// from the top, `stride` values apart.
 struct LayerView {
   std::string name;
-  const float* floats = nullptr;
-  const std::uint32_t* numbers = nullptr;
+  bool countsThings = false;    // 32-bit unsigned numbers, otherwise floats
+  const void* first = nullptr;  // the value of the first pixel
   std::size_t stride = 1;
 };
 

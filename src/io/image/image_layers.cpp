@@ -1,5 +1,8 @@
 #include "io/image/image_layers.h"
 
+#include <bit>
+#include <cstring>
+
 #include <nlohmann/json.hpp>
 
 namespace whit {
@@ -15,12 +18,18 @@ std::string manifest(std::size_t count, NameOf&& nameOf) {
 
 }  // namespace
 
+std::vector<float> ImageLayer::floats() const {
+  std::vector<float> values;
+  values.reserve(words.size());
+  for (const std::uint32_t word : words) values.push_back(std::bit_cast<float>(word));
+  return values;
+}
+
 std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers) {
   std::vector<LayerView> views;
   views.reserve(layers.size());
   for (const ImageLayer& layer : layers) {
-    views.push_back({layer.name, layer.countsThings ? nullptr : layer.floats.data(),
-                     layer.countsThings ? layer.numbers.data() : nullptr, 1});
+    views.push_back({layer.name, layer.countsThings, layer.words.data(), 1});
   }
   return views;
 }
@@ -30,14 +39,14 @@ std::vector<LayerView> viewsOf(const ChannelLayers& channels) {
   channels.channels().forEach([&](Channel channel) {
     const ChannelInfo& info = infoOf(channel);
     for (std::size_t c = 0; c < info.components; ++c) {
-      LayerView view{std::string(info.name) + "." + std::string(info.suffixes[c]), nullptr, nullptr,
-                     info.components};
+      const void* first = nullptr;
       if (info.countsThings) {
-        view.numbers = channels.numbers(channel).data() + c;
+        first = channels.numbers(channel).data() + c;
       } else {
-        view.floats = channels.floats(channel).data() + c;
+        first = channels.floats(channel).data() + c;
       }
-      views.push_back(std::move(view));
+      views.push_back({std::string(info.name) + "." + std::string(info.suffixes[c]),
+                       info.countsThings, first, info.components});
     }
   });
   return views;
@@ -46,15 +55,15 @@ std::vector<LayerView> viewsOf(const ChannelLayers& channels) {
 std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
   std::vector<ImageLayer> layers;
   for (const LayerView& view : viewsOf(channels)) {
-    ImageLayer layer{view.name, view.numbers != nullptr, {}, {}};
-    for (std::size_t i = 0; i < channels.pixels(); ++i) {
-      if (view.numbers) {
-        layer.numbers.push_back(view.numbers[i * view.stride]);
-      } else {
-        layer.floats.push_back(view.floats[i * view.stride]);
-      }
+    ImageLayer& layer = layers.emplace_back();
+    layer.name = view.name;
+    layer.countsThings = view.countsThings;
+    layer.words.resize(channels.pixels());
+    const char* from = static_cast<const char*>(view.first);
+    for (std::uint32_t& word : layer.words) {
+      std::memcpy(&word, from, sizeof word);
+      from += view.stride * sizeof word;
     }
-    layers.push_back(std::move(layer));
   }
   return layers;
 }

@@ -12,12 +12,13 @@
 
 namespace whit {
 
-// A value a pixel of the data window, row by row from the top: 32-bit unsigned numbers, or floats.
+// A value for each pixel of the data window, row by row from the top.
 struct ImageLayer {
   std::string name;
-  bool countsThings = false;
-  std::vector<float> floats;
-  std::vector<std::uint32_t> numbers;
+  bool countsThings = false;         // 32-bit unsigned numbers, otherwise floats
+  std::vector<std::uint32_t> words;  // numbers, or the bits of floats
+
+  std::vector<float> floats() const;
 };
 
 // Reads all channels of an EXR's first part that are no colors (R, G, B, A, or Y, RY, BY), in the

@@ -85,13 +85,12 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
   texture.format = format;
   texture.width = raw.width;
   texture.height = raw.height;
-  const std::size_t count = texelCount(raw);
-  texture.texels.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    texture.texels.push_back(
+  texture.texels.resize(texelCount(raw));
+  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+    texture.texels[i] =
         raw.linear
             ? texelOfValues(channelsOf(raw.values, raw.channels, i, 1.0f), format)
-            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format));
+            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format);
   }
   return texture;
 }
@@ -120,16 +119,10 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   const std::size_t count = texelCount(raw);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::array<float, 4> value{};
-    if (raw.linear) {
-      value = channelsOf(raw.values, raw.channels, i, 1.0f);
-    } else {
-      const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
-      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode(codes[c]);
-    }
-    environment.r[i] = value[0];
-    environment.g[i] = value[1];
-    environment.b[i] = value[2];
+    const Rgb value = linearPixel(raw, i);
+    environment.r[i] = value.x;
+    environment.g[i] = value.y;
+    environment.b[i] = value.z;
   }
   return environment;
 }
