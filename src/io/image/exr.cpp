@@ -99,8 +99,8 @@ class ExrFile {
   // The part of the data window inside the display window.
   Box2i visible() const {
     const Box2i &display = header().displayWindow(), &data = header().dataWindow();
-    const Box2i box{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
-                    {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
+    Box2i box{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
+              {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
     if (box.isEmpty()) throwBadScene(path_, "its data window lies outside its display window");
     return box;
   }

@@ -14,11 +14,11 @@
 namespace whit {
 
 // Throws Error(badScene) if a side is below 1, Error(limit) if a side or the decoded bytes are
-// beyond `limits`. Called with what a header claims, before anything of that size is allocated.
+// beyond `limits`. Decoders call it with the size in the header before they allocate.
 void checkImageSize(const std::string& path, std::int64_t width, std::int64_t height,
                     std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
-// Checks the limits likewise, and then holds the image's memory in the limits' budget.
+// Checks the limits as well, and holds the image's memory in the limits' budget.
 [[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
                                    std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
@@ -30,7 +30,7 @@ class ImageBytes {
 
   std::size_t at() const { return at_; }
   std::size_t left() const { return file_.size() - at_; }
-  // Throw badScene where the file ends before that.
+  // These throw badScene if the file has fewer bytes left.
   void need(std::uint64_t bytes) const {
     if (bytes > left()) fail("the file is cut short");
   }
@@ -59,8 +59,8 @@ class ImageBytes {
   std::size_t at_ = 0;
 };
 
-// Each format but TGA is told by how its files begin. The decoders throw as readRawImage does; a
-// file that is cut short or whose checksums are wrong is badScene.
+// Formats except TGA are recognized by the first bytes of a file. The decoders throw as
+// readRawImage() does; a file that is cut short or has wrong checksums is badScene.
 bool isPng(std::span<const std::uint8_t> file);
 bool isJpeg(std::span<const std::uint8_t> file);
 bool isBmp(std::span<const std::uint8_t> file);

@@ -24,7 +24,7 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
 
 bool isExrFile(const std::string& path) { return isExr(asBytes(readBeginning(path, 4))); }
 
-// Names formats that are not read but often taken for textures.
+// Names formats that are often used for textures but not supported.
 std::string kindOf(std::span<const std::uint8_t> file) {
   constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
       {"GIF8", "a GIF image"},       {"RIFF", "a WebP image"},   {"DDS ", "a DDS texture"},

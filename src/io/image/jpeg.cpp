@@ -1,7 +1,7 @@
 // Reading JPEG, by libjpeg.
 #include <cstddef>
 #include <cstdio>
-// libjpeg's header wants the two above.
+// libjpeg's header needs the two above.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -33,7 +33,7 @@ class Decoder {
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
-  // False: message() says why.
+  // Returns false on an error, which message() describes.
   bool readHeader(std::span<const std::uint8_t> file) {
     file_ = file;
     return created_ && guarded([](Decoder& d) {
@@ -41,7 +41,7 @@ class Decoder {
              jpeg_read_header(&d.decoder_, TRUE);
            });
   }
-  // Rows of width() * channels() codes.
+  // Stores rows of width() * channels() codes.
   bool readPixels(std::uint8_t* codes) {
     codes_ = codes;
     return guarded([](Decoder& d) {
@@ -59,7 +59,7 @@ class Decoder {
 
   int width() const { return static_cast<int>(decoder_.image_width); }
   int height() const { return static_cast<int>(decoder_.image_height); }
-  // 0: colors that libjpeg does not turn into RGB.
+  // 0 for colors that libjpeg does not convert to RGB.
   int channels() const {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     return decoder_.num_components == 3 ? 3 : 0;
@@ -95,8 +95,8 @@ class Decoder {
     common->err->format_message(common, self.message_);
     std::longjmp(self.escape_, 1);
   }
-  // libjpeg goes on with gray where data is missing, and with anything where it is damaged. Other
-  // warnings are of oddities that every viewer overlooks.
+  // libjpeg only warns of missing and damaged data, and makes up pixels. Its other warnings are
+  // about oddities that every viewer ignores.
   static void onMessage(j_common_ptr common, int level) {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};

@@ -105,7 +105,7 @@ class Merger {
   std::string firstPath_;
 };
 
-// Keeps in `common` what `part` says too.
+// Keeps the entries of `common` that `part` has as well.
 void intersect(ImageMetadata& common, const ImageMetadata& part) {
   std::erase_if(common, [&](const auto& entry) {
     return std::find(part.begin(), part.end(), entry) == part.end();

@@ -52,7 +52,7 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  // These throw badScene with the byte where reading stopped. First the size ...
+  // To be called in this order; each throws badScene with the byte where reading stopped.
   void readHeader() {
     guarded([this] {
       png_set_read_fn(lib_.png, this, onRead);
@@ -62,7 +62,7 @@ class PngReader {
       png_read_info(lib_.png, lib_.info);
     });
   }
-  // ... then how pixels are given out, as 8 bits for each of 1 to 4 channels ...
+  // Sets the output to 8 bits for each of 1 to 4 channels.
   void prepare() {
     guarded([this] {
       png_set_expand(lib_.png);
@@ -71,7 +71,7 @@ class PngReader {
       png_read_update_info(lib_.png, lib_.info);
     });
   }
-  // ... then the pixels, row after row, and the file's end.
+  // Reads the pixels row after row, and the end of the file.
   void readPixels(std::uint8_t* codes) {
     guarded([this, codes] {
       // More or other data than the image has means that the file is damaged.
@@ -169,12 +169,12 @@ std::vector<png_text> textChunks(const ImageMetadata& metadata,
   return chunks;
 }
 
-// Values as libpng takes them.
+// Rows of values in the form that libpng takes.
 struct Rows {
   int width = 0, height = 0, bits = 8;
   int colorType = PNG_COLOR_TYPE_RGB;
   bool isSrgb = true;
-  bool hasFiller = false;  // a fourth value a pixel, which is left out
+  bool hasFiller = false;  // pixels have a fourth value, which is not written
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;  // bytes
 };
@@ -201,7 +201,7 @@ std::vector<std::uint8_t> bytesOf(const DeepImage& image) {
   return bytes;
 }
 
-// False: `writer.message` says why.
+// Returns false on an error, which `writer.message` describes.
 bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* texts,
            int textCount) {
   writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
@@ -214,9 +214,9 @@ bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* te
   const auto height = static_cast<png_uint_32>(rows.height);
   png_set_IHDR(writer.png, writer.info, width, height, rows.bits, rows.colorType,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // A film is to be written as fast as it is traced. Against libpng's defaults, for six shipped
-  // scenes at 1280x720, this takes a fourth to a tenth of the time and makes files 1 to 13 %
-  // larger, of the flat areas of `matte` 44 %. libdeflate at its first level is no faster.
+  // Films need fast compression. Compared with libpng's defaults, this takes a fourth to a tenth of
+  // the time for six shipped scenes at 1280x720, and makes files 1 to 13 % larger (44 % for the
+  // flat areas of `matte`). libdeflate at its first level is no faster.
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_compression_strategy(writer.png, Z_RLE);
   if (rows.isSrgb) {
@@ -237,7 +237,7 @@ void writeTo(std::FILE* file, const std::string& what, const Rows& rows,
   const std::vector<png_text> texts = textChunks(metadata, keywords);
   Libpng writer;
   const bool written = write(writer, file, rows, texts.data(), static_cast<int>(texts.size()));
-  const int error = errno;  // of the last write, if that was what failed
+  const int error = errno;  // of the last write, if it failed
   png_destroy_write_struct(&writer.png, &writer.info);
   const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
   const bool closed = std::fclose(file) == 0;
@@ -301,7 +301,7 @@ std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) 
   std::size_t size = 0;
   std::FILE* file = open_memstream(&bytes, &size);
   if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
-  // The buffer belongs to this function as soon as the stream has been flushed, thrown or not.
+  // This function owns the buffer after the stream was flushed, even if an error is thrown.
   const auto release = [](char** buffer) { std::free(*buffer); };
   const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
   writeTo(file, "a PNG", rowsOf(image), metadata);
