@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/scene/describe_scene.h"
-#include "io/scene/named_sky.h"
+#include "io/supply_view.h"
 #include "make/studio_sky.h"
 
 namespace whit::view {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/scene/named_sky.h"
+#include "io/supply_view.h"
 #include "make/studio_sky.h"
 #include "viewer/panel.h"
 

@@ -116,7 +116,7 @@ std::vector<ChannelDifference> compareChannels(const Compared& compared) {
     if (b == compared.layersB.end()) continue;
     differences.push_back(
         {a.name, a.countsThings,
-         a.countsThings ? differenceOf(a.numbers, b->numbers) : differenceOf(a.floats, b->floats)});
+         a.countsThings ? differenceOf(a.words, b->words) : differenceOf(a.floats(), b->floats())});
   }
   return differences;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/image/image_file.h"
+#include "io/image/texture_from_image.h"
 #include "make/light_level.h"
 #include "make/model_view.h"
 #include "make/studio_sky.h"
@@ -61,10 +63,23 @@ void replaceSky(SceneContext& context) {
   Sky& sky = context.scene.sky;
   if (context.sky.empty() || (context.sky == kStudio && sky.name == kStudio)) return;
   sky = context.sky == kStudio ? studioSky() : Sky();
-  if (context.sky == kStudio || context.sky == "none") return;
+  if (context.sky == kStudio || context.sky == kNoSky) return;
   sky.kind = Sky::Kind::image;
   sky.name = context.sky;
   context.textures.addEnvironment(context.sky, sky.image);
+}
+
+Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings) {
+  if (name == kStudio) return studioSky();
+  Sky sky;
+  if (name == kNoSky) return sky;
+  MemoryBudget budget(mostBytes);
+  ImageLimits limits;
+  limits.budget = &budget;
+  sky.kind = Sky::Kind::image;
+  sky.name = name;
+  sky.image = makeEnvironment(readRawImage(name, limits, warnings));
+  return sky;
 }
 
 }  // namespace whit

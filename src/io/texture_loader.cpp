@@ -14,7 +14,7 @@ std::uint64_t texelsOf(const RawImage& raw) {
   return static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height);
 }
 
-// Nothing: the image has no such texture.
+// Returns nothing if the image has no such texture.
 std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
                                const TextureSource& source, Warnings& warnings) {
   switch (use) {
@@ -167,8 +167,8 @@ std::optional<Texture> TextureLoader::make(const std::string& name, const RawIma
 void TextureLoader::finish(SceneDescription& scene) {
   queue_.finish();
   for (const auto& change : changes_) change(scene);
-  // Only what some material refers to is kept: a color without alpha leaves an empty slot, and an
-  // override may have replaced a map.
+  // Unused slots are dropped: a color without alpha leaves an empty one, and an override may have
+  // replaced a map.
   std::vector<std::int32_t> number(slots_.size(), kNoTexture);
   const auto renumber = [&](std::int32_t& map) {
     if (map == kNoTexture) return;

@@ -1,5 +1,5 @@
-// The textures of a scene that is being read: each image is decoded once for each use that is made
-// of it, beside the reading of everything else.
+// The textures of a scene that is being read. Each image is decoded once for each use, while other
+// threads read the rest.
 #pragma once
 
 #include <cstdint>
@@ -22,36 +22,36 @@ namespace whit {
 
 struct TextureSource {
   std::string path;
-  std::string where;  // who named it
+  std::string where;  // the place that names it
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   float bumpScale = 1;
-  bool lenient = false;  // an image that cannot be read is a warning, and there is no texture
+  bool lenient = false;  // an image that cannot be read is a warning instead of an error
 };
 
-// Materials refer to slots until finish() numbers the textures that there are.
+// Materials refer to slots until finish() numbers the textures.
 class TextureLoader {
  public:
   TextureLoader(int threads, MemoryBudget& budget, Warnings& warnings, Progress* progress);
 
-  // Slots, one for each of `uses`; the image is decoded once for all of them. The same source and
-  // use gives the same slot again; emission is color where the file cannot go beyond 1.
+  // Returns a slot for each of `uses`; the image is decoded once for all of them. The same source
+  // and use have the same slot again; emission is color if the file's format cannot exceed 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
-  // Adds an image that a program hands over; `source` has no path.
+  // Adds an image of the calling program; `source` has no path.
   std::int32_t add(const GivenImage& image, const TextureSource& source, TextureUse use);
-  // A texture that `make` computes, beside the rest.
+  // Adds a texture that `make` computes on a worker.
   std::int32_t add(std::function<Texture()> make);
-  // `count` of them, some of which there may turn out to be none of.
+  // Adds `count` textures that `make` computes; some of them may be empty.
   std::vector<std::int32_t> add(std::size_t count,
                                 std::function<std::vector<std::optional<Texture>>()> make);
-  // The equirectangular map at `path`, in `sky` after finish().
+  // Decodes the equirectangular map at `path` to `image`, which is ready after finish().
   void addEnvironment(const std::string& path, EnvironmentImage& image);
-  // `change` is called by finish() when all textures are there, before they are numbered.
+  // finish() calls `change` when all textures are decoded, before it numbers them.
   void whenDone(std::function<void(SceneDescription&)> change);
-  // The limits of an image that is decoded now, and the budget that textures are charged to.
+  // The limits of images, with the budget that textures are charged to.
   ImageLimits limits() const;
 
-  // Waits for all images, moves them to scene.textures and replaces the slots in its materials by
-  // their indices there. Throws what the decoding of an image threw.
+  // Waits for all images, moves them to scene.textures and replaces the slots in the materials by
+  // their indices. Throws what the decoding of an image threw.
   void finish(SceneDescription& scene);
 
  private:
@@ -62,14 +62,14 @@ class TextureLoader {
   std::optional<Texture> make(const std::string& name, const RawImage& raw, TextureUse use,
                               const TextureSource& source);
   RawImage read(const std::string& path);
-  MemoryHold holdCopy(const RawImage& raw, TextureUse use);  // of the alpha that it takes out
+  MemoryHold holdCopy(const RawImage& raw, TextureUse use);  // for a copy of the alpha channel
 
   MemoryBudget& budget_;
   Warnings& warnings_;
   std::deque<std::optional<Texture>> slots_;  // a deque: tasks keep references
   std::map<Key, std::int32_t> known_;
   std::vector<std::function<void(SceneDescription&)>> changes_;
-  DecodeQueue queue_;  // last: its workers write to the rest
+  DecodeQueue queue_;  // last, because its workers write to the other members
 };
 
 }  // namespace whit

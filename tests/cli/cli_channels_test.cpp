@@ -127,8 +127,8 @@ TEST(Channels, AreComparedExactly) {
   const auto a = readLayers(folder / "a.exr", ImageLimits());
   const auto b = readLayers(folder / "b.exr", ImageLimits());
   std::size_t differing = 0;
-  for (std::size_t i = 0; i < a[2].numbers.size(); ++i) {
-    differing += a[2].numbers[i] != b[5].numbers[i];
+  for (std::size_t i = 0; i < a[2].words.size(); ++i) {
+    differing += a[2].words[i] != b[5].words[i];
   }
   EXPECT_GT(differing, 0u);
   EXPECT_EQ(channels[2]["channel"], "object.id");

@@ -165,8 +165,8 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   std::filesystem::remove(path);
   ASSERT_EQ(layers.size(), 3u);
   EXPECT_EQ(layers[0].name, "depth.Z");
-  EXPECT_EQ(layers[0].floats[7], depth.values[14]);
-  EXPECT_TRUE(std::equal(object.numbers.begin(), object.numbers.end(), layers[2].numbers.begin()));
+  EXPECT_EQ(layers[0].floats()[7], depth.values[14]);
+  EXPECT_TRUE(std::equal(object.numbers.begin(), object.numbers.end(), layers[2].words.begin()));
 }
 
 TEST(Library, ImagesAreValues) {

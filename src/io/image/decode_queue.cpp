@@ -40,7 +40,7 @@ DecodeQueue::~DecodeQueue() {
   }
   try {
     close();
-  } catch (...) {  // an observer's: what becomes of the tasks matters to nobody any more
+  } catch (...) {  // thrown by the progress observer; the tasks are dropped anyway
     return;
   }
 }
@@ -102,7 +102,7 @@ void DecodeQueue::work() {
       if (begun_ == tasks_.size()) return;
       runOne(lock);
     }
-  } catch (...) {  // an observer's, who ends the work
+  } catch (...) {  // thrown by the progress observer to cancel the work
     if (!lock.owns_lock()) lock.lock();
     begun_ = tasks_.size();
     throw;

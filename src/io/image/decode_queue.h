@@ -1,4 +1,4 @@
-// Tasks that run beside the reading of a scene: textures that are decoded and made.
+// Runs tasks while a scene is read: textures are decoded and made.
 #pragma once
 
 #include <condition_variable>
@@ -16,20 +16,20 @@
 namespace whit {
 
 // Starts tasks at once on up to threads - 1 workers; the caller of finish() is the last worker. A
-// task that throws Error(limit) is run once more, alone, when all others have ended: what it lacked
-// may have been what they held. So tasks must be fit to be run again.
+// task that throws Error(limit) is run once more, alone, after all others have ended and given
+// their memory back. Tasks must allow to be run again.
 class DecodeQueue {
  public:
-  // threads 0: as many as the machine has for this process.
+  // threads 0: all that this process may use.
   DecodeQueue(int threads, Progress* progress, std::string phase);
-  ~DecodeQueue();  // forgets tasks that have not begun, waits for those that have
+  ~DecodeQueue();  // drops tasks that have not begun and waits for the others
   DecodeQueue(const DecodeQueue&) = delete;
   DecodeQueue& operator=(const DecodeQueue&) = delete;
 
-  // Before finish(). Throws as WorkerPool does.
+  // Call before finish(). Throws as WorkerPool does.
   void add(std::function<void()> task);
-  // Returns when every task has ended. Rethrows the exception of the task that was added first,
-  // whatever the order in which they failed.
+  // Returns when every task has ended. Of several failed tasks, the one added first has its
+  // exception rethrown, in whatever order they failed.
   void finish();
 
  private:
@@ -48,10 +48,10 @@ class DecodeQueue {
   std::vector<std::exception_ptr> failures_;
   std::vector<std::size_t> postponed_;
   std::size_t begun_ = 0, ended_ = 0;
-  bool closing_ = false;  // no more tasks come
+  bool closing_ = false;  // no more tasks will be added
   const std::function<void(int)> job_ = [this](int) { work(); };
   std::optional<WorkerPool> pool_;  // from the first task on
-  bool running_ = false;            // the pool, between its begin() and finish()
+  bool running_ = false;            // between begin() and finish() of the pool
 };
 
 }  // namespace whit

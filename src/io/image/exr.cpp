@@ -1,19 +1,30 @@
-// Reading OpenEXR.
+// Reading and writing OpenEXR.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
 #include <ImfPartType.h>
-#include <ImfRgbaFile.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <ImfTileDescription.h>
+#include <half.h>
+#include <openexr.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <new>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
-#include "io/image/exr.h"
+#include "io/atomic_file.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
 #include "io/read_file.h"
@@ -24,9 +35,10 @@ namespace {
 
 using Imath::Box2i;
 
-std::int64_t sideOf(int low, int high) { return std::int64_t{high} - low + 1; }
+std::int64_t widthOf(const Box2i& box) { return std::int64_t{box.max.x} - box.min.x + 1; }
+std::int64_t heightOf(const Box2i& box) { return std::int64_t{box.max.y} - box.min.y + 1; }
 
-// Runs `use`, and tells what OpenEXR throws in our own terms.
+// Runs `use`, and reports what OpenEXR throws as our own errors.
 template <typename Use>
 auto translating(const std::string& path, Use&& use) {
   try {
@@ -40,223 +52,357 @@ auto translating(const std::string& path, Use&& use) {
   }
 }
 
-// Throws unless the first part is a flat image.
-void requireFlat(const std::string& path, const Imf::Header& header) {
-  if (header.hasType() && !Imf::isImage(header.type()))
-    throwBadScene(path, "expected a flat image, found deep data");
+// Checks the headers of all parts by OpenEXR's core library, because the library above it allocates
+// whatever attributes and tables of chunks claim to take. Returns the lines of a chunk in the first
+// part, 1 for tiles.
+std::int32_t checkHeaders(const std::string& path) {
+  static thread_local std::string message;
+  exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  settings.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;
+  settings.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* text) {
+    message = text;
+  };
+  exr_context_t file = nullptr;
+  const bool valid = exr_start_read(&file, path.c_str(), &settings) == EXR_ERR_SUCCESS;
+  int parts = 0;
+  std::int32_t lines = 1, chunks = 0;
+  std::uint64_t allChunks = 0;
+  if (valid) {
+    exr_get_count(file, &parts);
+    exr_get_scanlines_per_chunk(file, 0, &lines);
+    for (int i = 0; i < parts; ++i) {
+      exr_get_chunk_count(file, i, &chunks);
+      allChunks += static_cast<std::uint64_t>(std::max(chunks, 0));
+    }
+  }
+  exr_finish(&file);
+  if (!valid) throwBadScene(path, "not a valid OpenEXR image (" + message + ")");
+  const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
+  if (allChunks > most) {
+    throwBadScene(path, "expected at most the " + std::to_string(most) +
+                            " tiles or blocks of lines whose places the file can hold");
+  }
+  return std::max(lines, 1);
 }
 
-struct Layout {
-  std::vector<const char*> channels;  // nullptr: not in the file, 0
-  bool lumaChroma = false;
+// An open file with checked headers; its first part is a flat image.
+class ExrFile {
+ public:
+  explicit ExrFile(const std::string& path)
+      : path_(path), chunkLines_(checkHeaders(path)), file_(path.c_str()) {
+    if (header().hasType() && !Imf::isImage(header().type())) {
+      throwBadScene(path, "expected a flat image, found deep data");
+    }
+  }
+
+  const Imf::Header& header() const { return file_.header(0); }
+  // The part of the data window inside the display window.
+  Box2i visible() const {
+    const Box2i &display = header().displayWindow(), &data = header().dataWindow();
+    Box2i box{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
+              {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
+    if (box.isEmpty()) throwBadScene(path_, "its data window lies outside its display window");
+    return box;
+  }
+
+  void checkSizes(std::uint64_t channels, const ImageLimits& limits) const {
+    const std::uint64_t bytes = channels * sizeof(float);
+    for (const Box2i& box : {header().displayWindow(), header().dataWindow()}) {
+      checkImageSize(path_, widthOf(box), heightOf(box), bytes, limits);
+    }
+    if (header().hasTileDescription()) {
+      // Tiles are decoded whole, a row of them at a time.
+      const Imf::TileDescription& tiles = header().tileDescription();
+      checkImageSize(path_, widthOf(header().dataWindow()) + tiles.xSize, tiles.ySize, bytes,
+                     ImageLimits{2 * limits.side, limits.bytes});
+    }
+  }
+
+  // Reads the whole data window. The memory that OpenEXR takes meanwhile is held in the budget: of
+  // each chunk what is stored, decoded, and twice that again while the compression is undone.
+  void read(const Imf::FrameBuffer& frame, const ImageLimits& limits) {
+    const Box2i& data = header().dataWindow();
+    auto columns = static_cast<std::uint64_t>(widthOf(data));
+    auto lines = static_cast<std::uint64_t>(std::min<std::int64_t>(chunkLines_, heightOf(data)));
+    if (header().hasTileDescription()) {
+      columns += header().tileDescription().xSize;
+      lines = header().tileDescription().ySize;
+    }
+    std::uint64_t bytes = 0;
+    for (auto it = header().channels().begin(); it != header().channels().end(); ++it) {
+      bytes += it.channel().type == Imf::HALF ? 2 : 4;
+    }
+    const auto chunks = static_cast<std::uint64_t>(std::max(1, 2 * Imf::globalThreadCount()));
+    const MemoryHold working(limits.budget, columns * lines * chunks, 4 * bytes, path_);
+    Imf::InputPart part(file_, 0);
+    part.setFrameBuffer(frame);
+    part.readPixels(data.min.y, data.max.y);
+  }
+
+ private:
+  const std::string& path_;
+  std::int32_t chunkLines_;
+  Imf::MultiPartInputFile file_;
 };
 
-Layout layoutOf(const std::string& path, const Imf::Header& header) {
-  const Imf::ChannelList& list = header.channels();
+// The names of the color channels to read, 1 to 4 of them; nullptr where the file lacks one.
+std::vector<const char*> colorChannels(const std::string& path, const Imf::ChannelList& list) {
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
-  Layout layout;
+  std::vector<const char*> channels;
   if (has("R") || has("G") || has("B")) {
-    for (const char* name : {"R", "G", "B"}) layout.channels.push_back(has(name) ? name : nullptr);
-  } else if (has("Y") && has("RY") && has("BY")) {
-    layout.lumaChroma = true;
-    layout.channels = {"R", "G", "B"};
-  } else if (has("Y")) {
-    layout.channels = {"Y"};
+    for (const char* name : {"R", "G", "B"}) channels.push_back(has(name) ? name : nullptr);
+  } else if (has("Y") && !has("RY") && !has("BY")) {
+    channels = {"Y"};
   } else {
     std::string found;
     for (auto it = list.begin(); it != list.end(); ++it) found += std::string(" ") + it.name();
-    throwBadScene(path,
-                  "expected a channel R, G, B or Y, found" + (found.empty() ? " none" : found));
+    throwBadScene(path, "expected the channels R, G and B, or Y without chroma, found" +
+                            (found.empty() ? " none" : found));
   }
-  if (has("A")) layout.channels.push_back("A");
-  return layout;
+  if (has("A")) channels.push_back("A");
+  return channels;
 }
 
-void checkSizes(const std::string& path, const Imf::Header& header, std::size_t channels,
-                const ImageLimits& limits) {
-  const std::uint64_t bytes = channels * sizeof(float);
-  for (const Box2i& box : {header.displayWindow(), header.dataWindow()})
-    checkImageSize(path, sideOf(box.min.x, box.max.x), sideOf(box.min.y, box.max.y), bytes, limits);
-  if (header.hasTileDescription()) {
-    // Tiles are decoded whole, a row of them at a time.
-    const Imf::TileDescription& tiles = header.tileDescription();
-    const std::int64_t across = sideOf(header.dataWindow().min.x, header.dataWindow().max.x);
-    checkImageSize(path, across + tiles.xSize, tiles.ySize, bytes,
-                   ImageLimits{2 * limits.side, limits.bytes});
-  }
+// `first` is the value of the data window's first pixel; others follow `stride` bytes apart.
+void insertChannel(Imf::FrameBuffer& frame, const std::string& name, Imf::PixelType type,
+                   const void* first, const Box2i& data, std::size_t stride) {
+  frame.insert(name, Imf::Slice::Make(type, first, data, stride,
+                                      stride * static_cast<std::size_t>(widthOf(data))));
 }
 
-MemoryHold holdBox(const std::string& path, const Box2i& box, std::size_t channels,
-                   const ImageLimits& limits) {
-  return holdImage(path, sideOf(box.min.x, box.max.x), sideOf(box.min.y, box.max.y),
-                   channels * sizeof(float), limits);
-}
-
-// The data window's values, interleaved.
-std::vector<float> readParts(const std::string& path, const Box2i& data, const Layout& layout) {
-  const std::size_t channels = layout.channels.size();
-  const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
-  const auto height = static_cast<std::size_t>(sideOf(data.min.y, data.max.y));
-  std::vector<float> values(width * height * channels);
-  Imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < channels; ++c) {
-    if (layout.channels[c] == nullptr) continue;
-    frame.insert(layout.channels[c],
-                 Imf::Slice::Make(Imf::FLOAT, values.data() + c, data, channels * sizeof(float),
-                                  width * channels * sizeof(float)));
-  }
-  Imf::MultiPartInputFile file(path.c_str());
-  Imf::InputPart part(file, 0);
-  part.setFrameBuffer(frame);
-  part.readPixels(data.min.y, data.max.y);
-  return values;
-}
-
-// Reads an image stored as luminance and subsampled chroma, whose conversion OpenEXR only offers in
-// half precision.
-std::vector<float> readLumaChroma(const std::string& path, const Box2i& data, std::size_t channels,
-                                  const ImageLimits& limits) {
-  const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
-  const auto height = static_cast<std::size_t>(sideOf(data.min.y, data.max.y));
-  const MemoryHold held(limits.budget, width * height, sizeof(Imf::Rgba), path);
-  std::vector<Imf::Rgba> pixels(width * height);
-  Imf::RgbaInputFile file(path.c_str());
-  const std::int64_t offset = data.min.x + data.min.y * static_cast<std::int64_t>(width);
-  file.setFrameBuffer(pixels.data() - offset, 1, width);
-  file.readPixels(data.min.y, data.max.y);
-  std::vector<float> values;
-  values.reserve(pixels.size() * channels);
-  for (const Imf::Rgba& pixel : pixels) {
-    values.insert(values.end(), {pixel.r, pixel.g, pixel.b});
-    if (channels == 4) values.push_back(pixel.a);
-  }
-  return values;
-}
-
-// Leaves of `values`, which fill `data`, those inside `kept`.
+// Moves `values`, which fill the box `from`, into the box `to`; the rest of that is 0.
 template <typename Value>
-std::vector<Value> cropped(const std::vector<Value>& values, const Box2i& data, const Box2i& kept,
-                           std::size_t channels) {
-  const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
-  std::vector<Value> inside;
-  for (int y = kept.min.y; y <= kept.max.y; ++y) {
-    const std::size_t row = static_cast<std::size_t>(std::int64_t{y} - data.min.y) * width;
-    const auto at = [&](std::int64_t x) {
-      return values.begin() + static_cast<std::ptrdiff_t>(
-                                  (row + static_cast<std::size_t>(x - data.min.x)) * channels);
-    };
-    inside.insert(inside.end(), at(kept.min.x), at(std::int64_t{kept.max.x} + 1));
+void moveInto(const Box2i& to, const Box2i& from, std::size_t channels,
+              std::vector<Value>& values) {
+  if (to == from) return;
+  const auto offset = [&](const Box2i& box, std::int64_t x, std::int64_t y) {
+    return ((y - box.min.y) * widthOf(box) + x - box.min.x) * static_cast<std::int64_t>(channels);
+  };
+  std::vector<Value> moved(static_cast<std::size_t>(widthOf(to) * heightOf(to)) * channels);
+  const int x0 = std::max(from.min.x, to.min.x), x1 = std::min(from.max.x, to.max.x);
+  for (int y = std::max(from.min.y, to.min.y); y <= std::min(from.max.y, to.max.y); ++y) {
+    std::copy(values.begin() + offset(from, x0, y),
+              values.begin() + offset(from, std::int64_t{x1} + 1, y),
+              moved.begin() + offset(to, x0, y));
   }
-  return inside;
+  values = std::move(moved);
 }
 
-// The part of the data window that the display window has.
-Box2i keptBox(const std::string& path, const Imf::Header& header) {
-  const Box2i &display = header.displayWindow(), &data = header.dataWindow();
-  Box2i kept{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
-             {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
-  if (kept.isEmpty()) throwBadScene(path, "its data window lies outside its display window");
-  return kept;
+template <typename Layer>
+Imf::PixelType typeOf(const Layer& layer) {
+  return layer.countsThings ? Imf::UINT : Imf::FLOAT;
 }
 
-bool isColor(const std::string& name) {
+std::vector<ImageLayer> layersOf(const std::string& path, const Imf::ChannelList& list) {
   constexpr const char* kColors[] = {"R", "G", "B", "A", "Y", "RY", "BY"};
-  return std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors);
-}
-
-std::vector<ImageLayer> layersOf(const std::string& path, const Imf::Header& header) {
   std::vector<ImageLayer> layers;
-  const Imf::ChannelList& list = header.channels();
   for (auto it = list.begin(); it != list.end(); ++it) {
-    if (isColor(it.name())) continue;
+    const std::string name = it.name();
+    if (std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors)) continue;
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      throwBadScene(
-          path, std::string("expected a value a pixel of channel ") + it.name() + ", found fewer");
+      throwBadScene(path, "expected a value a pixel of channel " + name + ", found fewer");
     }
-    layers.push_back({it.name(), it.channel().type == Imf::UINT, {}, {}});
+    layers.push_back({name, it.channel().type == Imf::UINT, {}});
   }
   return layers;
 }
 
-// The values of the whole data window.
-void readLayerValues(const std::string& path, const Box2i& data, std::vector<ImageLayer>& layers) {
-  const auto width = static_cast<std::size_t>(sideOf(data.min.x, data.max.x));
-  const auto height = static_cast<std::size_t>(sideOf(data.min.y, data.max.y));
-  Imf::FrameBuffer frame;
-  const auto insert = [&](const ImageLayer& layer, Imf::PixelType type, auto& values) {
-    values.resize(width * height);
-    frame.insert(layer.name,
-                 Imf::Slice::Make(type, values.data(), data, sizeof(float), width * sizeof(float)));
-  };
-  for (ImageLayer& layer : layers) {
-    if (layer.countsThings) {
-      insert(layer, Imf::UINT, layer.numbers);
-    } else {
-      insert(layer, Imf::FLOAT, layer.floats);
-    }
+static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
+static_assert(sizeof(float) == sizeof(std::uint32_t), "layers have one stride");
+
+const std::string kPrefix = "whit.";
+constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
+
+// Attributes that mean something to OpenEXR itself, and so cannot carry our text.
+bool isReserved(const std::string& name) {
+  constexpr std::array<const char*, 5> kReserved = {"chunkCount", "name", "type", "version",
+                                                    "view"};
+  return std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end();
+}
+
+std::string attributeName(const Imf::Header& header, const std::string& name) {
+  return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
+}
+
+Imf::Compression compressionOf(ExrStorage storage) {
+  switch (storage) {
+    case ExrStorage::none:
+      return Imf::NO_COMPRESSION;
+    case ExrStorage::dwaa:
+      return Imf::DWAA_COMPRESSION;
+    default:
+      return Imf::ZIP_COMPRESSION;
   }
-  Imf::MultiPartInputFile file(path.c_str());
-  Imf::InputPart part(file, 0);
-  part.setFrameBuffer(frame);
-  part.readPixels(data.min.y, data.max.y);
+}
+
+bool inHalf(ExrStorage storage) {
+  return storage == ExrStorage::half || storage == ExrStorage::dwaa;
+}
+
+// A NaN stays a NaN.
+half nearestHalf(float value) {
+  return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
+}
+
+std::vector<half> inHalf(const Image& image) {
+  std::vector<half> values;
+  values.reserve(3 * image.pixels.size());
+  for (const Rgb& pixel : image.pixels) {
+    for (int c = 0; c < 3; ++c) values.push_back(nearestHalf(pixel[c]));
+  }
+  return values;
+}
+
+// Where there is no room for the library's threads, it does without.
+void letCompress(int threads) {
+  try {
+    if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+  } catch (const std::system_error&) {
+  }
+}
+
+Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrStorage storage,
+                       const std::vector<LayerView>& layers) {
+  const Crop& w = image.window;
+  Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
+                     Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
+  header.compression() = compressionOf(storage);
+  const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
+  for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
+  for (const LayerView& layer : layers) {
+    header.channels().insert(layer.name, Imf::Channel(typeOf(layer)));
+  }
+  for (const auto& [name, text] : metadata)
+    header.insert(attributeName(header, name), Imf::StringAttribute(text));
+  return header;
+}
+
+// `first` is the first value of the first pixel of the window.
+template <typename Value>
+void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, const Value* first,
+                 const std::vector<LayerView>& layers) {
+  const Box2i& data = exr.header().dataWindow();
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < kRadianceLayers.size(); ++c) {
+    insertChannel(frame, kRadianceLayers[c], type, first + c, data, 3 * sizeof(Value));
+  }
+  for (const LayerView& layer : layers) {
+    insertChannel(frame, layer.name, typeOf(layer), layer.first, data,
+                  layer.stride * sizeof(float));
+  }
+  exr.setFrameBuffer(frame);
+  exr.writePixels(image.windowHeight());
 }
 
 }  // namespace
-
-std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
-  if (!isExr(asBytes(readBeginning(path, 4)))) return {};
-  return translating(path, [&] {
-    const Imf::Header header = readExrHeaders(path).front();
-    requireFlat(path, header);
-    std::vector<ImageLayer> layers = layersOf(path, header);
-    if (layers.empty()) return layers;
-    checkSizes(path, header, layers.size(), limits);
-    const Box2i kept = keptBox(path, header), &data = header.dataWindow();
-    readLayerValues(path, data, layers);
-    if (kept == data) return layers;
-    for (ImageLayer& layer : layers) {
-      if (layer.countsThings) {
-        layer.numbers = cropped(layer.numbers, data, kept, 1);
-      } else {
-        layer.floats = cropped(layer.floats, data, kept, 1);
-      }
-    }
-    return layers;
-  });
-}
 
 bool isExr(std::span<const std::uint8_t> beginning) {
   constexpr std::uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
   return beginning.size() >= 4 && std::equal(kMagic, kMagic + 4, beginning.begin());
 }
 
-ExrPixels decodeExr(const std::string& path, const ImageLimits& limits) {
+ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
   return translating(path, [&] {
-    const Imf::Header header = readExrHeaders(path).front();
-    requireFlat(path, header);
-    const Layout layout = layoutOf(path, header);
-    const std::size_t channels = layout.channels.size();
-    checkSizes(path, header, channels, limits);
-    const Box2i &display = header.displayWindow(), &data = header.dataWindow();
-    const Box2i kept = keptBox(path, header);
-
-    ExrPixels pixels;
-    pixels.width = static_cast<int>(sideOf(display.min.x, display.max.x));
-    pixels.height = static_cast<int>(sideOf(display.min.y, display.max.y));
+    ExrFile file(path);
+    const std::vector<const char*> names = colorChannels(path, file.header().channels());
+    const std::size_t channels = names.size();
+    file.checkSizes(channels, limits);
+    const Box2i &display = file.header().displayWindow(), &data = file.header().dataWindow();
+    const Box2i visible = file.visible(), kept = wholeDisplay ? display : visible;
+    const auto hold = [&](const Box2i& box) {
+      return holdImage(path, widthOf(box), heightOf(box), channels * sizeof(float), limits);
+    };
+    ExrImage image;
+    image.width = static_cast<int>(widthOf(display));
+    image.height = static_cast<int>(heightOf(display));
     // The sizes have been checked, so these differences fit.
-    pixels.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
-                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
-    pixels.channels = static_cast<int>(channels);
-    pixels.held = holdBox(path, data, channels, limits);
-    const MemoryHold working(limits.budget, exrChunkBytes(header), 1, path);
-    pixels.values = layout.lumaChroma ? readLumaChroma(path, data, channels, limits)
-                                      : readParts(path, data, layout);
-    if (kept != data) {
-      const MemoryHold whole = std::exchange(pixels.held, holdBox(path, kept, channels, limits));
-      pixels.values = cropped(pixels.values, data, kept, channels);
+    image.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
+                    kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
+    RawImage& raw = image.raw;
+    raw.width = static_cast<int>(widthOf(kept));
+    raw.height = static_cast<int>(heightOf(kept));
+    raw.channels = static_cast<int>(channels);
+    raw.linear = true;
+    raw.held = hold(data);
+    raw.values.resize(static_cast<std::size_t>(widthOf(data) * heightOf(data)) * channels);
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (names[c] == nullptr) continue;
+      insertChannel(frame, names[c], Imf::FLOAT, raw.values.data() + c, data,
+                    channels * sizeof(float));
     }
-    return pixels;
+    file.read(frame, limits);
+    const MemoryHold whole = std::exchange(raw.held, hold(kept));
+    moveInto(kept, data, channels, raw.values);
+    return image;
   });
+}
+
+std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
+  if (!isExr(asBytes(readBeginning(path, 4)))) return {};
+  return translating(path, [&] {
+    ExrFile file(path);
+    std::vector<ImageLayer> layers = layersOf(path, file.header().channels());
+    if (layers.empty()) return layers;
+    file.checkSizes(layers.size(), limits);
+    const Box2i visible = file.visible(), &data = file.header().dataWindow();
+    const auto pixels = static_cast<std::size_t>(widthOf(data) * heightOf(data));
+    Imf::FrameBuffer frame;
+    for (ImageLayer& layer : layers) {
+      layer.words.resize(pixels);
+      insertChannel(frame, layer.name, typeOf(layer), layer.words.data(), data, sizeof(float));
+    }
+    file.read(frame, limits);
+    for (ImageLayer& layer : layers) moveInto(visible, data, 1, layer.words);
+    return layers;
+  });
+}
+
+ImageMetadata readExrMetadata(const std::string& path) {
+  return translating(path, [&] {
+    const ExrFile file(path);
+    ImageMetadata metadata;
+    for (auto it = file.header().begin(); it != file.header().end(); ++it) {
+      const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+      const std::string name = it.name();
+      if (text == nullptr || isReserved(name)) continue;
+      metadata.emplace_back(name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name,
+                            text->value());
+    }
+    return metadata;
+  });
+}
+
+void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
+              ExrStorage storage, int threads, const std::vector<LayerView>& layers) {
+  if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
+  if (!layers.empty() && storage == ExrStorage::dwaa) {
+    throwUsage("cannot write '" + path +
+               "': DWAA is lossy for channels as well (position.Y): zip, none and half are not");
+  }
+  AtomicFile file(path);
+  letCompress(threads);
+  try {
+    // The stream is ours, because OpenEXR keeps quiet about what fails while it closes a file.
+    std::ofstream stream(file.temporaryPath(), std::ios::binary | std::ios::trunc);
+    {
+      Imf::StdOFStream out(stream, path.c_str());
+      Imf::OutputFile exr(out, makeHeader(image, metadata, storage, layers), threads);
+      if (inHalf(storage)) {
+        const std::vector<half> values = inHalf(image);
+        writePixels(exr, Imf::HALF, image, values.data(), layers);
+      } else {
+        writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0], layers);
+      }
+    }
+    stream.close();
+    if (!stream) throwIo(path, "cannot write '" + path + "': no space left, or the device failed");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throwIo(path, "cannot write '" + path + "': " + e.what());
+  }
+  file.commit();
 }
 
 }  // namespace whit

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 
@@ -25,7 +24,7 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
 
 bool isExrFile(const std::string& path) { return isExr(asBytes(readBeginning(path, 4))); }
 
-// Names formats that are not read but often taken for textures.
+// Names formats that are often used for textures but not supported.
 std::string kindOf(std::span<const std::uint8_t> file) {
   constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
       {"GIF8", "a GIF image"},       {"RIFF", "a WebP image"},   {"DDS ", "a DDS texture"},
@@ -38,12 +37,19 @@ std::string kindOf(std::span<const std::uint8_t> file) {
       ->second;
 }
 
+struct Format {
+  bool (*matches)(std::span<const std::uint8_t> file);
+  RawImage (*decode)(const std::string& path, std::span<const std::uint8_t> file,
+                     const ImageLimits& limits);
+};
+constexpr Format kFormats[] = {
+    {isPng, decodePng}, {isJpeg, decodeJpeg}, {isBmp, decodeBmp}, {isHdr, decodeHdr}};
+
 RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file,
                      const ImageLimits& limits) {
-  if (isPng(file)) return decodePng(name, file, limits);
-  if (isJpeg(file)) return decodeJpeg(name, file, limits);
-  if (isBmp(file)) return decodeBmp(name, file, limits);
-  if (isHdr(file)) return decodeHdr(name, file, limits);
+  for (const Format& format : kFormats) {
+    if (format.matches(file)) return format.decode(name, file, limits);
+  }
   if (extensionOf(name) == ".tga") return decodeTga(name, file, limits);
   throwBadScene(
       name, "expected a PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
@@ -55,32 +61,6 @@ RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   const MemoryHold held(limits.budget, error ? 0 : size, 1, path);
   const std::string file = readFile(path, limits.bytes);
   return decodeBytes(path, asBytes(file), limits);
-}
-
-// The display window's values; what lies outside the data window is 0.
-RawImage fillDisplay(const std::string& path, ExrPixels&& exr, const ImageLimits& limits) {
-  RawImage raw;
-  raw.width = exr.width;
-  raw.height = exr.height;
-  raw.channels = exr.channels;
-  raw.linear = true;
-  if (exr.window == Crop{0, 0, exr.width, exr.height}) {
-    raw.values = std::move(exr.values);
-    raw.held = std::move(exr.held);
-    return raw;
-  }
-  const auto channels = static_cast<std::size_t>(exr.channels);
-  raw.held = holdImage(path, exr.width, exr.height, channels * sizeof(float), limits);
-  const std::size_t row = static_cast<std::size_t>(exr.width) * channels;
-  const std::size_t part = static_cast<std::size_t>(exr.window.x1 - exr.window.x0) * channels;
-  raw.values.resize(row * static_cast<std::size_t>(exr.height));
-  for (int y = exr.window.y0; y < exr.window.y1; ++y) {
-    const float* from = exr.values.data() + static_cast<std::size_t>(y - exr.window.y0) * part;
-    std::copy(from, from + part,
-              raw.values.data() + static_cast<std::size_t>(y) * row +
-                  static_cast<std::size_t>(exr.window.x0) * channels);
-  }
-  return raw;
 }
 
 void sanitise(const std::string& path, std::vector<float>& values, Warnings& warnings) {
@@ -127,8 +107,7 @@ MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t h
 }
 
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
-  RawImage raw = isExrFile(path) ? fillDisplay(path, decodeExr(path, limits), limits)
-                                 : decodeOther(path, limits);
+  RawImage raw = isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
   sanitise(path, raw.values, warnings);
   return raw;
 }
@@ -141,32 +120,35 @@ RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> f
 }
 
 bool holdsRadiance(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::vector<std::uint8_t> beginning(4);
-  std::ifstream in(path, std::ios::binary);
-  if (!in.read(reinterpret_cast<char*>(beginning.data()), 4)) return false;
-  return isExr(beginning) || (beginning[0] == '#' && beginning[1] == '?');
+  try {
+    const std::string beginning = readBeginning(path, 4);
+    return isExr(asBytes(beginning)) || beginning.starts_with("#?");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+Rgb linearPixel(const RawImage& raw, std::size_t i) {
+  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
+  const auto value = [&](std::size_t channel) {
+    return raw.linear ? raw.values[first + channel] : linearOfCode(raw.codes[first + channel]);
+  };
+  return raw.channels < 3 ? Rgb(value(0)) : Rgb(value(0), value(1), value(2));
 }
 
 Image readImage(const std::string& path, const ImageLimits& limits, Warnings&) {
-  ExrPixels source;
+  ExrImage source;
   if (isExrFile(path)) {
-    source = decodeExr(path, limits);
+    source = decodeExr(path, false, limits);
   } else {
-    RawImage raw = decodeOther(path, limits);
-    source = {raw.width, raw.height, {0, 0, raw.width, raw.height}, raw.channels, {}, {}};
-    source.values = std::move(raw.values);
-    source.values.reserve(raw.codes.size());
-    for (const std::uint8_t code : raw.codes) source.values.push_back(linearOfCode(code));
+    source.raw = decodeOther(path, limits);
+    source.width = source.raw.width;
+    source.height = source.raw.height;
+    source.window = {0, 0, source.width, source.height};
   }
   Image image(source.width, source.height, source.window);
-  const auto channels = static_cast<std::size_t>(source.channels);
-  const float* value = source.values.data();
-  for (Rgb& pixel : image.pixels) {
-    pixel = channels < 3 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
-    value += channels;
-  }
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = linearPixel(source.raw, i);
   return image;
 }
 

@@ -1,7 +1,7 @@
 // Reading JPEG, by libjpeg.
 #include <cstddef>
 #include <cstdio>
-// libjpeg's header wants the two above.
+// libjpeg's header needs the two above.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -18,48 +18,44 @@ namespace {
 
 // libjpeg reports errors by longjmp, so the functions that it may leave that way hold nothing that
 // has a destructor; this object lives outside of them.
-class Decoder {
+class JpegReader {
  public:
-  Decoder() {
+  JpegReader(const std::string& path, std::span<const std::uint8_t> file)
+      : path_(path), file_(file) {
     decoder_.err = jpeg_std_error(&errors_);
     decoder_.client_data = this;
     errors_.error_exit = [](j_common_ptr common) { fail(common); };
     errors_.emit_message = onMessage;
-    created_ = guarded([](Decoder& d) { jpeg_create_decompress(&d.decoder_); });
   }
-  ~Decoder() {
-    if (created_) jpeg_destroy_decompress(&decoder_);
-  }
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&decoder_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
 
-  // False: message() says why.
-  bool readHeader(std::span<const std::uint8_t> file) {
-    file_ = file;
-    return created_ && guarded([](Decoder& d) {
-             jpeg_mem_src(&d.decoder_, d.file_.data(), d.file_.size());
-             jpeg_read_header(&d.decoder_, TRUE);
-           });
+  // These throw badScene where libjpeg finds an error.
+  void readHeader() {
+    guarded([this] {
+      jpeg_create_decompress(&decoder_);
+      jpeg_mem_src(&decoder_, file_.data(), file_.size());
+      jpeg_read_header(&decoder_, TRUE);
+    });
   }
-  // Rows of width() * channels() codes.
-  bool readPixels(std::uint8_t* codes) {
-    codes_ = codes;
-    return guarded([](Decoder& d) {
-      jpeg_decompress_struct& j = d.decoder_;
-      if (d.channels() == 3) j.out_color_space = JCS_RGB;
-      jpeg_start_decompress(&j);
-      const std::size_t stride = std::size_t{j.output_width} * j.output_components;
-      while (j.output_scanline < j.output_height) {
-        JSAMPROW row = d.codes_ + j.output_scanline * stride;
-        jpeg_read_scanlines(&j, &row, 1);
+  // Stores rows of width() * channels() codes.
+  void readPixels(std::uint8_t* codes) {
+    guarded([this, codes] {
+      if (channels() == 3) decoder_.out_color_space = JCS_RGB;
+      jpeg_start_decompress(&decoder_);
+      const std::size_t stride = std::size_t{decoder_.output_width} * decoder_.output_components;
+      while (decoder_.output_scanline < decoder_.output_height) {
+        JSAMPROW row = codes + decoder_.output_scanline * stride;
+        jpeg_read_scanlines(&decoder_, &row, 1);
       }
-      jpeg_finish_decompress(&j);
+      jpeg_finish_decompress(&decoder_);
     });
   }
 
   int width() const { return static_cast<int>(decoder_.image_width); }
   int height() const { return static_cast<int>(decoder_.image_height); }
-  // 0: colors that libjpeg does not turn into RGB.
+  // 0 for colors that libjpeg does not convert to RGB.
   int channels() const {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     return decoder_.num_components == 3 ? 3 : 0;
@@ -80,23 +76,23 @@ class Decoder {
     return bytes;
   }
   int components() const { return decoder_.num_components; }
-  const char* message() const { return message_; }
 
  private:
   template <typename Use>
-  bool guarded(Use use) {
-    if (setjmp(escape_) != 0) return false;
-    use(*this);
-    return true;
+  void guarded(Use use) {
+    if (setjmp(escape_) != 0) {
+      throwBadScene(path_, std::string("not a valid JPEG image (") + message_ + ")");
+    }
+    use();
   }
 
   [[noreturn]] static void fail(j_common_ptr common) {
-    Decoder& self = *static_cast<Decoder*>(common->client_data);
+    JpegReader& self = *static_cast<JpegReader*>(common->client_data);
     common->err->format_message(common, self.message_);
     std::longjmp(self.escape_, 1);
   }
-  // libjpeg goes on with gray where data is missing, and with anything where it is damaged. Other
-  // warnings are of oddities that every viewer overlooks.
+  // libjpeg only warns of missing and damaged data, and makes up pixels. Its other warnings are
+  // about oddities that every viewer ignores.
   static void onMessage(j_common_ptr common, int level) {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};
@@ -104,13 +100,12 @@ class Decoder {
     if (level < 0 && std::count(std::begin(kDamage), std::end(kDamage), code) > 0) fail(common);
   }
 
+  const std::string& path_;
+  std::span<const std::uint8_t> file_;
   jpeg_decompress_struct decoder_{};
   jpeg_error_mgr errors_{};
   std::jmp_buf escape_{};
   char message_[JMSG_LENGTH_MAX] = "out of memory";
-  std::span<const std::uint8_t> file_;
-  std::uint8_t* codes_ = nullptr;
-  bool created_ = false;
 };
 
 }  // namespace
@@ -121,25 +116,22 @@ bool isJpeg(std::span<const std::uint8_t> file) {
 
 RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits) {
-  Decoder decoder;
-  const auto refuse = [&] {
-    throwBadScene(path, std::string("not a valid JPEG image (") + decoder.message() + ")");
-  };
-  if (!decoder.readHeader(file)) refuse();
+  JpegReader reader(path, file);
+  reader.readHeader();
   RawImage image;
-  image.width = decoder.width();
-  image.height = decoder.height();
-  image.channels = decoder.channels();
+  image.width = reader.width();
+  image.height = reader.height();
+  image.channels = reader.channels();
   if (image.channels == 0)
     throwBadScene(path,
-                  "expected gray or RGB, found " + std::to_string(decoder.components()) + " inks");
+                  "expected gray or RGB, found " + std::to_string(reader.components()) + " inks");
   image.held = holdImage(path, image.width, image.height,
                          static_cast<std::uint64_t>(image.channels), limits);
-  const MemoryHold working(limits.budget, decoder.workingBytes(), 1, path);
+  const MemoryHold working(limits.budget, reader.workingBytes(), 1, path);
   image.codes.resize(static_cast<std::size_t>(image.width) *
                      static_cast<std::size_t>(image.height) *
                      static_cast<std::size_t>(image.channels));
-  if (!decoder.readPixels(image.codes.data())) refuse();
+  reader.readPixels(image.codes.data());
   return image;
 }
 

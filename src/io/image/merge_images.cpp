@@ -32,7 +32,8 @@ class Merger {
       image_ = Image(part.width, part.height);
       covered_.assign(image_.pixels.size(), false);
       firstPath_ = path;
-      for (const ImageLayer& layer : layers) layers_.push_back(roomFor(layer));
+      layers_ = layers;
+      for (ImageLayer& layer : layers_) layer.words.assign(image_.pixels.size(), 0);
     } else if (part.width != image_.width || part.height != image_.height) {
       throwUsage(path + ": a part of a " + sizeText(part) + " image, but '" + firstPath_ +
                  "' is of a " + sizeText(image_) + " one");
@@ -48,7 +49,9 @@ class Merger {
             sameBits(image_.pixels[i], value) && sameLayers(layers, part.index(x, y), i);
         if (covered_[i] && !same && differing++ == 0) first = path + " at " + place(x, y);
         image_.pixels[i] = value;
-        placeLayers(layers, part.index(x, y), i);
+        for (std::size_t k = 0; k < layers.size(); ++k) {
+          layers_[k].words[i] = layers[k].words[part.index(x, y)];
+        }
         covered_[i] = true;
       }
     }
@@ -70,16 +73,6 @@ class Merger {
   }
 
  private:
-  ImageLayer roomFor(const ImageLayer& layer) const {
-    ImageLayer room{layer.name, layer.countsThings, {}, {}};
-    if (layer.countsThings) {
-      room.numbers.resize(image_.pixels.size());
-    } else {
-      room.floats.resize(image_.pixels.size());
-    }
-    return room;
-  }
-
   void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& layers) const {
     const auto require = [](const std::vector<ImageLayer>& all, const ImageLayer& wanted,
                             const std::string& lacks, const std::string& has) {
@@ -93,26 +86,12 @@ class Merger {
     for (const ImageLayer& layer : layers) require(layers_, layer, firstPath_, path);
   }
 
-  // True if the layers have the bits of those of a part; both are in the order of their names.
+  // True if the layers have the bits of a part's; both are in the order of their names.
   bool sameLayers(const std::vector<ImageLayer>& part, std::size_t from, std::size_t to) const {
     for (std::size_t k = 0; k < part.size(); ++k) {
-      const bool same = part[k].countsThings
-                            ? part[k].numbers[from] == layers_[k].numbers[to]
-                            : std::bit_cast<std::uint32_t>(part[k].floats[from]) ==
-                                  std::bit_cast<std::uint32_t>(layers_[k].floats[to]);
-      if (!same) return false;
+      if (part[k].words[from] != layers_[k].words[to]) return false;
     }
     return true;
-  }
-
-  void placeLayers(const std::vector<ImageLayer>& part, std::size_t from, std::size_t to) {
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      if (part[k].countsThings) {
-        layers_[k].numbers[to] = part[k].numbers[from];
-      } else {
-        layers_[k].floats[to] = part[k].floats[from];
-      }
-    }
   }
 
   std::size_t index(int x, int y) const {
@@ -126,7 +105,7 @@ class Merger {
   std::string firstPath_;
 };
 
-// Keeps in `common` what `part` says too.
+// Keeps the entries of `common` that `part` has as well.
 void intersect(ImageMetadata& common, const ImageMetadata& part) {
   std::erase_if(common, [&](const auto& entry) {
     return std::find(part.begin(), part.end(), entry) == part.end();

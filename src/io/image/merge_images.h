@@ -1,4 +1,4 @@
-// One image from crops of it, as rendered on several machines or one after the other.
+// Merges crops of an image, which were rendered on several machines or one after the other.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 namespace whit {
 
 struct MergedImage {
-  Image image;             // its window is the whole image
-  ImageMetadata metadata;  // the text that all EXR parts agree on, but for their crop
+  Image image;             // the window is the whole image
+  ImageMetadata metadata;  // the text on which all EXR parts agree, without their crop
   std::vector<ImageLayer> layers;
 };
 

@@ -1,13 +1,19 @@
-// Reading PNG, by libpng.
+// Reading and writing PNG, by libpng.
 #include <png.h>
+#include <zlib.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/image/image_decoders.h"
 #include "io/read_file.h"
 
@@ -16,60 +22,77 @@ namespace whit {
 namespace {
 
 constexpr std::size_t kSignatureBytes = 8;
+constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
+// libpng allocates what a chunk of text claims to take before it reads any of it.
+constexpr png_alloc_size_t kTextBytesLimit = 8u << 20;
 
 // libpng reports errors by longjmp, so the functions that it may leave that way hold nothing that
-// has a destructor; this object lives outside of them.
+// has a destructor.
+struct Libpng {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  char message[160] = "";
+};
+
+void onError(png_structp png, png_const_charp message) {
+  auto* own = static_cast<Libpng*>(png_get_error_ptr(png));
+  std::snprintf(own->message, sizeof own->message, "%s", message);
+  png_longjmp(png, 1);
+}
+void onWarning(png_structp, png_const_charp) {}
+
 class PngReader {
  public:
   PngReader(const std::string& path, std::span<const std::uint8_t> file)
       : path_(path), file_(file) {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
-    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+    lib_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &lib_, onError, onWarning);
+    lib_.info = lib_.png != nullptr ? png_create_info_struct(lib_.png) : nullptr;
   }
-  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  ~PngReader() { png_destroy_read_struct(&lib_.png, &lib_.info, nullptr); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  // These throw badScene with the byte where reading stopped. First the size ...
+  // To be called in this order; each throws badScene with the byte where reading stopped.
   void readHeader() {
-    checkChunkLengths();
     guarded([this] {
-      png_set_read_fn(png_, this, onRead);
-      png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-      png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-      png_read_info(png_, info_);
+      png_set_read_fn(lib_.png, this, onRead);
+      png_set_user_limits(lib_.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+      png_set_chunk_malloc_max(lib_.png, kTextBytesLimit);
+      png_set_crc_action(lib_.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+      png_read_info(lib_.png, lib_.info);
     });
   }
-  // ... then how pixels are given out, as 8 bits for each of 1 to 4 channels ...
+  // Sets the output to 8 bits for each of 1 to 4 channels.
   void prepare() {
     guarded([this] {
-      png_set_expand(png_);
-      png_set_strip_16(png_);
-      passes_ = png_set_interlace_handling(png_);
-      png_read_update_info(png_, info_);
+      png_set_expand(lib_.png);
+      png_set_strip_16(lib_.png);
+      passes_ = png_set_interlace_handling(lib_.png);
+      png_read_update_info(lib_.png, lib_.info);
     });
   }
-  // ... then these, row behind row or, where `keep` is false, all in one; and the file's end.
-  void readPixels(std::uint8_t* codes, bool keep) {
-    guarded([this, codes, keep] {
+  // Reads the pixels row after row, and the end of the file.
+  void readPixels(std::uint8_t* codes) {
+    guarded([this, codes] {
       // More or other data than the image has means that the file is damaged.
-      png_set_benign_errors(png_, 0);
-      const std::size_t stride = keep ? rowBytes() : 0;
+      png_set_benign_errors(lib_.png, 0);
       for (int pass = 0; pass < passes_; ++pass) {
-        for (png_uint_32 y = 0; y < height(); ++y) png_read_row(png_, codes + y * stride, nullptr);
+        for (png_uint_32 y = 0; y < height(); ++y) {
+          png_read_row(lib_.png, codes + y * rowBytes(), nullptr);
+        }
       }
-      png_set_benign_errors(png_, 1);
-      png_read_end(png_, info_);
+      png_set_benign_errors(lib_.png, 1);
+      png_read_end(lib_.png, lib_.info);
     });
   }
 
-  png_uint_32 width() const { return png_get_image_width(png_, info_); }
-  png_uint_32 height() const { return png_get_image_height(png_, info_); }
-  int channels() const { return png_get_channels(png_, info_); }
-  std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
+  png_uint_32 width() const { return png_get_image_width(lib_.png, lib_.info); }
+  png_uint_32 height() const { return png_get_image_height(lib_.png, lib_.info); }
+  int channels() const { return png_get_channels(lib_.png, lib_.info); }
+  std::size_t rowBytes() const { return png_get_rowbytes(lib_.png, lib_.info); }
   ImageMetadata texts() const {
     png_textp texts = nullptr;
-    const int count = png_get_text(png_, info_, &texts, nullptr);
+    const int count = png_get_text(lib_.png, lib_.info, &texts, nullptr);
     ImageMetadata metadata;
     for (int i = 0; i < count; ++i) {
       metadata.emplace_back(texts[i].key, texts[i].text == nullptr ? "" : texts[i].text);
@@ -82,26 +105,10 @@ class PngReader {
   }
 
  private:
-  // libpng reserves memory for a chunk of text by the length that it claims, before any is read.
-  void checkChunkLengths() {
-    constexpr std::size_t kBesideData = 12;  // length, name and checksum
-    for (std::size_t at = kSignatureBytes; at < file_.size();) {
-      at_ = at;
-      if (file_.size() - at < kBesideData) refuse("the file is cut short");
-      std::size_t length = 0;
-      for (std::size_t i = 0; i < 4; ++i) length = length << 8 | file_[at + i];
-      const bool last = std::memcmp(&file_[at + 4], "IEND", 4) == 0;
-      if (length > file_.size() - at - kBesideData) refuse("the file is cut short");
-      if (last) break;
-      at += kBesideData + length;
-    }
-    at_ = 0;
-  }
-
   template <typename Use>
   void guarded(Use use) {
-    if (info_ == nullptr) throwLimit(path_ + ": no memory is left to read it");
-    if (setjmp(png_jmpbuf(png_)) != 0) refuse(message_);
+    if (lib_.info == nullptr) throwLimit(path_ + ": no memory is left to read it");
+    if (setjmp(png_jmpbuf(lib_.png)) != 0) refuse(lib_.message);
     use();
   }
 
@@ -111,31 +118,17 @@ class PngReader {
     std::memcpy(to, self->file_.data() + self->at_, size);
     self->at_ += size;
   }
-  [[noreturn]] static void onError(png_structp png, png_const_charp message) {
-    auto* self = static_cast<PngReader*>(png_get_error_ptr(png));
-    std::snprintf(self->message_, sizeof self->message_, "%s", message);
-    png_longjmp(png, 1);
-  }
-  static void onWarning(png_structp, png_const_charp) {}
 
   const std::string& path_;
   std::span<const std::uint8_t> file_;
   std::size_t at_ = 0;
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
+  Libpng lib_;
   int passes_ = 1;
-  char message_[160] = "";
 };
 
-}  // namespace
-
-bool isPng(std::span<const std::uint8_t> file) {
-  return file.size() >= kSignatureBytes && png_sig_cmp(file.data(), 0, kSignatureBytes) == 0;
-}
-
-RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits) {
-  constexpr std::uint64_t kMostFromOneByte = 1032;  // that deflate can make
+RawImage decode(const std::string& path, std::span<const std::uint8_t> file,
+                const ImageLimits& limits, ImageMetadata* texts) {
+  constexpr std::uint64_t kMostFromOneByte = 1032;  // of deflate
   PngReader reader(path, file);
   reader.readHeader();
   checkImageSize(path, reader.width(), reader.height(), 1, limits);
@@ -146,23 +139,173 @@ RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
   image.channels = reader.channels();
   image.held = holdImage(path, image.width, image.height,
                          static_cast<std::uint64_t>(image.channels), limits);
-  const std::size_t bytes = reader.rowBytes() * static_cast<std::size_t>(image.height);
   const std::uint64_t pixels = std::uint64_t{reader.width()} * reader.height();
   if (pixels / 8 / kMostFromOneByte > file.size()) reader.refuse("the file is cut short");
-  image.codes.resize(bytes);
-  reader.readPixels(image.codes.data(), true);
+  image.codes.resize(reader.rowBytes() * static_cast<std::size_t>(image.height));
+  reader.readPixels(image.codes.data());
+  if (texts != nullptr) *texts = reader.texts();
   return image;
+}
+
+bool isAscii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
+}
+
+// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, and the
+// keywords into `keywords`.
+std::vector<png_text> textChunks(const ImageMetadata& metadata,
+                                 std::vector<std::string>& keywords) {
+  std::vector<png_text> chunks;
+  keywords.reserve(metadata.size());
+  for (const auto& [name, text] : metadata) {
+    keywords.push_back(name.substr(0, kKeywordLimit));
+    png_text chunk{};
+    chunk.compression = isAscii(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+    chunk.key = keywords.back().data();
+    chunk.text = const_cast<char*>(text.c_str());  // libpng only reads it
+    chunk.text_length = text.size();
+    chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+// Rows of values in the form that libpng takes.
+struct Rows {
+  int width = 0, height = 0, bits = 8;
+  int colorType = PNG_COLOR_TYPE_RGB;
+  bool isSrgb = true;
+  bool hasFiller = false;  // pixels have a fourth value, which is not written
+  const std::uint8_t* first = nullptr;
+  std::size_t stride = 0;  // bytes
+};
+
+Rows rowsOf(const DisplayImage& image) {
+  return {image.width,
+          image.height,
+          8,
+          PNG_COLOR_TYPE_RGB,
+          true,
+          true,
+          image.rgba.data(),
+          std::size_t{4} * static_cast<std::size_t>(image.width)};
+}
+
+// Most significant byte first.
+std::vector<std::uint8_t> bytesOf(const DeepImage& image) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(2 * image.values.size());
+  for (const std::uint16_t value : image.values) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
+  }
+  return bytes;
+}
+
+// Returns false on an error, which `writer.message` describes.
+bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* texts,
+           int textCount) {
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
+  if (writer.png == nullptr) return false;
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  writer.info = png_create_info_struct(writer.png);
+  if (writer.info == nullptr) return false;
+  png_init_io(writer.png, file);
+  const auto width = static_cast<png_uint_32>(rows.width);
+  const auto height = static_cast<png_uint_32>(rows.height);
+  png_set_IHDR(writer.png, writer.info, width, height, rows.bits, rows.colorType,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // Films need fast compression. Compared with libpng's defaults, this takes a fourth to a tenth of
+  // the time for six shipped scenes at 1280x720, and makes files 1 to 13 % larger (44 % for the
+  // flat areas of `matte`). libdeflate at its first level is no faster.
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_strategy(writer.png, Z_RLE);
+  if (rows.isSrgb) {
+    png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+  }
+  if (textCount > 0) png_set_text(writer.png, writer.info, texts, textCount);
+  png_write_info(writer.png, writer.info);
+  if (rows.hasFiller) png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
+  for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows.first + y * rows.stride);
+  png_write_end(writer.png, writer.info);
+  return true;
+}
+
+// Throws Error(io) naming `what`; closes the file in any case.
+void writeTo(std::FILE* file, const std::string& what, const Rows& rows,
+             const ImageMetadata& metadata) {
+  std::vector<std::string> keywords;
+  const std::vector<png_text> texts = textChunks(metadata, keywords);
+  Libpng writer;
+  const bool written = write(writer, file, rows, texts.data(), static_cast<int>(texts.size()));
+  const int error = errno;  // of the last write, if it failed
+  png_destroy_write_struct(&writer.png, &writer.info);
+  const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
+  const bool closed = std::fclose(file) == 0;
+  if (!written) throwIo(what, "cannot write '" + what + "': " + reason);
+  if (!closed) throwIo(what, "cannot write '" + what + "': " + std::strerror(errno));
+}
+
+void requirePixels(const std::string& what, const DisplayImage& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
+                               static_cast<std::size_t>(image.height))
+    throwUsage("cannot write '" + what + "': the image has no pixels");
+}
+
+void writeFile(const std::string& path, const Rows& rows, const ImageMetadata& metadata) {
+  AtomicFile target(path);
+  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
+  if (file == nullptr) throwIo(path, "cannot write '" + path + "': " + std::strerror(errno));
+  writeTo(file, path, rows, metadata);
+  target.commit();
+}
+
+}  // namespace
+
+bool isPng(std::span<const std::uint8_t> file) {
+  return file.size() >= kSignatureBytes && png_sig_cmp(file.data(), 0, kSignatureBytes) == 0;
+}
+
+RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
+                   const ImageLimits& limits) {
+  return decode(path, file, limits, nullptr);
 }
 
 ImageMetadata readPngMetadata(const std::string& path) {
   const std::string file = readFile(path, ImageLimits().bytes);
-  PngReader reader(path, asBytes(file));
-  reader.readHeader();
-  checkImageSize(path, reader.width(), reader.height(), 1, ImageLimits());
-  reader.prepare();
-  std::vector<std::uint8_t> row(reader.rowBytes());
-  reader.readPixels(row.data(), false);
-  return reader.texts();
+  ImageMetadata texts;
+  decode(path, asBytes(file), ImageLimits(), &texts);
+  return texts;
+}
+
+void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
+  requirePixels(path, image);
+  writeFile(path, rowsOf(image), metadata);
+}
+
+void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
+              const ImageMetadata& metadata) {
+  if (image.values.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
+  const std::vector<std::uint8_t> bytes = bytesOf(image);
+  const int colorType = image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+  const auto width = static_cast<std::size_t>(image.width);
+  writeFile(path,
+            {image.width, image.height, 16, colorType, isSrgb, false, bytes.data(),
+             2 * width * static_cast<std::size_t>(image.channels)},
+            metadata);
+}
+
+std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
+  requirePixels("a PNG", image);
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  std::FILE* file = open_memstream(&bytes, &size);
+  if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
+  // This function owns the buffer after the stream was flushed, even if an error is thrown.
+  const auto release = [](char** buffer) { std::free(*buffer); };
+  const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
+  writeTo(file, "a PNG", rowsOf(image), metadata);
+  return {bytes, size};
 }
 
 }  // namespace whit

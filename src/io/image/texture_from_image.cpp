@@ -13,7 +13,7 @@ std::size_t texelCount(const RawImage& raw) {
   return static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
 }
 
-// Channel `c` of texel `i`, as stored.
+// Channel `c` of texel `i` as stored, codes as fractions of 255.
 float channel(const RawImage& raw, std::size_t i, int c) {
   const std::size_t at = i * static_cast<std::size_t>(raw.channels) + static_cast<std::size_t>(c);
   return raw.linear ? raw.values[at] : static_cast<float>(raw.codes[at]) / 255.0f;
@@ -23,7 +23,7 @@ int wrapped(int i, int size, Wrap wrap) {
   return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
 }
 
-// The channels of pixel `i` as r, g, b, a; `one` is what a missing alpha is.
+// The channels of pixel `i` as r, g, b, a; `one` replaces a missing alpha.
 template <typename Value>
 std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, std::size_t i,
                                 Value one) {
@@ -40,8 +40,7 @@ std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, 
   }
 }
 
-// The 10 bits that a color texel keeps of each sRGB code: the same for every image, so the square
-// roots are taken once.
+// The 10 bits of a color texel for each sRGB code, computed once because they need square roots.
 const std::array<std::uint32_t, 256>& colorBitsOfCode() {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> bits{};
@@ -67,7 +66,7 @@ std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
   return encodeTexel({v[0], v[1], v[2]}, format);
 }
 
-// The pixels of a linear image of which some color is larger.
+// Counts the pixels of a linear image with a color above the limit.
 std::uint64_t countAbove(const RawImage& raw, float limit) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; raw.linear && i < texelCount(raw); ++i) {
@@ -85,13 +84,12 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
   texture.format = format;
   texture.width = raw.width;
   texture.height = raw.height;
-  const std::size_t count = texelCount(raw);
-  texture.texels.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    texture.texels.push_back(
+  texture.texels.resize(texelCount(raw));
+  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+    texture.texels[i] =
         raw.linear
             ? texelOfValues(channelsOf(raw.values, raw.channels, i, 1.0f), format)
-            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format));
+            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format);
   }
   return texture;
 }
@@ -120,16 +118,10 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   const std::size_t count = texelCount(raw);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::array<float, 4> value{};
-    if (raw.linear) {
-      value = channelsOf(raw.values, raw.channels, i, 1.0f);
-    } else {
-      const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
-      for (std::size_t c = 0; c < 3; ++c) value[c] = linearOfCode(codes[c]);
-    }
-    environment.r[i] = value[0];
-    environment.g[i] = value[1];
-    environment.b[i] = value[2];
+    const Rgb value = linearPixel(raw, i);
+    environment.r[i] = value.x;
+    environment.g[i] = value.y;
+    environment.b[i] = value.z;
   }
   return environment;
 }
@@ -162,7 +154,7 @@ RawImage alphaOf(const RawImage& raw) {
 
 bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
-  constexpr float kChromaNoise = 16.0f / 255.0f;  // of a gray picture stored as JPEG
+  constexpr float kChromaNoise = 16.0f / 255.0f;  // in gray pictures stored as JPEG
   const std::size_t count = texelCount(raw);
   for (std::size_t i = 0; i < count; ++i) {
     const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);

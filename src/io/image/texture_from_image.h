@@ -1,4 +1,4 @@
-// Decoded images as what shading reads: textures, environments, alpha channels, height maps.
+// Converts decoded images to what shading reads: textures, environments, normal maps.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace whit {
 
-// A texture of the given format. Color textures decode sRGB from 8-bit codes; data textures take
-// codes as they are. One channel serves as r, g and b, the second or fourth as alpha; a missing
+// Makes a texture of the given format. Color textures decode sRGB from 8-bit codes; data textures
+// take codes as they are. A single channel is r, g and b, the second or fourth is alpha; a missing
 // alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
 // Counts the texels of an image of reflectances that makeTexture() clamps to 1.
@@ -20,23 +20,23 @@ void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings&
 Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings);
 TexelFormat emissionFormat(const RawImage& raw);
 std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format);  // of color or radiance
-// Linear light; 8-bit codes are decoded from sRGB. One channel serves as r, g and b.
+// Makes an environment of linear light, see linearPixel().
 EnvironmentImage makeEnvironment(const RawImage& raw);
 
 // True if there is an alpha channel (2 or 4 channels) with a texel below opaque.
 bool hasTranslucentAlpha(const RawImage& raw);
-// The alpha channel as an image of one channel.
+// Returns the alpha channel as an image of one channel.
 RawImage alphaOf(const RawImage& raw);
 
-// True if an image named as a bump map holds heights: one or two channels, or gray. Normal maps are
+// Returns true if a bump map holds heights: it has one or two channels, or is gray. Normal maps are
 // never gray: their blue is near 1 where red and green are near 1/2.
 bool looksLikeHeights(const RawImage& raw);
 
-// The width of a tile, in heights: `-bm 1` raises white above black by 1/kTileHeights of the tile.
-// The MTL format leaves that open; this value gives common bump maps a visible, moderate relief.
+// Width of a tile in heights: `-bm 1` raises white above black by 1/kTileHeights of the tile. The
+// MTL format does not define it; this value gives common bump maps a visible, moderate relief.
 inline constexpr float kTileHeights = 64;
 
-// Tangent-space normals (data; +y towards greater v) of the height field in the first channel, by
+// Makes tangent-space normals (data; +y towards greater v) from the heights in the first channel by
 // central differences.
 Texture normalsFromHeights(const std::string& name, const RawImage& raw, float bumpScale,
                            Wrap wrapU, Wrap wrapV);

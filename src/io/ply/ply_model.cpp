@@ -1,6 +1,5 @@
 // PLY files as models: vertices with normals and texture coordinates, faces of any number of
-// corners. Own code: the format is small, and the errors here name a line and nothing is allocated
-// that the file cannot fill.
+// corners. Errors name a line, and nothing is allocated that the file cannot fill.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -30,14 +29,13 @@ namespace whit {
 
 namespace {
 
-// PLY files, the header: what the data that follows it looks like. G. Turk, "The PLY Polygon File
-// Format", 1994.
+// The header (G. Turk, "The PLY Polygon File Format", 1994) says how the data after it is stored.
 
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;  // of a list: of its items
+  PlyType type = PlyType::float32;  // of each value of a list
   bool isList = false;
   PlyType countType = PlyType::uint8;
 };
@@ -47,9 +45,9 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // The least that one of them takes in the file; with lists that are empty.
+  // Lower bound on the bytes of one element in the file: its lists are empty.
   std::uint64_t leastBytes(bool ascii) const;
-  // Where the property of this name is, or properties.size().
+  // Index of the property with this name, properties.size() if there is none.
   std::size_t find(std::string_view property) const;
 };
 
@@ -64,21 +62,38 @@ struct PlyHeader {
 constexpr std::uint64_t kLineLimit = 4096;
 constexpr std::size_t kLineBytesLimit = 4096;
 
-const std::map<std::string, PlyType>& typeNames() {
-  static const std::map<std::string, PlyType> names = {
-      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
-      {"float64", PlyType::float64}};
-  return names;
+template <typename T>
+double valueOf(const char* data, bool reversed) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), data, sizeof(T));
+  if (reversed) std::reverse(bytes.begin(), bytes.end());
+  return static_cast<double>(std::bit_cast<T>(bytes));
 }
+
+struct PlyTypeInfo {
+  const char* name;
+  const char* otherName;
+  std::size_t bytes;
+  double (*value)(const char* data, bool reversed);
+};
+constexpr std::array<PlyTypeInfo, 8> kTypes = {{{"char", "int8", 1, valueOf<std::int8_t>},
+                                                {"uchar", "uint8", 1, valueOf<std::uint8_t>},
+                                                {"short", "int16", 2, valueOf<std::int16_t>},
+                                                {"ushort", "uint16", 2, valueOf<std::uint16_t>},
+                                                {"int", "int32", 4, valueOf<std::int32_t>},
+                                                {"uint", "uint32", 4, valueOf<std::uint32_t>},
+                                                {"float", "float32", 4, valueOf<float>},
+                                                {"double", "float64", 8, valueOf<double>}}};
+
+const PlyTypeInfo& infoOf(PlyType type) { return kTypes[static_cast<std::size_t>(type)]; }
 
 class HeaderReader {
  public:
+  // `text` is the whole file.
   HeaderReader(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
+  // Throws badScene "file:line" where the file does not begin with a header, or where more elements
+  // are named than fit into the data.
   PlyHeader read() {
     if (nextLine() != std::vector<std::string>{"ply"}) fail("expected a line \"ply\"");
     for (;;) {
@@ -107,7 +122,7 @@ class HeaderReader {
     throwBadScene(file_ + ":" + std::to_string(line_), what);
   }
 
-  // Its words; lines end as on any system.
+  // The words of the next line, which may end as on any system.
   std::vector<std::string> nextLine() {
     ++line_;
     const std::size_t end = text_.find_first_of("\r\n", at_);
@@ -149,9 +164,10 @@ class HeaderReader {
   }
 
   PlyType type(const std::string& word) const {
-    const auto known = typeNames().find(word);
-    if (known == typeNames().end()) fail("\"" + word + "\" is no type of a property");
-    return known->second;
+    for (std::size_t i = 0; i < kTypes.size(); ++i) {
+      if (word == kTypes[i].name || word == kTypes[i].otherName) return static_cast<PlyType>(i);
+    }
+    fail("\"" + word + "\" is no type of a property");
   }
 
   void property(const std::vector<std::string>& words) {
@@ -190,15 +206,11 @@ class HeaderReader {
   PlyHeader header_;
 };
 
-std::size_t bytesOf(PlyType type) {
-  constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[static_cast<std::size_t>(type)];
-}
-
 std::uint64_t PlyElement::leastBytes(bool ascii) const {
   std::uint64_t bytes = 0;
   for (const PlyProperty& p : properties) {
-    bytes += ascii ? 2 : bytesOf(p.isList ? p.countType : p.type);  // a digit and a blank
+    bytes +=
+        ascii ? 2 : infoOf(p.isList ? p.countType : p.type).bytes;  // at least a digit and a blank
   }
   return bytes;
 }
@@ -209,118 +221,82 @@ std::size_t PlyElement::find(std::string_view property) const {
   return i;
 }
 
-// Throws badScene "file:line" where `text`, the whole file, does not begin with a header, or where
-// an element cannot fit into what follows it.
-PlyHeader readPlyHeader(const std::string& text, const std::string& file) {
-  return HeaderReader(text, file).read();
-}
-
-// PLY files, the data: one number after the other, as text or as bytes.
+// The data after the header: one number after the other, as text or as bytes.
+bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 class PlyData {
  public:
   // Reads `text`, the whole file, from the end of its header on.
   PlyData(const std::string& text, const PlyHeader& header, std::string file)
-      : text_(text), file_(std::move(file)), format_(header.format), at_(header.bytes) {
-    line_ = header.lines + 1;
+      : text_(text),
+        file_(std::move(file)),
+        format_(header.format),
+        at_(header.bytes),
+        line_(header.lines + 1) {}
+
+  // Reads an element and calls use(number of the property, value) for each of its values. Throws
+  // badScene with place() where a number is missing.
+  template <typename Use>
+  void read(const PlyElement& element, Use&& use) {
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      const std::uint64_t count = property.isList ? listLength(property) : 1;
+      for (std::uint64_t i = 0; i < count; ++i) use(p, number(property.type));
+    }
   }
 
-  // Throw badScene with place() where there is no such number.
-  double number(PlyType type);
-  std::uint64_t listLength(const PlyProperty& property);
-  void skip(const PlyElement& element);
-
   // "file:line", or "file" and the byte.
-  std::string place() const;
+  std::string place() const {
+    if (format_ == PlyHeader::Format::ascii) return file_ + ":" + std::to_string(line_);
+    return file_ + ": byte " + std::to_string(at_);
+  }
 
  private:
-  double textNumber();
-  double binaryNumber(PlyType type);
+  double number(PlyType type) {
+    return format_ == PlyHeader::Format::ascii ? textNumber() : binaryNumber(type);
+  }
+
+  double textNumber() {
+    for (; at_ < text_.size() && isPlySpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    double value = 0;
+    const char* const end = text_.data() + text_.size();
+    const char* const rest = parseNumber(text_.data() + at_, end, value);
+    if (rest == nullptr || (rest != end && !isPlySpace(*rest))) {
+      throwBadScene(place(), "expected a number");
+    }
+    at_ = static_cast<std::size_t>(rest - text_.data());
+    return value;
+  }
+
+  double binaryNumber(PlyType type) {
+    const std::size_t size = infoOf(type).bytes;
+    if (text_.size() - at_ < size) {
+      throwBadScene(place(), "expected a number, found the file's end");
+    }
+    const char* const data = text_.data() + at_;
+    at_ += size;
+    const bool little = format_ == PlyHeader::Format::littleEndian;
+    return infoOf(type).value(data, little != (std::endian::native == std::endian::little));
+  }
+
+  std::uint64_t listLength(const PlyProperty& property) {
+    const double length = number(property.countType);
+    const std::size_t least = format_ == PlyHeader::Format::ascii ? 2 : infoOf(property.type).bytes;
+    const std::size_t most = (text_.size() - at_ + 1) / least;
+    if (!(length >= 0 && length <= static_cast<double>(most) && length == std::floor(length))) {
+      throwBadScene(place(), "expected a list that fits into the rest of the file");
+    }
+    return static_cast<std::uint64_t>(length);
+  }
 
   const std::string& text_;
   std::string file_;
   PlyHeader::Format format_;
   std::size_t at_;
-  std::uint64_t line_ = 1;
+  std::uint64_t line_;
 };
 
-template <typename T>
-double valueOf(const char* data, bool reversed) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), data, sizeof(T));
-  if (reversed) std::reverse(bytes.begin(), bytes.end());
-  return static_cast<double>(std::bit_cast<T>(bytes));
-}
-
-bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-double PlyData::number(PlyType type) {
-  return format_ == PlyHeader::Format::ascii ? textNumber() : binaryNumber(type);
-}
-
-double PlyData::textNumber() {
-  for (; at_ < text_.size() && isPlySpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
-  double value = 0;
-  const char* const end = text_.data() + text_.size();
-  const char* const rest = parseNumber(text_.data() + at_, end, value);
-  if (rest == nullptr || (rest != end && !isPlySpace(*rest))) {
-    throwBadScene(place(), "expected a number");
-  }
-  at_ = static_cast<std::size_t>(rest - text_.data());
-  return value;
-}
-
-double PlyData::binaryNumber(PlyType type) {
-  const std::size_t size = bytesOf(type);
-  if (text_.size() - at_ < size) throwBadScene(place(), "expected a number, found the file's end");
-  const char* data = text_.data() + at_;
-  at_ += size;
-  const bool little = format_ == PlyHeader::Format::littleEndian;
-  const bool reversed = little != (std::endian::native == std::endian::little);
-  switch (type) {
-    case PlyType::int8:
-      return valueOf<std::int8_t>(data, reversed);
-    case PlyType::uint8:
-      return valueOf<std::uint8_t>(data, reversed);
-    case PlyType::int16:
-      return valueOf<std::int16_t>(data, reversed);
-    case PlyType::uint16:
-      return valueOf<std::uint16_t>(data, reversed);
-    case PlyType::int32:
-      return valueOf<std::int32_t>(data, reversed);
-    case PlyType::uint32:
-      return valueOf<std::uint32_t>(data, reversed);
-    case PlyType::float32:
-      return valueOf<float>(data, reversed);
-    case PlyType::float64:
-      return valueOf<double>(data, reversed);
-  }
-  return 0;
-}
-
-std::uint64_t PlyData::listLength(const PlyProperty& property) {
-  const double length = number(property.countType);
-  const std::size_t least = format_ == PlyHeader::Format::ascii ? 2 : bytesOf(property.type);
-  const std::size_t most = (text_.size() - at_ + 1) / least;
-  if (!(length >= 0 && length <= static_cast<double>(most) && length == std::floor(length))) {
-    throwBadScene(place(), "expected a list that fits into the rest of the file");
-  }
-  return static_cast<std::uint64_t>(length);
-}
-
-void PlyData::skip(const PlyElement& element) {
-  for (const PlyProperty& property : element.properties) {
-    const std::uint64_t count = property.isList ? listLength(property) : 1;
-    for (std::uint64_t i = 0; i < count; ++i) number(property.type);
-  }
-}
-
-std::string PlyData::place() const {
-  if (format_ == PlyHeader::Format::ascii) return file_ + ":" + std::to_string(line_);
-  return file_ + ": byte " + std::to_string(at_);
-}
-
-// Which component of a vertex a property is.
+// The components of a vertex.
 enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kComponents };
 
 Component componentOf(const std::string& name) {
@@ -360,7 +336,7 @@ class PlyReader {
  public:
   PlyReader(const std::string& text, const std::string& file, MemoryBudget& budget,
             Warnings& warnings)
-      : header_(readPlyHeader(text, file)),
+      : header_(HeaderReader(text, file).read()),
         data_(text, header_, file),
         file_(file),
         budget_(budget),
@@ -370,7 +346,7 @@ class PlyReader {
     budget.charge(text.size() / (ascii ? 2 : 1), sizeof(mesh_.triangles[0]), file);
   }
 
-  // Faces that come before their vertices are passed over and read in the end.
+  // Faces in front of their vertices are skipped first, and read at the end.
   Mesh read() {
     std::vector<std::pair<const PlyElement*, PlyData>> early;
     std::uint64_t faces = 0;
@@ -384,7 +360,9 @@ class PlyReader {
         readFaces(element, data_);
       } else {
         if (isFaces) early.emplace_back(&element, data_);
-        for (std::uint64_t i = 0; i < element.count; ++i) data_.skip(element);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+          data_.read(element, [](std::size_t, double) {});
+        }
         if (!isFaces && element.count > 0) {
           warnings_.add("elements of a kind that is not shown", file_);
         }
@@ -438,15 +416,11 @@ class PlyReader {
   std::array<float, kComponents> readVertex(const PlyElement& element,
                                             const std::vector<Component>& components) {
     std::array<float, kComponents> values{};
-    for (std::size_t p = 0; p < components.size(); ++p) {
-      const PlyProperty& property = element.properties[p];
-      const std::uint64_t count = property.isList ? data_.listLength(property) : 1;
-      for (std::uint64_t i = 0; i < count; ++i) {
-        double value = data_.number(property.type);
-        if (components[p] >= kR) value = linearColor(value, property.type);
-        if (components[p] != kComponents) values[components[p]] = static_cast<float>(value);
-      }
-    }
+    data_.read(element, [&](std::size_t p, double value) {
+      if (components[p] == kComponents) return;
+      if (components[p] >= kR) value = linearColor(value, element.properties[p].type);
+      values[components[p]] = static_cast<float>(value);
+    });
     return values;
   }
 
@@ -459,20 +433,14 @@ class PlyReader {
     }
     warnAboutFaces(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        const PlyProperty& property = element.properties[p];
-        const std::uint64_t count = property.isList ? data.listLength(property) : 1;
-        face_.clear();
-        for (std::uint64_t k = 0; k < count; ++k) {
-          const double value = data.number(property.type);
-          if (p == corners) face_.push_back(value);
-        }
-        if (p != corners) continue;
-        if (element.name == "face") {
-          addFace(data);
-        } else {
-          addStrips(data);
-        }
+      face_.clear();
+      data.read(element, [&](std::size_t p, double value) {
+        if (p == corners) face_.push_back(value);
+      });
+      if (element.name == "face") {
+        addFace(data);
+      } else {
+        addStrips(data);
       }
     }
   }
@@ -488,7 +456,7 @@ class PlyReader {
     }
   }
 
-  // False: there is no such vertex.
+  // Returns false if there is no such vertex.
   bool addCorner(double corner) {
     const bool exists = corner >= 0 && corner < static_cast<double>(mesh_.positions.size());
     if (!exists || corner != std::floor(corner)) return false;
@@ -546,9 +514,9 @@ class PlyReader {
 
 class PlyModel : public Model {
  public:
-  // Reads all of it. Elements other than vertex, face and tristrips are passed over; faces that
-  // name vertices that are not there are counted. Colors of vertices are
-  // sRGB where they are whole numbers, as scanners and their tools write them, else linear.
+  // Reads the whole file. Elements other than vertex, face and tristrips are skipped; faces with
+  // vertices out of range are counted. Integer colors of vertices are sRGB, as scanners and their
+  // tools write them; others are linear.
   PlyModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
            Warnings& warnings);
 
