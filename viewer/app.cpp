@@ -7,7 +7,7 @@
 #include "bake/move_scene.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "viewer/inspector.h"
+#include "viewer/overlay.h"
 #include "viewer/panel.h"
 
 namespace whit::view {
@@ -325,13 +325,13 @@ void App::draw() {
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
   if (settings_.shown && shown_.scene) {
-    Panel::drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
+    drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
   }
   inspectPointed();
   if (!error_.empty()) {
-    if (!Panel::drawError(error_)) error_.clear();
+    if (!drawError(error_)) error_.clear();
   } else if (settings_.shown && messageSeconds_ > 0) {
-    Panel::drawMessage(message_);
+    drawMessage(message_);
   }
   window_.end();
   if (scripted_) scripted_->drawn();

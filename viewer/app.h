@@ -3,10 +3,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
+#include "core/stopwatch.h"
 #include "core/usable_threads.h"
 #include "viewer/camera_control.h"
-#include "viewer/frame_rate.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
@@ -20,6 +21,29 @@ struct ViewOptions {
   std::string scene;  // as given
   DebugView view = DebugView::none;
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
+};
+
+// Counts the pictures a second that are seen while something moves.
+class FrameRate {
+ public:
+  // A picture has come; `moving`: of a view that moves.
+  void fetched(bool moving) {
+    const double ms = std::exchange(since_, Stopwatch()).ms();
+    if (moving && moving_) {
+      constexpr double kNewest = 0.2;  // weight of the newest picture
+      meanMs_ = meanMs_ > 0 ? meanMs_ + kNewest * (ms - meanMs_) : ms;
+    } else {
+      meanMs_ = 0;
+    }
+    moving_ = moving;
+  }
+  // 0: nothing moves.
+  double perSecond() const { return moving_ && meanMs_ > 0 ? 1000 / meanMs_ : 0; }
+
+ private:
+  Stopwatch since_;  // the last one
+  double meanMs_ = 0;
+  bool moving_ = false;
 };
 
 // Takes the place of keys, mouse and clock: tests play scripts.

@@ -8,6 +8,9 @@
 
 namespace whit::view {
 
+// Against the reference: not at all, side by side, or as a map of the differences.
+enum class CompareMode { off, split, heatMap };
+
 // Grows row by row from the top while the reference is traced.
 struct Comparison {
   Film reference;  // rows [0, rows) are done

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "viewer/ray_panel.h"
@@ -11,13 +12,8 @@
 
 namespace whit::view {
 
-// Against the reference: not at all, side by side, or as a map of the differences.
-enum class CompareMode { off, split, heatMap };
-
 inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
-
-inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
 
 // What the user can change here.
 struct PanelSettings {
@@ -50,14 +46,6 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
-// ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
-// empty where that is not known.
-std::string errorText(double sampleError);
-// "100 of 256 samples, within about 0.8 %": of a picture that gets more and more of them.
-std::string samplesText(const UnfinishedFrame& frame);
-// "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
-std::string sharpnessText(const FrameRequest& request);
-
 // Whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
@@ -69,13 +57,6 @@ class Panel {
   // edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
             const SkyChoice& ownSky, ShadingEdit& scene) const;
-  // In a corner of the window, what is on screen, how fast it comes, what is on its way, and what
-  // the colors of a view stand for.
-  static void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
-  // Lines at the bottom of the window: an error stays until it is clicked away.
-  static void drawMessage(const std::string& message);
-  // Returns false when it was clicked away.
-  static bool drawError(const std::string& error);
 
  private:
   void drawTimes(const TracedFrame& frame) const;
@@ -101,15 +82,15 @@ void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
 // Lists the costs that can be told from noise, the largest first.
 void drawMeasured(const std::vector<KnobCost>& costs);
 
-// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's. Returns
-// whether something was changed. Between ImGui's Begin and End.
-bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene);
+// scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
+// picked; `ownSky` is the scene's. Returns whether something was changed.
+bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene);
 
-// Color and strength of what has no upper limit but `largest`. Likewise.
-bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value);
-
-// Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
-// window's width; with `words` also what is what, and what is known about their difference.
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
+// app_keys.cpp: the keys, and what they do.
+struct KeyHelp {
+  const char* keys;
+  const char* text;
+};
+std::span<const KeyHelp> keyHelp();
 
 }  // namespace whit::view

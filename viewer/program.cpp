@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "viewer/app.h"
-#include "viewer/keys.h"
 
 namespace whit::view {
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include "viewer/ray_pick.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/formatted.h"
-#include "viewer/panel.h"
+#include "viewer/overlay.h"
 
 namespace whit::view {
 

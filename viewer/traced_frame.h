@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/app/open_scene.h"
+#include "cli/app/explained_rays.h"
 #include "inspect/debug_view.h"
+#include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
 #include "viewer/comparison.h"
 #include "viewer/knob_costs.h"
-#include "viewer/sky_choice.h"
+#include "viewer/shading_edit.h"
 
 namespace whit::view {
 
@@ -63,29 +64,6 @@ inline double samplesOf(const FrameRequest& request) {
   return static_cast<double>(size.width) * size.height * request.spp;
 }
 
-// Whether both give the same light under the same sky.
-inline bool sameAmbient(const Ambient& a, Ambient b) {
-  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // they follow from it
-  return a == b;
-}
-
-// What a user makes of a scene's surfaces, lights and surroundings; see scene/edit_shading.h.
-struct ShadingEdit {
-  std::shared_ptr<const cli::OpenScene> scene;  // that was edited
-  std::vector<Material> materials;
-  std::vector<Light> lights;
-  SkyChoice sky;
-  Ambient ambient;                    // of one from the sky only the strength counts
-  std::vector<std::string> settings;  // that amount to the same when the scene is read
-};
-// As it has been read, before any edit.
-ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
-
-// What differs between a scene as it was read and as it was edited, as values of --set: read again
-// with these as well, it has the same materials, lights, sky and ambient light, bit for bit. Those
-// of the sky are for a scene that is read without --sky.
-std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
-
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
@@ -119,6 +97,36 @@ struct UnfinishedFrame {
   // Of a picture that gets more and more samples: that are shown, and SampleSums::relativeError().
   int samples = 0;
   double sampleError = 0;
+};
+
+// The rays of a pixel that the user points at: the question to the tracing thread, and its answer.
+struct RayQuery {
+  Camera camera;
+  RenderOptions options;  // as for a whole picture; the size must be there
+  int x = 0, y = 0;       // from the top left
+  int reloads = 0, edits = 0;
+  std::optional<double> seconds;  // of the picture on screen; the answer is that of the scene's
+};
+
+// Whether the answer to one is that to the other.
+inline bool sameRays(const RayQuery& a, const RayQuery& b) {
+  return sameView(a.camera, b.camera) && a.options == b.options && a.x == b.x && a.y == b.y &&
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+}
+
+// Of a node. The scene itself may be edited by the time that they are read.
+struct RayWords {
+  std::string met, medium;
+  std::string parting;              // empty: here the reference does not part
+  std::vector<std::string> lights;  // by name, as the node has them
+};
+
+struct RayPick {
+  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing was picked
+  RayQuery query;
+  cli::ExplainedRays rays;
+  std::vector<RayWords> words;  // of the packets' nodes
+  std::vector<RayLine> lines;   // of the packets
 };
 
 }  // namespace whit::view

@@ -1,9 +1,12 @@
-// Edits as settings of the scene.
+#include "viewer/shading_edit.h"
+
+#include <filesystem>
 #include <set>
 
 #include "io/scene/describe_scene.h"
+#include "io/scene/named_sky.h"
 #include "io/scene/scene_view.h"
-#include "viewer/traced_frame.h"
+#include "make/studio_sky.h"
 
 namespace whit::view {
 
@@ -43,6 +46,30 @@ void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
 }
 
 }  // namespace
+
+SkyChoice skyOf(const cli::OpenScene& scene) {
+  const Sky& sky = scene.scene.sky;
+  SkyChoice choice{"", sky.kind, sky.scale, sky.rotation};
+  if (!scene.sky.empty()) {
+    choice.source = chooseSky(scene.sky).source;
+  } else if (sky.name == kStudio) {
+    choice.source = kStudio;
+  }
+  return choice;
+}
+
+SkyChoice chooseSky(const std::string& source) {
+  if (source == kNoSky) return {source};
+  if (source == kStudio) return {source, Sky::Kind::image};
+  return {std::filesystem::absolute(source).lexically_normal().string(), Sky::Kind::image};
+}
+
+Json describeSky(const SkyChoice& sky) {
+  if (sky.kind == Sky::Kind::none) return {{"color", 0}};
+  Json json{{"scale", describe(sky.scale)}, {"rotation", describe(sky.rotation)}};
+  json[sky.source == kStudio ? "preset" : "image"] = sky.source;
+  return json;
+}
 
 ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene) {
   return {scene,         scene->scene.materials, scene->scene.lights,
