@@ -1,4 +1,4 @@
-// What keys and mouse do.
+// The actions of keys and mouse.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -104,7 +104,7 @@ void App::handleInput() {
   if (!input.dropped.empty()) openFile(input.dropped.front());
 }
 
-void App::doWhatThePanelAsks() {
+void App::servePanel() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
@@ -113,13 +113,14 @@ void App::doWhatThePanelAsks() {
   }
 }
 
-// That makes the picture shown.
+// Returns the command that makes the picture shown.
 std::string App::command() const {
   const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, shown_.options);
 }
 
-// That make it, but of a view that is not sharp yet as it will be with the samples asked for.
+// Returns the options of the picture shown; for a view that is not sharp yet, those that it will
+// have when it is.
 RenderOptions App::viewOptions() const {
   RenderOptions options = shown_.options;
   if (shown_.request.coarse || !shown_.request.interruptible) {
@@ -145,10 +146,10 @@ void App::handleKey(int key) {
       {GLFW_KEY_R, [&] { reload(); }},
       {GLFW_KEY_F12, [&] { savePicture(); }},
       {GLFW_KEY_C, [&] { printView(); }},
-      // How the picture is made and shown.
+      // The picture.
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
       {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
-      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // the plus of many keyboards, without Shift
+      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // many keyboards have plus there, with Shift
       {GLFW_KEY_KP_ADD, [&] { stepScale(1); }},
       {GLFW_KEY_MINUS, [&] { stepScale(-1); }},
       {GLFW_KEY_KP_SUBTRACT, [&] { stepScale(-1); }},

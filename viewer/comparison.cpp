@@ -8,7 +8,7 @@ namespace {
 
 std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
-// Without the scale that heatMap() draws beneath: panels would cover it.
+// Removes the scale that heatMap() draws below the map, which panels would cover.
 DisplayImage withoutScale(const DisplayImage& map, int width, int height) {
   DisplayImage image{width, height, {}};
   image.rgba.resize(static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height));

@@ -1,4 +1,4 @@
-// A frame against the scalar reference's picture of the same view.
+// The comparison of a frame with the scalar reference's picture of the same view.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace whit::view {
 
-// Against the reference: not at all, side by side, or as a map of the differences.
+// How the frame is compared with the reference.
 enum class CompareMode { off, split, heatMap };
 
 // Grows row by row from the top while the reference is traced.
@@ -16,7 +16,7 @@ struct Comparison {
   Film reference;  // rows [0, rows) are done
   int rows = 0;
   double referenceMs = 0;
-  // Once all rows are done:
+  // These two are set when all rows are done:
   std::optional<ImageDifference> difference;
   DisplayImage heatMap;  // as large as the frame
 
@@ -29,7 +29,7 @@ struct Comparison {
 // Measures how far `frame` is from the finished reference. Throws as compareImages().
 void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison);
 
-// The frame left of column `split`, the reference, as far as it is done, right of it.
+// Returns the frame left of column `split` and the rows of the reference that are done right of it.
 DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
 
 }  // namespace whit::view

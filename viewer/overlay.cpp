@@ -85,8 +85,8 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-// The line behind the panels, over the picture; the words above all: in a small window a panel may
-// lie where they belong.
+// The line lies behind the panels and the words above them, because in a small window a panel may
+// cover their place.
 void drawSplit(double split, bool labels) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -99,7 +99,7 @@ void drawSplit(double split, bool labels) {
   drawLabel(ImVec2(x + gap, y), "reference");
 }
 
-// In short lines, which have room beside the panel in a small window.
+// The lines are short enough for the room beside the panel in a small window.
 void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
   const ImageDifference& d = *comparison.difference;
   ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
@@ -131,14 +131,14 @@ void drawFindings(const TracedFrame& frame, bool heat) {
   }
 }
 
-// In sixteenths, reduced; all scales are some.
+// All scales are multiples of 1/16.
 std::string fraction(double scale) {
   int above = static_cast<int>(std::lround(scale * 16)), below = 16;
   while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
   return below == 1 ? "full" : formatted("%d/%d", above, below);
 }
 
-// Where in the picture, each from 0 to 1; null: beside it.
+// Returns the place in the picture, each coordinate from 0 to 1; null: beside the picture.
 std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const ImageSize& window,
                                              const std::array<int, 2>& pixel) {
   const auto shares = sharesFilled(madeFor, window);
@@ -161,7 +161,7 @@ Image alone(const Rgb& radiance) {
   return image;
 }
 
-// As in the map of differences.
+// Returns the difference as the map of differences shows it.
 int codesApart(const Rgb& a, const Rgb& b) {
   return codeDifferences(toDisplay(alone(a), 0, ToneCurve::none),
                          toDisplay(alone(b), 0, ToneCurve::none))[0];

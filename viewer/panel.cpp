@@ -60,7 +60,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
   ImGui::EndTable();
 }
 
-// A box for each effect that the scene calls for; the others grayed; why, for all of them.
+// Draws a box for each effect, grayed where the scene does not call for it, and the reason.
 void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
@@ -101,7 +101,7 @@ void drawEffectColors() {
   }
 }
 
-// What is shown in the picture's stead.
+// Draws the choice of debug view and comparison.
 void drawView(const TracedFrame& frame, PanelSettings& settings) {
   int view = static_cast<int>(settings.view), compare = static_cast<int>(settings.compare);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
@@ -178,7 +178,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     const bool choose = chosen == name;
     if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
     settings.tabShown = name;
-    // What is in a tab scrolls, not the tabs.
+    // The contents of a tab scroll below the row of tabs.
     const float line = ImGui::GetFontSize(), top = ImGui::GetCursorScreenPos().y;
     const float room = ImGui::GetIO().DisplaySize.y - top - 2 * line;
     ImGui::BeginChild("tab", ImVec2(0, std::max(room, 4 * line)));
@@ -219,14 +219,14 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
 bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
                  PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) const {
   constexpr float kMargin = 10, kWidth = 32;  // pixels; heights of the font
-  constexpr float kFolds = 800,
-                  kUsualFont = 13;  // the window's width, where the font has that height
+  // The panel folds in windows that are narrower, where the font has the usual height.
+  constexpr float kFolds = 800, kUsualFont = 13;
   const float width = ImGui::GetFontSize() * kWidth;
   const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  // Where it would hide much of the picture it folds into its title, until the user unfolds it.
+  // In a narrow window it would hide much of the picture; the user can unfold it.
   const bool narrow = ImGui::GetIO().DisplaySize.x < kFolds * ImGui::GetFontSize() / kUsualFont;
   if (std::exchange(settings.narrow, narrow) != narrow) ImGui::SetNextWindowCollapsed(narrow);
   bool edited = false;
@@ -264,11 +264,11 @@ void FrameGraph::draw(double rate) const {
   const float y = heightOf(budget);
   list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
   std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
-  // Below its line, unless that lies low.
+  // The text stands below its line unless that lies low.
   const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
   const ImVec2 words = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(to.x - padding.x - words.x, below);
-  // So that the curve does not strike it through.
+  // The background keeps the curve from striking the text through.
   list.AddRectFilled(at, ImVec2(at.x + words.x, at.y + words.y),
                      ImGui::GetColorU32(ImGuiCol_FrameBg));
   list.AddText(at, color, text.c_str());

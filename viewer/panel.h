@@ -1,5 +1,4 @@
-// The panel over the picture: what a frame costs and what goes into it; and what is drawn over the
-// picture while it is compared with the reference.
+// The panel over the picture: times and rays of the frame, options, effects, the scene, the keys.
 #pragma once
 
 #include <array>
@@ -15,30 +14,30 @@ namespace whit::view {
 inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
 
-// What the user can change here.
+// The settings that the panel and the keys change.
 struct PanelSettings {
   bool shown = true;
-  bool narrow = false;      // the window is, and the panel was folded for it
+  bool narrow = false;      // the window is narrow, and the panel was folded for it
   std::string tabShown;     // of kPanelTabs
-  std::string tab;          // of kPanelTabs, to be turned to by the next frame; empty: it stays
+  std::string tab;          // the tab of kPanelTabs to turn to; empty: it stays
   double rate = 60;         // frames a second to hold
   bool supersample = true;  // at rest
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
-  bool measureKnobs = false;  // until it is done
+  bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;    // the pixel under the pointer
-  bool saveScene = false;  // asked for
+  bool inspects = true;    // the pixel under the pointer is described
+  bool saveScene = false;  // the scene is to be saved
 };
 
-// What the last frames in motion took, as a graph.
+// A graph of the times of the last frames in motion.
 class FrameGraph {
  public:
   void add(double ms);
-  // Between ImGui's Begin and End: the newest at the right, and a line at the time that a frame may
-  // take when there are to be `rate` a second.
+  // Draws the newest frame at the right, and a line at the time that a frame may take to hold
+  // `rate` frames a second. Call between ImGui's Begin and End.
   void draw(double rate) const;
 
  private:
@@ -46,15 +45,15 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
-// Whether nothing but options differs from the view that was measured.
+// Returns whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
 class Panel {
  public:
   void remember(const TracedFrame& frame);
   void remember(const UnfinishedFrame& frame);
-  // Between ImGui's NewFrame and Render. `frame` must hold a picture. Returns whether the scene was
-  // edited.
+  // Call between ImGui's NewFrame and Render; `frame` must hold a picture. Returns whether the
+  // scene was edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
             const SkyChoice& ownSky, ShadingEdit& scene) const;
 
@@ -63,10 +62,10 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  std::vector<KnobCost> costs_;  // of the view and scene of the last frame, as far as measured
+  std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
   FrameRequest measuredFor_;
-  double measured_ = 0;  // share of the options, while they are measured
-  std::string sofar_;    // of a picture that gets more and more samples, while it does
+  double measured_ = 0;  // share of the knobs that are measured
+  std::string sofar_;    // samples so far of a picture that gains samples
   FrameGraph graph_;
 };
 

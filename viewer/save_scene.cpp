@@ -38,7 +38,7 @@ void apply(const std::vector<std::string>& settings, const std::set<std::string>
   }
 }
 
-// As long as the sky of the scene's file is the one, and nowhere else.
+// Returns whether the sky is the one of the scene's file.
 bool hasOwnSky(const SkyChoice& sky) { return sky.source.empty(); }
 
 Json editedFile(const fs::path& path, const SceneName& name, const std::vector<std::string>& read,
@@ -55,7 +55,7 @@ Json editedFile(const fs::path& path, const SceneName& name, const std::vector<s
   return std::move(document.root);
 }
 
-// Its view was supplied, or comes from the model's own file: here it has to be written out.
+// Cameras and lights were supplied, or come from the model's own file; a scene has to state them.
 Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, const Scene& scene,
                   const ShadingEdit& edit) {
   Json root{{"whit", 1}, {"size", {scene.width, scene.height}}};
@@ -81,7 +81,8 @@ Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, co
   return std::move(whole.root);
 }
 
-// First of the cameras, with a name of its own. A path begins with what it takes from the first.
+// Makes `camera` the first one, under a name of its own. The path's first keyframe states what it
+// took from the old first camera.
 void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   if (sameView(camera, scene.cameras.front())) return;
   const Json others = root.contains("cameras") ? root["cameras"] : Json::object();

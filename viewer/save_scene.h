@@ -1,4 +1,4 @@
-// What was edited in the viewer as a scene file.
+// Saves an edited scene as a scene file.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@ namespace whit::view {
 
 struct SavedScene {
   std::string file;
-  bool leavesFolder = false;  // it names files elsewhere: --allow-outside is needed to read it
+  bool leavesFolder = false;  // it names files elsewhere, so reading it needs --allow-outside
 };
 
-// Writes NAME-edited.json into the current folder, or with the first number that is free: the file
-// of the scene called `name` with its settings and edits, all else as it was, or for a model a
-// scene that holds it; seen by `camera` first. `load` is as the scene was read with. Throws
-// Error(io), and nothing is written then.
+// Writes NAME-edited.json, with the first number that is free, into the current folder. It is the
+// file of the scene called `name` with its settings and edits, or a scene that holds the model
+// called `name`; its first camera is `camera`. `load` holds the options that the scene was read
+// with. Throws Error(io), and writes nothing then.
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
                      const ShadingEdit& edit, const Camera& camera);
 

@@ -14,7 +14,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
+constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // also clamps typed values
 
 bool drawColor(const char* label, Rgb& color) {
   if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
@@ -22,7 +22,7 @@ bool drawColor(const char* label, Rgb& color) {
   return true;
 }
 
-// The color's largest channel is 1.
+// Shows a value without upper limit as its largest channel and a color that has 1 there.
 bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
   float strength = maxComponent(value);
   Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
@@ -82,8 +82,8 @@ bool drawLight(Light& light) {
   return true;
 }
 
-// A foldable node for each item, under its name or number; `selected` is unfolded and scrolled to,
-// once. Whether something was changed.
+// Draws a foldable node for each item, under its name or number; unfolds `selected` once and
+// scrolls to it. Returns whether something was changed.
 template <typename Item, typename Draw>
 bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected,
                const Draw& draw) {

@@ -12,7 +12,7 @@ namespace whit::view {
 
 namespace {
 
-// A member whose default follows from one that is set has to be set as well.
+// A member whose default value depends on a changed member has to be set as well.
 template <typename Noun>
 void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& settings) {
   std::set<std::string_view> decided;
@@ -33,7 +33,7 @@ void addMaterial(const Material& read, const Material& edited, std::vector<std::
   }
 }
 
-// `whole`: also what has not changed.
+// With `whole` a sky from another source is stated even if it has not changed.
 void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
             std::vector<std::string>& settings) {
   const auto say = [&](const char* pointer, const Json& value) {
@@ -85,9 +85,9 @@ std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit
     addMaterial(read.materials[i], edited.materials[i], settings);
   }
   const bool ambientChanged = !sameAmbient(read.ambient, edited.ambient);
-  // Ambient light is made from a sky of the scene's own, which one given by --sky is not.
+  // Only a sky in the file makes ambient light, not one that is given by --sky.
   addSky(read.sky, edited.sky, ambientChanged && edited.ambient.ofSky > 0, settings);
-  // A model's own would follow another sky.
+  // The default ambient light of a model follows its sky.
   const bool ambientFollows = read.scene && read.scene->scene.isModel && edited.sky != read.sky;
   if (ambientFollows || ambientChanged) {
     settings.push_back("/ambient=" + describe(edited.ambient).dump());

@@ -11,43 +11,42 @@
 
 namespace whit::view {
 
-// The sky that is looked at: which one, and what can be changed about each.
+// The sky that is shown, and its settings.
 struct SkyChoice {
-  std::string
-      source;  // as namedSky() takes it, files with their whole path; empty: the scene's own
+  std::string source;  // for namedSky(), with the whole path of files; empty: the scene's own
   Sky::Kind kind = Sky::Kind::none;
   float scale = 1, rotation = 0;
 
   friend bool operator==(const SkyChoice&, const SkyChoice&) = default;
 };
-// As it has been read, before any edit.
+// Returns the sky of a scene as it was read.
 SkyChoice skyOf(const cli::OpenScene& scene);
-// Another one.
+// Returns the choice of another sky with its default settings.
 SkyChoice chooseSky(const std::string& source);
-// As scene files have it, its source not being empty.
+// Describes a sky whose source is not empty as scene files do.
 Json describeSky(const SkyChoice& sky);
 
-// Whether both give the same light under the same sky.
+// Returns whether both give the same light under the same sky.
 inline bool sameAmbient(const Ambient& a, Ambient b) {
-  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // they follow from it
+  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // the sky decides
   return a == b;
 }
 
-// What a user makes of a scene's surfaces, lights and surroundings; see scene/edit_shading.h.
+// The edited materials, lights, sky and ambient light of a scene; see bake/edit_shading.h.
 struct ShadingEdit {
-  std::shared_ptr<const cli::OpenScene> scene;  // that was edited
+  std::shared_ptr<const cli::OpenScene> scene;
   std::vector<Material> materials;
   std::vector<Light> lights;
   SkyChoice sky;
-  Ambient ambient;                    // of one from the sky only the strength counts
-  std::vector<std::string> settings;  // that amount to the same when the scene is read
+  Ambient ambient;                    // its colors do not count where the sky makes them
+  std::vector<std::string> settings;  // editSettings() of this edit
 };
-// As it has been read, before any edit.
+// Returns the state of a scene as it was read.
 ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
 
-// What differs between a scene as it was read and as it was edited, as values of --set: read again
-// with these as well, it has the same materials, lights, sky and ambient light, bit for bit. Those
-// of the sky are for a scene that is read without --sky.
+// Returns the edits as values of --set. A scene that is read with these as well has the edited
+// materials, lights, sky and ambient light, bit for bit. Settings of the sky hold for a scene that
+// is read without --sky.
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
 
 }  // namespace whit::view

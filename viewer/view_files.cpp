@@ -31,14 +31,14 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-void sayNoCamera(RenderOptions& options) {
+void clearCamera(RenderOptions& options) {
   options.camera.clear();
   forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
 }
 
-// As one of the scene's cameras, or as the first with what is different.
-void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
-  sayNoCamera(options);
+// Sets the options to one of the scene's cameras, or to the first one and the members that differ.
+void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+  clearCamera(options);
   const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                  [&](const Camera& known) { return sameView(known, camera); });
   if (same == scene.cameras.begin()) return;
@@ -65,7 +65,7 @@ std::string freeName(const std::string& scene) {
 
 std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
                         const RenderOptions& usual) {
-  // What a preset stands for is said one by one.
+  // The options that a preset sets are stated one by one.
   options.quality = usual.quality;
   const auto said = pictureOptions(usual);
   std::string text = "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
@@ -77,7 +77,7 @@ std::string commandWith(const std::string& scene, const std::string& picture, Re
   return text;
 }
 
-// Whether these name a sky that the scene's folder does not hold.
+// Returns whether these settings name a sky outside the scene's folder.
 bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
                      const std::vector<std::string>& settings) {
   Json root = Json::object();
@@ -94,8 +94,8 @@ bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
-  // Not the metadata's options: those have "auto" resolved, which can choose other instructions.
-  sayCamera(shown, frame.request.camera, options);
+  // The metadata's options have "auto" resolved, which can choose other instructions.
+  setCamera(shown, frame.request.camera, options);
   if (options.size == ImageSize{shown.width, shown.height}) options.size.reset();
   RenderOptions usual;
   if (shown.isModel) applyModelDefaults(usual, {});
@@ -114,7 +114,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
 }
 
 std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options) {
-  sayNoCamera(options);
+  clearCamera(options);
   if (options.size == ImageSize{scene.width, scene.height}) options.size.reset();
   const std::string name = std::filesystem::path(saved.file).stem().string();
   return commandWith(saved.file, name, options, {}) +

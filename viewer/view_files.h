@@ -1,5 +1,4 @@
-// Files that the viewer writes and reads: saved pictures, cameras, and the command that makes a
-// picture again.
+// The files that the viewer writes and reads, and the commands that make a picture again.
 #pragma once
 
 #include <string>
@@ -9,23 +8,23 @@
 
 namespace whit::view {
 
-// "whit render SCENE -o NAME.png ..." which makes a picture of the frame's scene and view with
-// these options, bit for bit. Says only what differs from the scene's defaults. Words are quoted
-// for a POSIX shell where needed.
+// Returns the command "whit render SCENE -o NAME.png ..." that makes a picture of the frame's scene
+// and view with these options, bit for bit. It only states what differs from the scene's defaults.
+// Words are quoted for a POSIX shell where needed.
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options);
 
-// The same of a scene that was saved with the view.
+// Returns the command for a scene that was saved with its view.
 std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options);
 
 // Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
 // the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).
 std::string savePicture(const TracedFrame& frame, const std::string& command);
 
-// A camera as scene files have it: {"eye": [x,y,z], "at": ..., "up": ..., "fov": degrees}; and
-// "command", unless that is empty.
+// Writes a camera as scene files have it, and "command" unless that is empty.
 void writeCamera(const std::string& file, const Camera& camera, const std::string& command = "");
-// Throws Error: io when it cannot be read, badScene with the place and what was expected.
+// Throws Error(io) when the file cannot be read, and Error(badScene) with the place and the
+// expectation.
 Camera readCamera(const std::string& file);
 
 }  // namespace whit::view
