@@ -9,7 +9,6 @@
 #include "bake/move_scene.h"
 #include "core/formatted.h"
 #include "viewer/app.h"
-#include "viewer/save_scene.h"
 #include "viewer/view_files.h"
 
 namespace whit::view {

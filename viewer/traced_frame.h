@@ -10,9 +10,9 @@
 
 #include "cli/app/explained_rays.h"
 #include "inspect/debug_view.h"
+#include "inspect/metrics.h"
 #include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
-#include "viewer/comparison.h"
 #include "viewer/knob_costs.h"
 #include "viewer/shading_edit.h"
 
@@ -64,6 +64,24 @@ inline double samplesOf(const FrameRequest& request) {
   return static_cast<double>(size.width) * size.height * request.spp;
 }
 
+// How the frame is compared with the reference.
+enum class CompareMode { off, split, heatMap };
+
+// Grows row by row from the top while the reference is traced.
+struct Comparison {
+  Film reference;  // rows [0, rows) are done
+  int rows = 0;
+  double referenceMs = 0;
+  // These two are set when all rows are done:
+  std::optional<ImageDifference> difference;
+  DisplayImage heatMap;  // as large as the frame
+
+  bool complete() const { return difference.has_value(); }
+  double progress() const {
+    return reference.image.height > 0 ? static_cast<double>(rows) / reference.image.height : 0;
+  }
+};
+
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
@@ -87,6 +105,9 @@ struct TracedFrame {
   std::optional<Comparison> comparison;  // if the request is with the reference
   std::vector<KnobCost> costs;           // if the request measures them
 };
+
+// Returns the frame left of column `split` and the rows of the reference that are done right of it.
+DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
 
 // The visible part of a frame that is being traced.
 struct UnfinishedFrame {

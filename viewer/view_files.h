@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "viewer/save_scene.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
@@ -13,6 +12,18 @@ namespace whit::view {
 // Words are quoted for a POSIX shell where needed.
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options);
+
+struct SavedScene {
+  std::string file;
+  bool leavesFolder = false;  // it names files elsewhere, so reading it needs --allow-outside
+};
+
+// Writes NAME-edited.json, with the first number that is free, into the current folder. It is the
+// file of the scene called `name` with its settings and edits, or a scene that holds the model
+// called `name`; its first camera is `camera`. `load` holds the options that the scene was read
+// with. Throws Error(io), and writes nothing then.
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
+                     const ShadingEdit& edit, const Camera& camera);
 
 // Returns the command for a scene that was saved with its view.
 std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options);
