@@ -7,19 +7,19 @@
 #include "bake/move_scene.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "viewer/inspector.h"
+#include "viewer/overlay.h"
 #include "viewer/panel.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr double kIdleSeconds = 0.25;     // between looks at the scene file
-constexpr double kLongestSeconds = 0.1;   // of one step: a stall does not make the camera leap
-constexpr double kUndrawnSeconds = 0.05;  // at most, while a picture is awaited
+constexpr double kIdleSeconds = 0.25;     // longest wait for events, then the file is looked at
+constexpr double kLongestSeconds = 0.1;   // longest step: a stall does not make the camera leap
+constexpr double kUndrawnSeconds = 0.05;  // longest time without drawing while a picture is due
 constexpr double kMessageSeconds = 4;
-// Of the panel: what happened is in the first, what that has opened or changed in the second, and
-// windows fit what is in them in the third.
+// ImGui answers to an event within three frames: the first shows it, the second what it opened or
+// changed, and in the third windows fit their contents.
 constexpr int kFramesToAnswer = 3;
 
 }  // namespace
@@ -55,19 +55,19 @@ void App::run() {
 bool App::step() {
   window_.poll(waitSeconds());
   const bool fresh = fetchFrame();
-  window_.poll(0);  // once more: the next picture has what the user did before this one was there
+  window_.poll(0);  // the next picture includes what the user did until this one came
   const double seconds = tick();
   if (scripted_) {
     window_.input = Input();
     if (!scripted_->act(sharp_, window_.input, settings_)) return false;
   }
   handleInput();
-  doWhatThePanelAsks();
+  servePanel();
   const bool moved = moveCamera(seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
   watchSceneFile(seconds);
   followRays();
-  askForFrame();  // before anything is drawn, which the next picture need not wait for
+  askForFrame();  // before drawing, which the next picture need not wait for
   if (fresh) showPicture();
   if (worthDrawing(fresh, seconds)) draw();
   window_.input.endFrame();
@@ -78,13 +78,13 @@ bool App::step() {
 double App::waitSeconds() const {
   if (scripted_) return thread_.busy() ? ScriptedUser::kSecondsPerFrame : 0;
   if (drawAgain_ > 0) return 0;
-  if (thread_.committed()) return kUndrawnSeconds;  // nothing can be asked for until it is there
+  if (thread_.committed()) return kUndrawnSeconds;  // no request is taken until it is finished
   const bool active = !window_.input.held.empty() || pathTime_ || settings_.timeline.playing ||
                       restSeconds_ < kSettleSeconds;
   return active ? 1 / resolution_.rate() : kIdleSeconds;
 }
 
-// A picture under way should find this thread waiting for it, not drawing the one before once more.
+// While a picture is under way this thread waits for it rather than draw the last one again.
 bool App::worthDrawing(bool fresh, double seconds) {
   undrawnSeconds_ += seconds;
   drawAgain_ = window_.input.happened ? kFramesToAnswer : std::max(drawAgain_ - 1, 0);
@@ -117,7 +117,7 @@ bool App::play(double seconds) {
   return true;
 }
 
-// A camera that moves, for as long as nothing else has moved the view.
+// Follows a camera that moves until the user moves the view.
 void App::followCamera() {
   if (!followed_ || !settings_.timeline.there) return;
   control_.set(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
@@ -135,7 +135,7 @@ bool App::fetchFrame() {
   const std::string error = thread_.takeError();
   if (!error.empty()) {
     opening_.clear();
-    // Back to what is known to work.
+    // The options and edits of the picture that is shown are known to work.
     if (shown_.scene) settings_.options = shown_.request.options;
     edit_ = traced_;
     fail(error);
@@ -155,7 +155,7 @@ bool App::fetchFrame() {
   if (shown_.scene != scene_) {
     const bool elsewhere = !opening_.empty();
     takeScene();
-    if (elsewhere) return false;  // seen from where the camera was in the other scene
+    if (elsewhere) return false;  // the picture is from the camera of the other scene
   }
   const FrameRequest& request = shown_.request;
   if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
@@ -173,7 +173,7 @@ bool App::fetchFrame() {
   return true;
 }
 
-// What the window is filled with: the frame, or how it compares.
+// Fills the window with the frame, or with its comparison with the reference.
 void App::showPicture() {
   if (unfinished_ && !unfinished_->display.rgba.empty()) {
     window_.uploadOver(unfinished_->display, unfinished_->request.window);
@@ -217,7 +217,7 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   return request;
 }
 
-// More samples would only blur what is to be compared or looked into.
+// More samples would blur what is compared or looked into.
 bool App::supersamples() const {
   return settings_.supersample && settings_.compare == CompareMode::off &&
          settings_.view == DebugView::none && !settings_.measureKnobs;
@@ -230,7 +230,7 @@ FrameRequest App::movingRequest(const ImageSize& window) {
   return requestFor(resolution_.moving(pixels, waitMs), false);
 }
 
-// The next step at rest; the first one where something else is to be seen than before.
+// Returns the next step at rest, or the first one when the picture shows something new.
 FrameRequest App::stillRequest(const ImageSize& window) {
   FrameRequest request = requestFor(resolution_.still(supersamples()), true);
   if (!stillFor_ || !sameSubject(request, *stillFor_)) {
@@ -251,7 +251,7 @@ FrameRequest App::stillRequest(const ImageSize& window) {
   return request;
 }
 
-// Asks for the rays of the picked pixel again when something else than the viewpoint has changed.
+// Asks for the rays of the picked pixel again when anything but the viewpoint has changed.
 void App::followRays() {
   if (settings_.rays.forget) forgetRays();
   if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
@@ -276,7 +276,7 @@ void App::askForFrame() {
   resolution_.setRate(settings_.rate);
   resolution_.setSpp(settings_.options.spp);
   resolution_.setDepth(settings_.options.depth);
-  // A window that changes its size moves: the first picture for it is to be there at once.
+  // A new window size counts as motion, so that the first picture for it comes at once.
   if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
   FrameRequest request =
       restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
@@ -325,13 +325,13 @@ void App::draw() {
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
   if (settings_.shown && shown_.scene) {
-    Panel::drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
+    drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
   }
   inspectPointed();
   if (!error_.empty()) {
-    if (!Panel::drawError(error_)) error_.clear();
+    if (!drawError(error_)) error_.clear();
   } else if (settings_.shown && messageSeconds_ > 0) {
-    Panel::drawMessage(message_);
+    drawMessage(message_);
   }
   window_.end();
   if (scripted_) scripted_->drawn();

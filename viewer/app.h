@@ -1,12 +1,13 @@
-// The interactive viewer: what happens from one displayed frame to the next.
+// The interactive viewer: its loop from one displayed frame to the next.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
+#include "core/stopwatch.h"
 #include "core/usable_threads.h"
 #include "viewer/camera_control.h"
-#include "viewer/frame_rate.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
@@ -17,9 +18,32 @@ namespace whit::view {
 // The viewer's command line.
 struct ViewOptions {
   cli::CommonOptions common;
-  std::string scene;  // as given
+  std::string scene;  // as on the command line
   DebugView view = DebugView::none;
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
+};
+
+// Measures the pictures a second while something moves.
+class FrameRate {
+ public:
+  // Notes that a picture has come; `moving`: its view moves.
+  void fetched(bool moving) {
+    const double ms = std::exchange(since_, Stopwatch()).ms();
+    if (moving && moving_) {
+      constexpr double kNewest = 0.2;  // weight of the newest picture
+      meanMs_ = meanMs_ > 0 ? meanMs_ + kNewest * (ms - meanMs_) : ms;
+    } else {
+      meanMs_ = 0;
+    }
+    moving_ = moving;
+  }
+  // Returns 0 when nothing moves.
+  double perSecond() const { return moving_ && meanMs_ > 0 ? 1000 / meanMs_ : 0; }
+
+ private:
+  Stopwatch since_;  // since the last picture
+  double meanMs_ = 0;
+  bool moving_ = false;
 };
 
 // Takes the place of keys, mouse and clock: tests play scripts.
@@ -47,7 +71,7 @@ class App {
   void run();
 
  private:
-  // app.cpp: the loop
+  // app.cpp, the loop:
   bool step();  // returns false when the scripted user ends
   double waitSeconds() const;
   bool worthDrawing(bool fresh, double seconds);
@@ -56,7 +80,7 @@ class App {
   bool play(double seconds);
   void followCamera();
   void flyPath(double seconds);
-  bool fetchFrame();  // whether there is another picture to show
+  bool fetchFrame();  // returns whether there is something new to show
   void askForFrame();
   bool supersamples() const;
   FrameRequest movingRequest(const ImageSize& window);
@@ -72,7 +96,7 @@ class App {
   void fail(const std::string& error);
   const Scene& scene() const { return scene_->scene; }
 
-  // app_keys.cpp
+  // app_keys.cpp:
   static CameraMotion motionOf(const Input& input);
   void handleInput();
   void handleKey(int key);
@@ -91,9 +115,9 @@ class App {
   std::string viewCommand() const;
   RenderOptions viewOptions() const;
   void saveScene();
-  void doWhatThePanelAsks();
+  void servePanel();
 
-  // app_scene.cpp
+  // app_scene.cpp:
   void watchSceneFile(double seconds);
   void watch(const std::string& scene);
   void reload();
@@ -104,9 +128,9 @@ class App {
   void takeScene();
 
   const ViewOptions& options_;
-  std::shared_ptr<const cli::OpenScene> scene_;  // of the frame shown
-  std::string sceneName_;                        // as given
-  std::string opening_;                          // another one's, while it is being read
+  std::shared_ptr<const cli::OpenScene> scene_;  // the scene of the frame shown
+  std::string sceneName_;                        // as on the command line
+  std::string opening_;                          // name of another scene while it is read
   ScriptedUser* scripted_;                       // null: a person
   Window& window_;
   RenderThread thread_;
@@ -116,33 +140,33 @@ class App {
   PanelSettings settings_;
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
-  std::optional<UnfinishedFrame> unfinished_;  // lies over it
-  std::optional<FrameRequest> stillFor_;       // what is being sharpened
+  std::optional<UnfinishedFrame> unfinished_;  // lies over the frame shown
+  std::optional<FrameRequest> stillFor_;       // the view that is being sharpened
   ImageSize windowSize_;
   FrameRate rate_;
   std::optional<FrameRequest> asked_;
-  std::optional<RayQuery> picked_, queried_;  // by the user; and as last asked for
+  std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
   RayPick rays_;                              // the last answer
-  // The scene as it was read, as it is to be, and as it was last traced.
+  // The scene's shading as it was read, as it is edited, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
-  int serial_ = 0;          // of the last request
-  double restSeconds_ = 0;  // since something changed
+  int serial_ = 0;          // number of the last request
+  double restSeconds_ = 0;  // time since something changed
   double undrawnSeconds_ = 0;
-  int drawAgain_ = 0;     // frames, without waiting: the panel answers to what happened before
+  int drawAgain_ = 0;     // frames to draw without waiting, see kFramesToAnswer
   bool sharp_ = false;    // the frame shown gets no finer
-  bool selects_ = false;  // the next answer says which material and light
+  bool selects_ = false;  // the next answer selects a material and a light
   std::optional<double> pathTime_;
-  std::optional<std::size_t> followed_;  // the camera of the scene that is looked through
+  std::optional<std::size_t> followed_;  // the scene's camera whose view is shown
   std::string message_, error_;
-  double messageSeconds_ = 0;  // that it is still to be seen
+  double messageSeconds_ = 0;  // time for which the message is still shown
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
   double watchSeconds_ = 0;
   Stopwatch sinceTick_;
 };
 
-// The program: reads the command line and shows the scene. Returns the exit status.
+// Reads the command line and shows the scene. Returns the exit status.
 int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted = nullptr);
 
 }  // namespace whit::view

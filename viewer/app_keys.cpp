@@ -1,4 +1,4 @@
-// What keys and mouse do.
+// The actions of keys and mouse.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -9,7 +9,6 @@
 #include "bake/move_scene.h"
 #include "core/formatted.h"
 #include "viewer/app.h"
-#include "viewer/save_scene.h"
 #include "viewer/view_files.h"
 
 namespace whit::view {
@@ -27,7 +26,35 @@ bool flies(int key) {
   return false;
 }
 
+constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
+                             {"Shift", "four times as fast"},
+                             {"wheel", "speed"},
+                             {"left drag, arrows", "look around"},
+                             {"right drag", "orbit"},
+                             {"click; T", "the rays of that pixel; their lines, or not"},
+                             {"I", "what the pixel under the pointer holds, or not"},
+                             {"1 ... 9", "cameras of the scene"},
+                             {"Space", "fly the camera path"},
+                             {"P", "play or pause what moves"},
+                             {"+ -", "finer, coarser pixels"},
+                             {"[ ]", "exposure"},
+                             {"F", "full screen"},
+                             {"H", "this panel"},
+                             {"V", "depth, normals and other views"},
+                             {"N", "more samples at rest, or not"},
+                             {"M", "measure what each knob and effect costs"},
+                             {"X", "against the reference; drag the line"},
+                             {"C", "print and copy the view as whit render makes it"},
+                             {"F12", "save PNG, EXR, camera and command"},
+                             {"F5 F9", "save, restore the camera"},
+                             {"R", "reload the scene"},
+                             {"Ctrl+S", "save what was edited as a scene file"},
+                             {"drop a file", "open it; an HDR or EXR image as the sky"},
+                             {"Esc", "quit"}};
+
 }  // namespace
+
+std::span<const KeyHelp> keyHelp() { return kHelp; }
 
 CameraMotion App::motionOf(const Input& input) {
   const auto axis = [&](int positive, int negative) {
@@ -76,7 +103,7 @@ void App::handleInput() {
   if (!input.dropped.empty()) openFile(input.dropped.front());
 }
 
-void App::doWhatThePanelAsks() {
+void App::servePanel() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
@@ -85,13 +112,14 @@ void App::doWhatThePanelAsks() {
   }
 }
 
-// That makes the picture shown.
+// Returns the command that makes the picture shown.
 std::string App::command() const {
   const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, shown_.options);
 }
 
-// That make it, but of a view that is not sharp yet as it will be with the samples asked for.
+// Returns the options of the picture shown; for a view that is not sharp yet, those that it will
+// have when it is.
 RenderOptions App::viewOptions() const {
   RenderOptions options = shown_.options;
   if (shown_.request.coarse || !shown_.request.interruptible) {
@@ -117,10 +145,10 @@ void App::handleKey(int key) {
       {GLFW_KEY_R, [&] { reload(); }},
       {GLFW_KEY_F12, [&] { savePicture(); }},
       {GLFW_KEY_C, [&] { printView(); }},
-      // How the picture is made and shown.
+      // The picture.
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
       {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
-      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // the plus of many keyboards, without Shift
+      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // many keyboards have plus there, with Shift
       {GLFW_KEY_KP_ADD, [&] { stepScale(1); }},
       {GLFW_KEY_MINUS, [&] { stepScale(-1); }},
       {GLFW_KEY_KP_SUBTRACT, [&] { stepScale(-1); }},

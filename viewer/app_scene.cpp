@@ -1,4 +1,4 @@
-// Which scene is looked at: the one given, read again when its file changes, or another one.
+// Opens scenes, and reads the scene again when its file changes.
 #include "io/paths.h"
 #include "viewer/app.h"
 
@@ -6,7 +6,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr double kWatchSeconds = 0.5;  // between looks at the scene's file, at least
+constexpr double kWatchSeconds = 0.5;  // shortest time between looks at the scene's file
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error
@@ -32,7 +32,7 @@ void App::watchSceneFile(double seconds) {
 }
 
 void App::reload() {
-  if (!opening_.empty()) return open(opening_);  // not shown yet: the name is still the old one's
+  if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();
@@ -55,7 +55,7 @@ void App::open(const std::string& name) {
   say("reading " + name);
 }
 
-// A scene, or an image to be its sky.
+// Opens a scene, or shows an image as the sky.
 void App::openFile(const std::string& file) {
   const std::string extension = extensionOf(file);
   if (extension == ".hdr" || extension == ".exr") return showSky(file);
@@ -69,7 +69,7 @@ void App::showSky(const std::string& file) {
   say("sky: " + file);
 }
 
-// The frame just fetched shows a scene that was read anew.
+// Called when the frame that was just fetched shows another scene, or the scene read again.
 void App::takeScene() {
   scene_ = shown_.scene;
   const std::lock_guard lock(scene_->moving);

@@ -29,7 +29,7 @@ Vec3d CameraControl::forward() const {
 
 void CameraControl::turn(double rightwards, double upwards) {
   right_ = normalized(right_ * std::cos(rightwards) - cross(up_, right_) * std::sin(rightwards));
-  // A view that was steeper to begin with may stay so.
+  // A view that began steeper may stay so.
   elevation_ = std::clamp(elevation_ + upwards, std::min(-kSteepestRadians, elevation_),
                           std::max(kSteepestRadians, elevation_));
 }

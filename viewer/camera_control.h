@@ -1,11 +1,11 @@
-// Flying, looking around and orbiting. Pure: knows neither window nor clock.
+// Flying, looking around and orbiting, without knowledge of window and clock.
 #pragma once
 
 #include "bake/scene.h"
 
 namespace whit::view {
 
-// What the user wants of the camera in one step. Directions are -1, 0 or 1.
+// The user's wishes for one step of the camera. Directions are -1, 0 or 1.
 struct CameraMotion {
   double forward = 0, right = 0, up = 0;  // moves
   bool fast = false;
@@ -17,12 +17,12 @@ struct CameraMotion {
 
 inline constexpr double kFastFactor = 4;
 inline constexpr double kWheelFactor = 1.25;           // of speed, a notch
-inline constexpr double kSpeedRange = 1e6;             // times what it was at first, up or down
+inline constexpr double kSpeedRange = 1e6;             // largest factor up or down from the start
 inline constexpr double kRadiansPerPixel = 0.004;      // mouse
 inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
 inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
 
-// Units a second to begin with: the scene from end to end in twelve seconds.
+// Returns the speed to begin with, in units a second: it crosses the scene in twelve seconds.
 double cruisingSpeed(const Scene& scene);
 
 class CameraControl {
@@ -37,8 +37,8 @@ class CameraControl {
   const Camera& camera() const { return camera_; }
   double speed() const { return speed_; }
 
-  // Turns first, then moves, but not out of the range of coordinates that scenes have. Whether the
-  // camera changed.
+  // Turns first, then moves, but not out of the range of coordinates that scenes have. Returns
+  // whether the camera changed.
   bool step(const CameraMotion& motion, double seconds);
 
  private:

@@ -22,7 +22,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr double kReferenceBandMs = 80;  // of the reference, each of which is shown
+constexpr double kReferenceBandMs = 80;  // target time of a band; each band is shown
 
 ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
 
@@ -46,7 +46,28 @@ std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& ray
   return words;
 }
 
-// A renderer's options, for as long as this lives.
+std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
+
+// Removes the scale that heatMap() draws below the map, which panels would cover.
+DisplayImage withoutScale(const DisplayImage& map, int width, int height) {
+  DisplayImage image{width, height, {}};
+  image.rgba.resize(static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    const auto row = map.rgba.begin() + y * rowBytes(map);
+    std::copy(row, row + rowBytes(image), image.rgba.begin() + y * rowBytes(image));
+  }
+  return image;
+}
+
+// Measures the difference of `frame` from the finished reference. Throws as compareImages().
+void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison) {
+  const Image& reference = comparison.reference.image;
+  comparison.heatMap =
+      withoutScale(heatMap(frame.image, reference), reference.width, reference.height);
+  comparison.difference = compareImages(frame.image, reference, exposure, curve);
+}
+
+// Sets a renderer's options for its own lifetime.
 class OptionsInUse {
  public:
   OptionsInUse(Renderer& renderer, const RenderOptions& options)
@@ -63,6 +84,19 @@ class OptionsInUse {
 };
 
 }  // namespace
+
+DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split) {
+  DisplayImage picture = frame;
+  const DisplayImage& reference = comparison.reference.display;
+  if (reference.width != frame.width || reference.height != frame.height) return picture;
+  const std::ptrdiff_t left = std::ptrdiff_t{4} * std::clamp(split, 0, frame.width);
+  for (int y = 0; y < comparison.rows; ++y) {
+    const auto row = reference.rgba.begin() + y * rowBytes(reference);
+    std::copy(row + left, row + rowBytes(reference),
+              picture.rgba.begin() + y * rowBytes(picture) + left);
+  }
+  return picture;
+}
 
 FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)
     : common_(common),
@@ -83,7 +117,7 @@ void FrameTracer::use(std::unique_ptr<Renderer> renderer) {
 }
 
 bool FrameTracer::proveSome() {
-  constexpr std::size_t kParts = 256;  // of each light: some 10 us a part and thread
+  constexpr std::size_t kParts = 256;  // for each light; a part takes a thread some 10 us
   return renderer_->fillShadowCache({.mostParts = kParts}).parts > 0;
 }
 
@@ -93,7 +127,7 @@ void FrameTracer::load(const SceneChoice& choice) {
   common.load.instant.animation = choice.animation;
   std::shared_ptr<cli::OpenScene> scene = cli::openScene(choice.name, common, nullptr);
   auto renderer = std::make_unique<Renderer>(scene->scene, options_);
-  use(std::move(renderer));  // before the scene that the old one reads goes
+  use(std::move(renderer));  // the old renderer needs the old scene, so it goes first
   scene_ = std::move(scene);
   editSettings_.clear();
   sky_ = skyOf(*scene_);
@@ -111,7 +145,7 @@ void FrameTracer::moveTo(double seconds) {
 
 void FrameTracer::edit(ShadingEdit edit) {
   if (edit.scene != scene_) return;
-  Sky opened;  // first of all: files cannot be trusted
+  Sky opened;  // reading may fail, so it comes before any change
   if (edit.sky.source != sky_.source && !edit.sky.source.empty()) {
     Warnings warnings(common_.render.strict);
     opened = namedSky(edit.sky.source, common_.load.maxMemoryBytes, warnings);
@@ -122,7 +156,7 @@ void FrameTracer::edit(ShadingEdit edit) {
   }
   renderer_->shadingChanged();
   if (!scene_->scene.motion.empty())
-    moveTo(seconds_);  // lights that move are edited at their start
+    moveTo(seconds_);  // edits of moving lights are edits of their start
   editSettings_ = std::move(edit.settings);
 }
 
@@ -199,7 +233,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
   const ImageSize whole = request.options.size.value();
-  // Of each choice, what it takes where nothing is known beforehand.
+  // The cache would make all but the first frames of a setting faster.
   RenderOptions traced = options_;
   traced.shadowCache = ShadowCacheMode::off;
   const OptionsInUse used(*renderer_, traced);

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "viewer/ray_pick.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {

@@ -1,6 +1,6 @@
-// For LeakSanitizer only: OpenGL's drivers stay loaded. Unloading one takes the roots along of what
-// it keeps for the life of the program, which is then reported as leaked by nobody.
+// Keeps OpenGL's drivers loaded under LeakSanitizer. Unloading a driver would remove the roots of
+// the memory that it keeps, which would then be reported as leaked.
 #include <dlfcn.h>
 
-// Seen by the libraries that call it, unlike the program's other symbols.
+// Unlike the program's other symbols this one is visible to the libraries that call it.
 extern "C" __attribute__((visibility("default"))) int dlclose(void*) noexcept { return 0; }

@@ -1,4 +1,4 @@
-// The options of a render as sliders, boxes and lists, with what each has cost.
+// The options of a render as sliders, boxes and lists, each with its cost.
 #include <imgui.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void drawKnob(const OptionSpec& spec, Field& field) {
   }
 }
 
-// What the preset makes of the options. Its reference mode is another key's matter.
+// Applies a preset, but not its reference mode, which key X is for.
 RenderOptions withQuality(RenderOptions options, Quality quality) {
   options.quality = quality;
   applyQuality(options, {"mode"});

@@ -3,6 +3,6 @@
 #include "viewer/app.h"
 
 int main(int argc, char** argv) {
-  return whit::cli::runProgram("whit-view",
-                               [&] { return whit::view::runViewer(whit::cli::wordsOf(argc, argv)); });
+  return whit::cli::runProgram(
+      "whit-view", [&] { return whit::view::runViewer(whit::cli::wordsOf(argc, argv)); });
 }

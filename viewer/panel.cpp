@@ -9,98 +9,12 @@
 
 #include "cli/app/frame_summary.h"
 #include "core/formatted.h"
-#include "scene/members.h"
-#include "viewer/color_scale.h"
-#include "viewer/keys.h"
-#include "viewer/label.h"
+#include "viewer/overlay.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
 
 namespace {
-
-constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // what is typed in, too
-
-bool drawColor(const char* label, Rgb& color) {
-  if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
-  color = min(max(color, Rgb(0.0f)), Rgb(1.0f));
-  return true;
-}
-
-// The change of a value without limits for each pixel that the mouse is dragged.
-float dragStep(float value) { return 0.002f * std::max(1.0f, std::abs(value)); }
-
-template <typename Noun, typename Value>
-bool drawMember(const Member<Noun, Value>& member, Value& value) {
-  const auto low = static_cast<float>(member.rules.low);
-  const auto high = static_cast<float>(std::min(member.rules.high, member.rules.usual));
-  if constexpr (std::is_same_v<Value, Light::Kind>) {
-    return false;  // the kind decides which members there are
-  } else if constexpr (std::is_same_v<Value, bool>) {
-    return ImGui::Checkbox(member.name, &value);
-  } else if constexpr (std::is_same_v<Value, int>) {
-    return ImGui::SliderInt(member.name, &value, static_cast<int>(low), static_cast<int>(high),
-                            "%d", kClamp);
-  } else if constexpr (std::is_same_v<Value, float>) {
-    const bool endless = member.rules.usual >= kLargestNumber;
-    return endless
-               ? ImGui::DragFloat(member.name, &value, dragStep(value), low, high, "%.3f", kClamp)
-               : ImGui::SliderFloat(member.name, &value, low, high, "%.3f", kClamp);
-  } else if (member.rules.kind != MemberKind::color) {
-    const float step = dragStep(maxComponent(abs(value)));
-    return ImGui::DragFloat3(member.name, &value.x, step, low, high, "%.3f", kClamp);
-  } else if (member.rules.high <= 1) {
-    return drawColor(member.name, value);
-  } else {
-    return drawBright(member.name, (std::string(member.name) + ", largest channel").c_str(), high,
-                      value);
-  }
-}
-
-template <typename Noun>
-bool drawMembers(Noun& noun) {
-  bool changed = false;
-  forEachMemberInFiles(noun, [&](const auto& member) {
-    if (member.rules.baked || (member.rules.matters && !member.rules.matters(noun))) return;
-    changed |= drawMember(member, noun.*member.field);
-  });
-  return changed;
-}
-
-bool drawLight(Light& light) {
-  const Vec3f before = light.direction;
-  if (!drawMembers(light)) return false;
-  if (light.direction == Vec3f()) light.direction = before;
-  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
-  return true;
-}
-
-// A foldable node for each item, under its name or number; `selected` is unfolded and scrolled to,
-// once. Whether something was changed.
-template <typename Item, typename Draw>
-bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected,
-               const Draw& draw) {
-  bool changed = false;
-  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string number = std::string(kind) + " " + std::to_string(i + 1);
-    const std::string name = items[i].name.empty() ? number : items[i].name;
-    ImGui::PushID(static_cast<int>(i));
-    if (i == selected) {
-      ImGui::SetNextItemOpen(true);
-      ImGui::SetScrollHereY(0);
-      selected = kNoCounterpart;
-    }
-    if (ImGui::TreeNode(kind, "%s", name.c_str())) {
-      changed |= draw(items[i]);
-      ImGui::TreePop();
-    }
-    ImGui::PopID();
-  }
-  ImGui::PopItemWidth();
-  if (items.empty()) ImGui::TextDisabled("none");
-  return changed;
-}
 
 template <typename... Values>
 void drawCell(const char* format, Values... values) {
@@ -146,7 +60,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
   ImGui::EndTable();
 }
 
-// A box for each effect that the scene calls for; the others grayed; why, for all of them.
+// Draws a box for each effect, grayed where the scene does not call for it, and the reason.
 void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
@@ -187,7 +101,7 @@ void drawEffectColors() {
   }
 }
 
-// What is shown in the picture's stead.
+// Draws the choice of debug view and comparison.
 void drawView(const TracedFrame& frame, PanelSettings& settings) {
   int view = static_cast<int>(settings.view), compare = static_cast<int>(settings.compare);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
@@ -215,94 +129,7 @@ void drawKeys() {
   ImGui::EndTable();
 }
 
-constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
-                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoFocusOnAppearing;
-
-// The line behind the panels, over the picture; the words above all: in a small window a panel may
-// lie where they belong.
-void drawSplit(double split, bool labels) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float x = static_cast<float>(split) * window.x, gap = ImGui::GetFontSize();
-  const float y = window.y - 5 * gap;
-  list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
-  list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
-  if (!labels) return;
-  drawLabel(ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
-  drawLabel(ImVec2(x + gap, y), "reference");
-}
-
-// In short lines, which have room beside the panel in a small window.
-void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
-  const ImageDifference& d = *comparison.difference;
-  ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
-  ImGui::Text("FLIP  %.2g", d.flipMean);
-  ImGui::Text("8-bit codes: largest %d", d.maxCode);
-  ImGui::Text("             over 1 in %.3f %%", d.pixelsGe2CodesPct);
-  ImGui::Text("packets   %.1f ms", frame.stats.frameMs);
-  ImGui::Text("reference %.0f ms", comparison.referenceMs);
-}
-
-void drawFindings(const TracedFrame& frame, bool heat) {
-  if (heat) {
-    ImGui::TextUnformatted("difference, 8-bit codes");
-    const ColorScale scale = differenceScale();
-    const ImVec2 size(ImGui::GetFontSize() * 15, heightOf(scale));
-    drawColorScale(scale, ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList());
-    ImGui::Dummy(size);
-  } else {
-    ImGui::TextUnformatted("packets against the reference");
-  }
-  if (!frame.comparison) {
-    ImGui::TextDisabled("waits until nothing moves");
-  } else if (frame.comparison->complete()) {
-    drawDifference(frame, *frame.comparison);
-  } else {
-    const double done = frame.comparison->progress();
-    ImGui::ProgressBar(static_cast<float>(done), ImVec2(ImGui::GetFontSize() * 15, 0),
-                       formatted("reference: %.0f %%", 100 * done).c_str());
-  }
-}
-
-// In sixteenths, reduced; all scales are some.
-std::string fraction(double scale) {
-  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
-  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
-  return below == 1 ? "full" : formatted("%d/%d", above, below);
-}
-
 }  // namespace
-
-// The color's largest channel is 1.
-bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
-  float strength = maxComponent(value);
-  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
-  const bool recolored = drawColor(label, color);
-  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
-  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
-  if (!recolored && !turned) return false;
-  value = color * strength;
-  return true;
-}
-
-std::string errorText(double sampleError) {
-  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
-}
-
-std::string samplesText(const UnfinishedFrame& frame) {
-  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
-         errorText(frame.sampleError);
-}
-
-std::string sharpnessText(const FrameRequest& request) {
-  const int window = std::max(request.window.width, 1);
-  const int width = request.options.size ? request.options.size->width : window;
-  std::string text = fraction(static_cast<double>(width) / window);
-  if (request.depth < request.options.depth) text += formatted(", depth %d", request.depth);
-  if (request.spp != 1) text += formatted(", %d samples", request.spp);
-  return text;
-}
 
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
   measured.options = request.options;
@@ -351,7 +178,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     const bool choose = chosen == name;
     if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
     settings.tabShown = name;
-    // What is in a tab scrolls, not the tabs.
+    // The contents of a tab scroll below the row of tabs.
     const float line = ImGui::GetFontSize(), top = ImGui::GetCursorScreenPos().y;
     const float room = ImGui::GetIO().DisplaySize.y - top - 2 * line;
     ImGui::BeginChild("tab", ImVec2(0, std::max(room, 4 * line)));
@@ -382,12 +209,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
-    ImGui::TextDisabled("lights");
-    edited |= drawItems(scene.lights, "light", settings.rays.light, drawLight);
-    ImGui::TextDisabled("materials");
-    edited |= drawItems(scene.materials, "material", settings.rays.material, drawMembers<Material>);
-    ImGui::TextDisabled("surroundings");
-    edited |= drawSurroundings(ownSky, scene);
+    edited = drawSceneTab(ownSky, settings.rays, scene);
   });
   tab("keys", drawKeys);
   ImGui::EndTabBar();
@@ -397,14 +219,14 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
 bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
                  PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) const {
   constexpr float kMargin = 10, kWidth = 32;  // pixels; heights of the font
-  constexpr float kFolds = 800,
-                  kUsualFont = 13;  // the window's width, where the font has that height
+  // The panel folds in windows that are narrower, where the font has the usual height.
+  constexpr float kFolds = 800, kUsualFont = 13;
   const float width = ImGui::GetFontSize() * kWidth;
   const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  // Where it would hide much of the picture it folds into its title, until the user unfolds it.
+  // In a narrow window it would hide much of the picture; the user can unfold it.
   const bool narrow = ImGui::GetIO().DisplaySize.x < kFolds * ImGui::GetFontSize() / kUsualFont;
   if (std::exchange(settings.narrow, narrow) != narrow) ImGui::SetNextWindowCollapsed(narrow);
   bool edited = false;
@@ -416,57 +238,6 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
   }
   ImGui::End();
   return edited;
-}
-
-void Panel::drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
-  constexpr float kMargin = 10, kPadding = 4;
-  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
-  const bool more = next && next->samples > frame.request.spp && !next->display.rgba.empty();
-  if (more) {
-    text = samplesText(*next);
-  }
-  if (rate > 0) text += formatted(", %.0f frames/s", rate);
-  if (next && !more) {
-    text += formatted("; next %s: %.0f %%", sharpnessText(next->request).c_str(), 100 * next->done);
-  }
-  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
-  drawLabel(ImVec2(window.x - kMargin - size.x, window.y - kMargin - kPadding - size.y),
-            text.c_str(), kPadding);
-  if (frame.request.view == DebugView::none) return;
-  text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
-  if (!frame.legend.empty()) text += ": " + frame.legend;
-  const ImVec2 said = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 corner(window.x - kMargin - said.x, window.y - kMargin - 3 * kPadding - 2 * size.y);
-  drawLabel(corner, text.c_str(), kPadding);
-  if (!hasScale(frame.request.view)) return;
-  const ColorScale scale = scaleOfView(frame.request.view, frame.scale);
-  const float height = heightOf(scale) + 2 * kPadding, top = corner.y - height - kPadding;
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRectFilled(ImVec2(corner.x - kPadding, top - kPadding),
-                     ImVec2(corner.x + said.x + kPadding, top + height - kPadding), kShade,
-                     kPadding);
-  drawColorScale(scale, ImVec2(corner.x, top), said.x, list);
-}
-
-void Panel::drawMessage(const std::string& message) {
-  constexpr float kMargin = 10, kPadding = 6;
-  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(message.c_str());
-  drawLabel(ImVec2((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y),
-            message.c_str(), kPadding, IM_COL32(255, 255, 255, 255), IM_COL32(0, 0, 0, 190));
-}
-
-bool Panel::drawError(const std::string& error) {
-  bool open = true;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
-  if (ImGui::Begin("error", nullptr, kBare)) {
-    ImGui::PushTextWrapPos(window.x * 0.9f);
-    ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
-    ImGui::PopTextWrapPos();
-    open = !ImGui::Button("dismiss");
-  }
-  ImGui::End();
-  return open;
 }
 
 void FrameGraph::add(double ms) {
@@ -493,30 +264,17 @@ void FrameGraph::draw(double rate) const {
   const float y = heightOf(budget);
   list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
   std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
-  // Below its line, unless that lies low.
+  // The text stands below its line unless that lies low.
   const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
   const ImVec2 words = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(to.x - padding.x - words.x, below);
-  // So that the curve does not strike it through.
+  // The background keeps the curve from striking the text through.
   list.AddRectFilled(at, ImVec2(at.x + words.x, at.y + words.y),
                      ImGui::GetColorU32(ImGuiCol_FrameBg));
   list.AddText(at, color, text.c_str());
   if (count_ == 0) return;
   text = formatted("%.1f ms at most", static_cast<double>(highest));
   list.AddText(ImVec2(from.x + padding.x, from.y), color, text.c_str());
-}
-
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
-  const bool under = frame.comparison.has_value();
-  const bool heat = mode == CompareMode::heatMap && under && frame.comparison->complete();
-  if (under && !heat) drawSplit(split, words);
-  if (!words) return;
-  const float gap = 10;
-  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
-                          ImVec2(1, 0));
-  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  if (ImGui::Begin("comparison", nullptr, kBare)) drawFindings(frame, heat);
-  ImGui::End();
 }
 
 }  // namespace whit::view

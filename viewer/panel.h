@@ -1,9 +1,9 @@
-// The panel over the picture: what a frame costs and what goes into it; and what is drawn over the
-// picture while it is compared with the reference.
+// The panel over the picture: times and rays of the frame, options, effects, the scene, the keys.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "viewer/ray_panel.h"
@@ -11,38 +11,33 @@
 
 namespace whit::view {
 
-// Against the reference: not at all, side by side, or as a map of the differences.
-enum class CompareMode { off, split, heatMap };
-
 inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
 
-inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
-
-// What the user can change here.
+// The settings that the panel and the keys change.
 struct PanelSettings {
   bool shown = true;
-  bool narrow = false;      // the window is, and the panel was folded for it
+  bool narrow = false;      // the window is narrow, and the panel was folded for it
   std::string tabShown;     // of kPanelTabs
-  std::string tab;          // of kPanelTabs, to be turned to by the next frame; empty: it stays
+  std::string tab;          // the tab of kPanelTabs to turn to; empty: it stays
   double rate = 60;         // frames a second to hold
   bool supersample = true;  // at rest
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
-  bool measureKnobs = false;  // until it is done
+  bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;    // the pixel under the pointer
-  bool saveScene = false;  // asked for
+  bool inspects = true;    // the pixel under the pointer is described
+  bool saveScene = false;  // the scene is to be saved
 };
 
-// What the last frames in motion took, as a graph.
+// A graph of the times of the last frames in motion.
 class FrameGraph {
  public:
   void add(double ms);
-  // Between ImGui's Begin and End: the newest at the right, and a line at the time that a frame may
-  // take when there are to be `rate` a second.
+  // Draws the newest frame at the right, and a line at the time that a frame may take to hold
+  // `rate` frames a second. Call between ImGui's Begin and End.
   void draw(double rate) const;
 
  private:
@@ -50,42 +45,27 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
-// ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
-// empty where that is not known.
-std::string errorText(double sampleError);
-// "100 of 256 samples, within about 0.8 %": of a picture that gets more and more of them.
-std::string samplesText(const UnfinishedFrame& frame);
-// "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
-std::string sharpnessText(const FrameRequest& request);
-
-// Whether nothing but options differs from the view that was measured.
+// Returns whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
 class Panel {
  public:
   void remember(const TracedFrame& frame);
   void remember(const UnfinishedFrame& frame);
-  // Between ImGui's NewFrame and Render. `frame` must hold a picture. Returns whether the scene was
-  // edited.
+  // Call between ImGui's NewFrame and Render; `frame` must hold a picture. Returns whether the
+  // scene was edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
             const SkyChoice& ownSky, ShadingEdit& scene) const;
-  // In a corner of the window, what is on screen, how fast it comes, what is on its way, and what
-  // the colors of a view stand for.
-  static void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
-  // Lines at the bottom of the window: an error stays until it is clicked away.
-  static void drawMessage(const std::string& message);
-  // Returns false when it was clicked away.
-  static bool drawError(const std::string& error);
 
  private:
   void drawTimes(const TracedFrame& frame) const;
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  std::vector<KnobCost> costs_;  // of the view and scene of the last frame, as far as measured
+  std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
   FrameRequest measuredFor_;
-  double measured_ = 0;  // share of the options, while they are measured
-  std::string sofar_;    // of a picture that gets more and more samples, while it does
+  double measured_ = 0;  // share of the knobs that are measured
+  std::string sofar_;    // samples so far of a picture that gains samples
   FrameGraph graph_;
 };
 
@@ -101,15 +81,15 @@ void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
 // Lists the costs that can be told from noise, the largest first.
 void drawMeasured(const std::vector<KnobCost>& costs);
 
-// surroundings.cpp, the sky and the ambient light as controls; `ownSky` is the scene's. Returns
-// whether something was changed. Between ImGui's Begin and End.
-bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene);
+// scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
+// picked; `ownSky` is the scene's. Returns whether something was changed.
+bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene);
 
-// Color and strength of what has no upper limit but `largest`. Likewise.
-bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value);
-
-// Between ImGui's NewFrame and Render: the line between both pictures at the share `split` of the
-// window's width; with `words` also what is what, and what is known about their difference.
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
+// app_keys.cpp: the keys, and what they do.
+struct KeyHelp {
+  const char* keys;
+  const char* text;
+};
+std::span<const KeyHelp> keyHelp();
 
 }  // namespace whit::view

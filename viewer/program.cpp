@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "viewer/app.h"
-#include "viewer/keys.h"
 
 namespace whit::view {
 
@@ -79,7 +78,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   cli::settleOptions(options.common);
   check(options);
   options.common.load.instant.plays = true;
-  const Display display;  // before a scene is loaded in vain
+  const Display display;  // fails before a scene is loaded in vain
   const cli::CommonOptions& common = options.common;
   auto progress = cli::makeProgressBar(common);
   const std::shared_ptr<cli::OpenScene> scene =

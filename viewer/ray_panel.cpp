@@ -19,14 +19,14 @@ ImU32 colorOf(RayLook look) {
   return IM_COL32(c[0], c[1], c[2], 255);
 }
 
-// Its line's, lighter.
+// The text has the color of the ray's line, but lighter.
 ImVec4 textColorOf(RayKind kind) {
   const ImVec4 color = ImGui::ColorConvertU32ToFloat4(colorOf(RayLook{kind}));
   const auto lighter = [](float code) { return 0.25f + 0.75f * code; };
   return {lighter(color.x), lighter(color.y), lighter(color.z), 1};
 }
 
-// The colors of the lines that are there, and what they stand for.
+// Names the colors of the lines that are drawn.
 void drawLegend(const std::vector<RayLine>& lines) {
   const float side = ImGui::GetFontSize();
   bool first = true;
@@ -107,7 +107,7 @@ class RayTreeTab {
     if (ImGui::Button("forget")) view_.forget = true;
   }
 
-  // By how many codes the pixel would differ without the node and all below it, at most.
+  // Returns the largest difference of a channel without the node and all below it, in 8-bit codes.
   int codesAdded(const RgbD& added) const {
     const auto with = codesOf(tree_.pixel);
     const auto without = codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f)));
@@ -183,7 +183,8 @@ class RayTreeTab {
   SrgbEncoding encoding_ = SrgbEncoding::exact;
 };
 
-// What lies in the window, so that no coordinate is larger than lines are drawn well with.
+// Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
+// it is left.
 bool clip(ScreenLine& line, double width, double height) {
   double from = 0, to = 1;
   const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;

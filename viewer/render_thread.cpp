@@ -6,7 +6,7 @@
 
 namespace whit::view {
 
-// The view is at rest when nothing has been asked for so long.
+// The view is at rest when nothing has been asked for this long.
 constexpr std::chrono::milliseconds kRest{200};
 
 RenderThread::RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
@@ -117,7 +117,7 @@ void RenderThread::loop() {
   }
 }
 
-// At rest the time goes into what makes the next pictures quicker.
+// At rest the thread fills the shadow cache, which makes the next pictures faster.
 void RenderThread::waitForWork(std::unique_lock<std::mutex>& lock) {
   const auto wanted = [this] { return hasWork() || quit_; };
   while (!wake_.wait_for(lock, kRest, wanted)) {
@@ -187,7 +187,7 @@ void RenderThread::trace(const FrameRequest& request) {
     std::swap(back_, ready_);
     fresh_ = true;
   } else if (!complete && !isWaiting()) {
-    asked_ = request;  // it was interrupted for a query only
+    asked_ = request;  // only a query interrupted it
   }
   tracing_.reset();
   unfinished_.reset();

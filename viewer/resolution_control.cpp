@@ -8,7 +8,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr double kNewest = 0.3;  // weight of the newest frame in what is learned
+constexpr double kNewest = 0.3;  // weight of the newest frame in the mean cost
 
 }  // namespace
 
@@ -36,16 +36,16 @@ void ResolutionControl::learn(double ms, double samples, int depth) {
   const double now = before > 0 ? before + kNewest * (cost - before) : cost;
   msPerSample_[tier] = now;
   if (before == 0) return;
-  // What makes the view dearer makes it so at other depths, too.
+  // A view that became more expensive did so at all depths.
   for (std::size_t other = 0; other < msPerSample_.size(); ++other) {
     if (other != tier) msPerSample_[other] *= now / before;
   }
 }
 
-// Of a tier that was not traced yet: no more than a larger depth takes, and so much more than a
-// smaller one.
+// A tier that was not traced yet costs at most as much as a larger depth, and is assumed to cost
+// kDearer times as much as the next smaller one.
 double ResolutionControl::costOf(std::size_t tier) const {
-  constexpr double kDearer = 2;  // for each step of kMotionDepths
+  constexpr double kDearer = 2;
   double most = std::numeric_limits<double>::infinity(), factor = 1;
   for (std::size_t other = 0; other <= tier; ++other) {
     if (msPerSample_[other] > 0) most = msPerSample_[other];
@@ -71,8 +71,8 @@ void ResolutionControl::chooseLevel(double frameMs) {
   }
 }
 
-// The largest depth at which the picture is legible, else the smallest; but none that saves
-// nothing.
+// Takes the largest depth at which the picture is legible, or else the smallest; but the full depth
+// where that saves little.
 void ResolutionControl::chooseDepth(double frameMs) {
   const double scale = kScales[std::max(largest_, kLegibleLevel)];
   const std::size_t before = tier_;
@@ -92,7 +92,7 @@ Sharpness ResolutionControl::moving(double windowPixels, double waitMs) {
   windowPixels_ = windowPixels;
   const double frameMs = 1000 / rate_ - waitMs;
   const std::size_t coarsest = kScales.size() - 1;
-  if (!learned()) return {kScales[coarsest], 1, kFirstDepth};  // cheap, whatever the scene
+  if (!learned()) return {kScales[coarsest], 1, kFirstDepth};  // cheap in any scene
   chooseDepth(frameMs);
   chooseLevel(frameMs);
   Sharpness chosen{kScales[level_], spp_, kMotionDepths[tier_]};

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/formatted.h"
-#include "viewer/panel.h"
+#include "viewer/overlay.h"
 
 namespace whit::view {
 
@@ -35,8 +35,7 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
   timeline.playing = timeline.there && !instant.seconds;
   timeline.animation = instant.animation;
   for (const Animation& animation : scene.animations) {
-    // Of models the first one plays unless another is named; what the file itself moves does
-    // always.
+    // A model's first animation plays unless another is named; motions of a scene file always do.
     const bool own = animation.name == kSceneMotion;
     if (!own && timeline.animation.empty()) timeline.animation = animation.name;
     if (!own) timeline.animations.push_back(animation.name);
@@ -45,7 +44,7 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
     }
   }
   for (const MovingCamera& camera : scene.motion.given.cameras) {
-    if (camera.node != kNoNode) continue;  // else it flies along the path
+    if (camera.node != kNoNode) continue;  // without a node it flies along the path
     timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
   }
   if (timeline.animations.size() == 1) timeline.animations.clear();

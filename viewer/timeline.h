@@ -1,4 +1,4 @@
-// When a scene that moves is looked at: it plays by the clock, or is put to a time by hand.
+// The instant of a scene that moves: it plays by the clock, or the user sets it.
 #pragma once
 
 #include <optional>
@@ -14,22 +14,23 @@ struct Timeline {
   bool there = false;  // the scene moves
   double seconds = 0, length = 0;
   bool playing = false;
-  bool loops = true;                    // else it stops at its end
-  std::vector<std::string> animations;  // to choose from; of one that plays alone none
-  std::string animation;                // the one that plays
-  bool another = false;                 // it was chosen just now, and is to be read
+  bool loops = true;                    // otherwise it stops at its end
+  std::vector<std::string> animations;  // to choose from; empty where there is one only
+  std::string animation;                // the animation that plays
+  bool another = false;                 // the animation was just chosen and is to be read
 
-  // So many seconds later. Whether it was playing.
+  // Goes on by that many seconds. Returns whether it was playing.
   bool step(double later);
   void playOrPause();
   std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
 };
 
-// Of a scene as it was just read: at the instant's seconds where it has some, else playing from 0.
+// Returns the timeline of a scene that was just read: at the instant's seconds if it has any,
+// otherwise playing from 0.
 Timeline timelineOf(const Scene& scene, const Instant& instant);
 
-// A bar at the bottom of the window, where the scene moves. Between ImGui's NewFrame and Render.
-// Whether something was changed.
+// Draws a bar at the bottom of the window if the scene moves. Returns whether something was
+// changed. Call between ImGui's NewFrame and Render.
 bool drawTimeline(Timeline& timeline);
 
 }  // namespace whit::view

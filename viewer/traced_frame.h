@@ -8,39 +8,40 @@
 #include <string>
 #include <vector>
 
-#include "cli/app/open_scene.h"
+#include "cli/app/explained_rays.h"
 #include "inspect/debug_view.h"
+#include "inspect/metrics.h"
+#include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
-#include "viewer/comparison.h"
 #include "viewer/knob_costs.h"
-#include "viewer/sky_choice.h"
+#include "viewer/shading_edit.h"
 
 namespace whit::view {
 
-// A scene as it is called on the command line, and its settings there.
+// A scene by its name and settings on the command line.
 struct SceneChoice {
   std::string name;
   std::vector<std::string> settings;
-  std::string animation;  // empty: the first
+  std::string animation;  // empty: the first one
 };
 
 struct FrameRequest {
   Camera camera;
-  RenderOptions options;    // as the user set them; the size must be there
-  ImageSize window;         // that the picture is to fill
-  int spp = 1;              // that are traced: of the options, or more at rest
-  int depth = kDepthLimit;  // that is traced at most, in motion
-  bool coarse = false;      // at rest finer pixels will follow
+  RenderOptions options;    // the user's options; the size must be set
+  ImageSize window;         // the window that the picture is to fill
+  int spp = 1;              // samples that are traced: the options', or more at rest
+  int depth = kDepthLimit;  // upper limit of the depth in motion
+  bool coarse = false;      // finer pixels will follow at rest
   DebugView view = DebugView::none;
-  bool withReference = false;     // the reference's picture as well, and how far apart they are
-  bool measureKnobs = false;      // also what each knob costs
-  int reloads = 0, edits = 0;     // of the scene before it
-  std::optional<double> seconds;  // of a scene that moves: when it is looked at
-  int serial = 0;                 // tells requests apart
+  bool withReference = false;     // the reference's picture is traced and compared as well
+  bool measureKnobs = false;      // the cost of each knob is measured as well
+  int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
+  std::optional<double> seconds;  // the instant of a scene that moves
+  int serial = 0;                 // the number of the request
   bool interruptible = false;     // given up when another one is asked for
 };
 
-// Whether both ask for the same picture.
+// Returns whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
          a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
@@ -48,7 +49,7 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
          a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
 }
 
-// Whether both show the same, however finely.
+// Returns whether both show the same, at any resolution.
 inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.options.size = a.options.size;
   b.spp = a.spp;
@@ -63,62 +64,90 @@ inline double samplesOf(const FrameRequest& request) {
   return static_cast<double>(size.width) * size.height * request.spp;
 }
 
-// Whether both give the same light under the same sky.
-inline bool sameAmbient(const Ambient& a, Ambient b) {
-  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // they follow from it
-  return a == b;
-}
+// How the frame is compared with the reference.
+enum class CompareMode { off, split, heatMap };
 
-// What a user makes of a scene's surfaces, lights and surroundings; see scene/edit_shading.h.
-struct ShadingEdit {
-  std::shared_ptr<const cli::OpenScene> scene;  // that was edited
-  std::vector<Material> materials;
-  std::vector<Light> lights;
-  SkyChoice sky;
-  Ambient ambient;                    // of one from the sky only the strength counts
-  std::vector<std::string> settings;  // that amount to the same when the scene is read
+// Grows row by row from the top while the reference is traced.
+struct Comparison {
+  Film reference;  // rows [0, rows) are done
+  int rows = 0;
+  double referenceMs = 0;
+  // These two are set when all rows are done:
+  std::optional<ImageDifference> difference;
+  DisplayImage heatMap;  // as large as the frame
+
+  bool complete() const { return difference.has_value(); }
+  double progress() const {
+    return reference.image.height > 0 ? static_cast<double>(rows) / reference.image.height : 0;
+  }
 };
-// As it has been read, before any edit.
-ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
-
-// What differs between a scene as it was read and as it was edited, as values of --set: read again
-// with these as well, it has the same materials, lights, sky and ambient light, bit for bit. Those
-// of the sky are for a scene that is read without --sky.
-std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
 
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
-  RenderOptions options;  // the picture's
-  std::string surfaces;   // how many there are, in words
-  std::string animation;  // that was asked for
+  RenderOptions options;  // the options of the picture
+  std::string surfaces;   // the number of triangles and spheres, in words
+  std::string animation;  // the animation that was asked for
   Film film;
   FrameStats stats;
   ImageMetadata metadata;
-  EffectSet effects;                               // that were traced
+  EffectSet effects;                               // the effects that were traced
   bool sampled = false;                            // rays were drawn at random
   double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
-  std::array<EffectReason, kEffectCount> reasons;  // the scene's own change with an edit
-  std::vector<std::string> settings;  // with which the scene was read, then those of an edit
-  std::string sky;                    // its --sky, unless another was chosen since
+  std::array<EffectReason, kEffectCount> reasons;  // a copy, as edits change the scene's own
+  std::vector<std::string> settings;               // settings of the scene, then those of an edit
+  std::string sky;  // the scene's --sky, unless another sky was chosen
   Machine machine;
-  // Of a debug view:
+  // These three belong to a debug view:
   std::string legend;
   AmountScale scale;
   std::shared_ptr<const std::vector<WatchedPixel>> watched;
-  std::optional<Comparison> comparison;  // where the request is with the reference
-  std::vector<KnobCost> costs;           // where the request is to measure them
+  std::optional<Comparison> comparison;  // if the request is with the reference
+  std::vector<KnobCost> costs;           // if the request measures them
 };
 
-// What there is to be seen of a frame that is being traced.
+// Returns the frame left of column `split` and the rows of the reference that are done right of it.
+DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
+
+// The visible part of a frame that is being traced.
 struct UnfinishedFrame {
   FrameRequest request;
-  DisplayImage display;  // transparent where nothing was traced yet; empty: options are measured
-  double done = 0;       // share of it
-  std::vector<KnobCost> costs;  // measured so far
-  // Of a picture that gets more and more samples: that are shown, and SampleSums::relativeError().
+  DisplayImage display;  // transparent where nothing was traced yet; empty: knobs are measured
+  double done = 0;       // share of the frame
+  std::vector<KnobCost> costs;  // costs measured so far
+  // For a picture that gains samples: the samples shown, and SampleSums::relativeError().
   int samples = 0;
   double sampleError = 0;
+};
+
+// A query for the rays of a pixel that the user picked; RayPick is the answer.
+struct RayQuery {
+  Camera camera;
+  RenderOptions options;  // the options of the whole picture; the size must be set
+  int x = 0, y = 0;       // from the top left
+  int reloads = 0, edits = 0;
+  std::optional<double> seconds;  // the instant of the picture on screen
+};
+
+// Returns whether both queries have the same answer.
+inline bool sameRays(const RayQuery& a, const RayQuery& b) {
+  return sameView(a.camera, b.camera) && a.options == b.options && a.x == b.x && a.y == b.y &&
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+}
+
+// The description of a node. The scene may be edited before it is shown.
+struct RayWords {
+  std::string met, medium;
+  std::string parting;              // where the reference takes another path; empty: it does not
+  std::vector<std::string> lights;  // names of the node's lights
+};
+
+struct RayPick {
+  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing was picked
+  RayQuery query;
+  cli::ExplainedRays rays;
+  std::vector<RayWords> words;  // one for each node of the packets
+  std::vector<RayLine> lines;   // the rays of the packets
 };
 
 }  // namespace whit::view

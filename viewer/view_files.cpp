@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "cli/app/image_output.h"
 #include "cli/app/interrupt.h"
@@ -9,14 +10,18 @@
 #include "core/formatted.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"
+#include "io/model.h"
 #include "io/paths.h"
 #include "io/read_file.h"
 #include "io/scene/describe_scene.h"
+#include "io/scene/distinct_names.h"
 #include "io/scene/scene_settings.h"
 #include "io/scene/scene_view.h"
 #include "scene/members.h"
 
 namespace whit::view {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -31,14 +36,14 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-void sayNoCamera(RenderOptions& options) {
+void clearCamera(RenderOptions& options) {
   options.camera.clear();
   forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
 }
 
-// As one of the scene's cameras, or as the first with what is different.
-void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
-  sayNoCamera(options);
+// Sets the options to one of the scene's cameras, or to the first one and the members that differ.
+void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
+  clearCamera(options);
   const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                  [&](const Camera& known) { return sameView(known, camera); });
   if (same == scene.cameras.begin()) return;
@@ -55,9 +60,7 @@ void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
 std::string freeName(const std::string& scene) {
   for (int i = 1; i <= kPictureLimit; ++i) {
     std::string name = scene + formatted("-%04d", i);
-    const auto taken = [&](const char* extension) {
-      return std::filesystem::exists(name + extension);
-    };
+    const auto taken = [&](const char* extension) { return fs::exists(name + extension); };
     if (!taken(".png") && !taken(".exr") && !taken(".json")) return name;
   }
   throwIo("'" + scene + "-9999' is taken: there are too many saved pictures in this folder");
@@ -65,7 +68,7 @@ std::string freeName(const std::string& scene) {
 
 std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
                         const RenderOptions& usual) {
-  // What a preset stands for is said one by one.
+  // The options that a preset sets are stated one by one.
   options.quality = usual.quality;
   const auto said = pictureOptions(usual);
   std::string text = "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
@@ -77,7 +80,7 @@ std::string commandWith(const std::string& scene, const std::string& picture, Re
   return text;
 }
 
-// Whether these name a sky that the scene's folder does not hold.
+// Returns whether these settings name a sky outside the scene's folder.
 bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
                      const std::vector<std::string>& settings) {
   Json root = Json::object();
@@ -89,13 +92,91 @@ bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
   return movePaths(root, folder, folder);
 }
 
+std::string freeFile(const std::string& scene) {
+  constexpr int kLimit = 9999;
+  for (int i = 1; i <= kLimit; ++i) {
+    std::string file = scene + "-edited" + (i == 1 ? "" : "-" + std::to_string(i)) + ".json";
+    if (!fs::exists(file)) return file;
+  }
+  throwIo("'" + scene + "-edited-9999.json' is taken: there are too many in this folder");
+}
+
+void apply(const std::vector<std::string>& settings, const std::set<std::string>& but,
+           JsonDocument& document) {
+  for (const std::string& text : settings) {
+    const SceneSetting setting = parseSceneSetting(text);
+    if (!but.contains(setting.tokens.front())) applySceneSetting(setting, document);
+  }
+}
+
+// Returns whether the sky is the one of the scene's file.
+bool hasOwnSky(const SkyChoice& sky) { return sky.source.empty(); }
+
+Json editedFile(const fs::path& path, const SceneName& name, const std::vector<std::string>& read,
+                const ShadingEdit& edit) {
+  JsonDocument document;
+  document.file = path.string();
+  document.root = parseJson(readTextFile(path, kJsonBytesLimit), document.file);
+  apply(read, {}, document);
+  for (const auto& [parameter, value] : name.parameters) {
+    document.root["parameters"][parameter] = value;
+  }
+  apply(edit.settings, {}, document);
+  if (!hasOwnSky(edit.sky)) document.root["sky"] = describeSky(edit.sky);
+  return std::move(document.root);
+}
+
+// Cameras and lights were supplied, or come from the model's own file; a scene has to state them.
+Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, const Scene& scene,
+                  const ShadingEdit& edit) {
+  Json root{{"whit", 1}, {"size", {scene.width, scene.height}}};
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  names = distinctNames(names);
+  root["cameras"] = Json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    root["cameras"][names[i]] = describe(scene.cameras[i]);
+  }
+  root["lights"] = describe(edit.lights);
+  root["ambient"] = describe(edit.ambient);
+  const std::set<std::string> inItem{"lights", "ambient", "sky"};
+  JsonDocument item{path.string(), {{"model", path.filename().string()}}, {}};
+  apply(read, inItem, item);
+  apply(edit.settings, inItem, item);
+  JsonDocument whole{path.string(), std::move(root), {}};
+  const std::set<std::string> butSky{"lights", "ambient", "materials"};
+  apply(read, butSky, whole);
+  apply(edit.settings, butSky, whole);
+  if (!hasOwnSky(edit.sky)) whole.root["sky"] = describeSky(edit.sky);
+  whole.root["scene"] = Json::array({std::move(item.root)});
+  return std::move(whole.root);
+}
+
+// Makes `camera` the first one, under a name of its own. The path's first keyframe states what it
+// took from the old first camera.
+void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
+  if (sameView(camera, scene.cameras.front())) return;
+  const Json others = root.contains("cameras") ? root["cameras"] : Json::object();
+  std::string name = "saved";
+  for (int i = 2; others.contains(name); ++i) name = "saved " + std::to_string(i);
+  Json cameras{{name, describe(camera)}};
+  for (const auto& [known, value] : others.items()) cameras[known] = value;
+  root["cameras"] = std::move(cameras);
+  if (scene.cameraPath.empty()) return;
+  Json& first = root["path"][0];
+  const Json begin = describe(scene.cameraPath.front().camera);
+  for (const auto& [key, value] : begin.items()) {
+    if (!first.contains(key)) first[key] = value;
+  }
+}
+
 }  // namespace
 
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options) {
   const Scene& shown = frame.scene->scene;
-  // Not the metadata's options: those have "auto" resolved, which can choose other instructions.
-  sayCamera(shown, frame.request.camera, options);
+  // The metadata's options have "auto" resolved, which can choose other instructions.
+  setCamera(shown, frame.request.camera, options);
   if (options.size == ImageSize{shown.width, shown.height}) options.size.reset();
   RenderOptions usual;
   if (shown.isModel) applyModelDefaults(usual, {});
@@ -113,10 +194,25 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   return text;
 }
 
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
+                     const ShadingEdit& edit, const Camera& camera) {
+  const SceneName parsed = parseSceneName(name);
+  const fs::path path = findScene(parsed.file, load.shippedScenes);
+  Json root = isModelFile(path) ? sceneOfModel(path, scene.settings, scene.scene, edit)
+                                : editedFile(path, parsed, scene.settings, edit);
+  lookThrough(camera, scene.scene, root);
+  SavedScene saved;
+  saved.file = freeFile(scene.scene.name);
+  saved.leavesFolder = movePaths(root, path.parent_path(), ".");
+  const cli::WriteScope scope;
+  writeTextFile(saved.file, root.dump(2) + "\n");
+  return saved;
+}
+
 std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options) {
-  sayNoCamera(options);
+  clearCamera(options);
   if (options.size == ImageSize{scene.width, scene.height}) options.size.reset();
-  const std::string name = std::filesystem::path(saved.file).stem().string();
+  const std::string name = fs::path(saved.file).stem().string();
   return commandWith(saved.file, name, options, {}) +
          (saved.leavesFolder ? " --allow-outside" : "");
 }

@@ -1,31 +1,41 @@
-// Files that the viewer writes and reads: saved pictures, cameras, and the command that makes a
-// picture again.
+// The files that the viewer writes and reads, and the commands that make a picture again.
 #pragma once
 
 #include <string>
 
-#include "viewer/save_scene.h"
 #include "viewer/traced_frame.h"
 
 namespace whit::view {
 
-// "whit render SCENE -o NAME.png ..." which makes a picture of the frame's scene and view with
-// these options, bit for bit. Says only what differs from the scene's defaults. Words are quoted
-// for a POSIX shell where needed.
+// Returns the command "whit render SCENE -o NAME.png ..." that makes a picture of the frame's scene
+// and view with these options, bit for bit. It only states what differs from the scene's defaults.
+// Words are quoted for a POSIX shell where needed.
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
                           const TracedFrame& frame, RenderOptions options);
 
-// The same of a scene that was saved with the view.
+struct SavedScene {
+  std::string file;
+  bool leavesFolder = false;  // it names files elsewhere, so reading it needs --allow-outside
+};
+
+// Writes NAME-edited.json, with the first number that is free, into the current folder. It is the
+// file of the scene called `name` with its settings and edits, or a scene that holds the model
+// called `name`; its first camera is `camera`. `load` holds the options that the scene was read
+// with. Throws Error(io), and writes nothing then.
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
+                     const ShadingEdit& edit, const Camera& camera);
+
+// Returns the command for a scene that was saved with its view.
 std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options);
 
 // Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
 // the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).
 std::string savePicture(const TracedFrame& frame, const std::string& command);
 
-// A camera as scene files have it: {"eye": [x,y,z], "at": ..., "up": ..., "fov": degrees}; and
-// "command", unless that is empty.
+// Writes a camera as scene files have it, and "command" unless that is empty.
 void writeCamera(const std::string& file, const Camera& camera, const std::string& command = "");
-// Throws Error: io when it cannot be read, badScene with the place and what was expected.
+// Throws Error(io) when the file cannot be read, and Error(badScene) with the place and the
+// expectation.
 Camera readCamera(const std::string& file);
 
 }  // namespace whit::view

@@ -19,7 +19,7 @@ namespace whit::view {
 
 namespace {
 
-constexpr double kClickSlack = 3;  // pixels by which a hand may shake between down and up
+constexpr double kClickSlack = 3;  // largest motion of a click, in pixels
 
 std::string glfwReason() {
   const char* text = nullptr;
@@ -31,16 +31,16 @@ Window& windowOf(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-// The first that is there, as Debian, Fedora, Arch and macOS have them.
+// Fonts of Debian, Fedora, Arch and macOS; the first that exists is used.
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
                             "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
                             "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
                             "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
                             "/System/Library/Fonts/Menlo.ttc"};
 
-// At the display's scale; without a font on this system the one of Dear ImGui, enlarged.
+// Loads a font at the display's scale, or enlarges Dear ImGui's own where the system has none.
 void setFont(float scale) {
-  constexpr float kHeight = 13;  // pixels, where the display does not magnify
+  constexpr float kHeight = 13;  // pixels at scale 1
   ImGuiIO& io = ImGui::GetIO();
   for (const char* file : kFonts) {
     std::error_code none;
@@ -64,7 +64,7 @@ void setStyle(float scale) {
   style.Colors[ImGuiCol_TitleBg] = style.Colors[ImGuiCol_TitleBgActive] =
       ImVec4(0.11f, 0.15f, 0.22f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.16f, 0.24f, 0.36f, 1);
-  style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.2f, 0.42f, 0.7f, 1);  // bars with text on them
+  style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.2f, 0.42f, 0.7f, 1);  // bars have text on them
   style.Colors[ImGuiCol_PlotLines] = ImVec4(0.55f, 0.8f, 1, 1);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62f, 0.65f, 0.7f, 1);
   style.ScaleAllSizes(scale);
@@ -100,9 +100,9 @@ Window::Window(const std::string& title, const ImageSize& size) {
   glfwSetDropCallback(window_, onDrop);
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // leave no file behind
+  ImGui::GetIO().IniFilename = nullptr;  // no file is left behind
   setStyle(static_cast<float>(contentScale()));
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the handlers above, too
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // chains the callbacks above
   ImGui_ImplOpenGL2_Init();
   glGenTextures(1, &picture_.texture);
   glGenTextures(1, &over_.texture);
@@ -204,7 +204,7 @@ void Window::uploadOver(const DisplayImage& image, const ImageSize& madeFor) {
 
 void Window::drawLayer(const Layer& layer, const ImageSize& window) {
   if (layer.size == ImageSize{}) return;
-  // One texel a pixel has to come through unchanged; fewer are blended.
+  // Texels of the window's resolution are shown unchanged; coarser ones are blended.
   const GLint filter = layer.size == window ? GL_NEAREST : GL_LINEAR;
   const auto shares =
       layer.madeFor == ImageSize{} ? std::array{1.0, 1.0} : sharesFilled(layer.madeFor, window);
@@ -315,7 +315,7 @@ void Window::onDrop(GLFWwindow* window, int count, const char** files) {
 }
 
 void Window::onFocus(GLFWwindow* window, int focused) {
-  if (!focused) windowOf(window).input.held.clear();  // their release would go unseen
+  if (!focused) windowOf(window).input.held.clear();  // their release would not be seen
 }
 
 }  // namespace whit::view

@@ -1,20 +1,54 @@
-// The window: GLFW, OpenGL 2.1 and Dear ImGui. The only file that calls OpenGL.
+// The window: GLFW, OpenGL 2.1 and Dear ImGui. No other file of the viewer calls OpenGL.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/image.h"
-#include "viewer/input.h"
 
 struct GLFWwindow;
 
 namespace whit::view {
 
-// The shares of a window's width and height that a picture fills which was made for a window of
-// another size: it keeps its shape.
+// The input by keys and mouse since the last frame. The window or a script fills it.
+struct Input {
+  std::set<int> held;                // keys that are down, by their GLFW codes
+  std::vector<int> pressed;          // keys that went down since the last frame
+  std::vector<int> commands;         // keys that went down with Ctrl; `pressed` lacks them
+  double lookX = 0, lookY = 0;       // pixels dragged with the left button; y grows downwards
+  double orbitX = 0, orbitY = 0;     // with the right button
+  double wheel = 0;                  // notches
+  bool happened = false;             // there was an event, on the panel or beside it
+  std::vector<std::string> dropped;  // files
+  // A script's pointer in pixels of the window; ImGui sees a person's pointer by itself.
+  struct Pointer {
+    double x = 0, y = 0;
+    bool down = false;
+  };
+  std::optional<Pointer> pointer;
+
+  // A place on the picture where the left button went down and up, in pixels of the window.
+  struct Click {
+    double x = 0, y = 0;
+  };
+
+  bool isHeld(int key) const { return held.count(key) != 0; }
+  // Forgets all events, but not the keys that are held.
+  void endFrame() {
+    pressed.clear();
+    commands.clear();
+    dropped.clear();
+    lookX = lookY = orbitX = orbitY = wheel = 0;
+    happened = false;
+  }
+};
+
+// Returns the shares of a window's width and height that are filled by a picture that was made for
+// a window of another size and keeps its shape.
 std::array<double, 2> sharesFilled(const ImageSize& madeFor, const ImageSize& window);
 
 // Starts GLFW. Throws Error(usage) when there is no display.
@@ -34,37 +68,37 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  Input input;  // of the user; the caller ends the frames
+  Input input;  // the caller ends its frames
 
   bool closing() const;
   void close();
-  ImageSize pixels() const;  // of the framebuffer; zero when minimized
+  ImageSize pixels() const;  // size of the framebuffer; zero when minimized
   double contentScale() const;
-  // The framebuffer's pixel at that place of the window.
+  // Returns the framebuffer's pixel at that place of the window.
   std::array<int, 2> pixelAt(const Input::Click& place) const;
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   void toggleFullScreen();
 
-  // The last click on the picture since the last call, the user's or a script's pointer's.
+  // Returns the last click on the picture since the last call.
   std::optional<Input::Click> takeClick() { return std::exchange(click_, std::nullopt); }
 
-  // Where the pointer is over the picture, not over a panel, and no button is down. Of a script, if
-  // it has one.
+  // Returns the place of the pointer if it is on the picture, not on a panel, and no button is
+  // down.
   std::optional<Input::Click> pointed() const;
 
-  // Handles what happened, after waiting for it so long at most.
+  // Waits for events, at most that long, and handles them.
   void poll(double waitSeconds);
-  // Makes poll() return; for other threads.
+  // Makes poll() return. Other threads may call it.
   static void wake();
 
-  // The picture. It was made for a window of that size, and fills as much of another one as its
-  // shape allows; zero: it is stretched to any.
+  // Sets the picture. It was made for a window of that size and keeps its shape in another one;
+  // zero: it is stretched to any window.
   void upload(const DisplayImage& image, const ImageSize& madeFor = {});
-  // What lies over it: transparent where there is nothing.
+  // Sets a second picture that lies over the first, transparent where it is not traced yet.
   void uploadOver(const DisplayImage& image, const ImageSize& madeFor);
   void dropOver() { over_.size = {}; }
-  // Begins a frame: the picture and what lies over it, and a new ImGui frame over that.
+  // Draws the pictures and begins a new ImGui frame over them.
   void begin();
   // Draws what ImGui was given.
   void end();
@@ -83,7 +117,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   struct Layer {
     unsigned int texture = 0;
-    ImageSize size, madeFor;  // of zero pixels: there is none
+    ImageSize size, madeFor;  // a size of zero: there is no picture
   };
   static void fill(Layer& layer, const DisplayImage& image, const ImageSize& madeFor);
   static void drawLayer(const Layer& layer, const ImageSize& window);
@@ -93,8 +127,8 @@ class Window {
   bool looking_ = false, orbiting_ = false;
   double pressedX_ = 0, pressedY_ = 0;  // where the left button went down
   std::optional<Input::Click> click_;
-  std::optional<Input::Click> pointed_;  // a script's pointer is down on the picture
-  int windowedX_ = 0, windowedY_ = 0;    // before full screen
+  std::optional<Input::Click> pointed_;  // where a script's pointer went down on the picture
+  int windowedX_ = 0, windowedY_ = 0;    // place and size before full screen
   ImageSize windowed_;
 };
 

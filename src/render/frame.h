@@ -17,7 +17,8 @@ namespace whit {
 
 // Called by the workers while they trace a frame, possibly several at a time.
 struct FrameHooks {
-  // Asked between tiles and between samples. True: the frame is given up, and its film is useless.
+  // Asked between tiles and between samples; null: never. True: the frame is given up, and its film
+  // is useless.
   std::function<bool()> stop;
   // Called when the film holds the pixels of a tile; null: not wanted. Batches do not call it.
   std::function<void(std::span<const std::uint32_t> pixels)> finished;
@@ -36,7 +37,7 @@ struct Frame {
   // Part of the frame's work: sees the chunks of all workers, at the same time.
   StageObserver* observer = nullptr;
   const FrameHooks* hooks = nullptr;
-  bool stops() const { return hooks && hooks->stop(); }
+  bool stops() const { return hooks && hooks->stop && hooks->stop(); }
 };
 
 }  // namespace whit

@@ -2,42 +2,23 @@
 
 #include <algorithm>
 #include <atomic>
-#include <string>
 
 namespace whit {
-
-namespace {
-
-// How far a frame has come, by the lists of pixels that workers take on.
-class TileProgress {
- public:
-  TileProgress(Renderer& renderer, Progress& progress) : renderer_(renderer), progress_(progress) {}
-
-  // Nobody looks on at the list.
-  StageObserver* begun(std::size_t list) {
-    if (list == 0) ++passes_;
-    const std::size_t lists = renderer_.scheduler().allPixels().tiles.size();
-    const int passes = passes_;
-    progress_.report(passes < 2 ? "tracing" : "tracing, pass " + std::to_string(passes),
-                     std::min(1.0, static_cast<double>(list) / static_cast<double>(lists)));
-    return nullptr;
-  }
-
- private:
-  Renderer& renderer_;
-  Progress& progress_;
-  std::atomic<int> passes_{0};  // of adaptive sampling, each of which begins with list 0
-};
-
-}  // namespace
 
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
                        Progress* progress) {
   if (mode == Mode::reference) return renderer.renderReference(camera, film, progress);
-  // Whoever looks on at a frame's batches has it traced tile by tile.
-  if (!progress || renderer.options().batch == Batch::frame) return renderer.render(camera, film);
-  TileProgress tiles(renderer, *progress);
-  return renderer.render(camera, film, [&](std::size_t list) { return tiles.begun(list); });
+  if (!progress) return renderer.render(camera, film);
+  std::atomic<std::size_t> finished{0};
+  FrameHooks hooks;
+  hooks.finished = [&](std::span<const std::uint32_t> pixels) {
+    // Adaptive sampling traces all pixels once, then some of them again.
+    const auto all = static_cast<double>(film.image.pixels.size());
+    const double done = static_cast<double>(finished += pixels.size()) / all;
+    progress->report(done <= 1 ? "tracing" : "tracing edges",
+                     done <= 1 ? done : std::min(done - 1, 1.0));
+  };
+  return renderer.render(camera, film, {}, &hooks);
 }
 
 }  // namespace whit

@@ -6,8 +6,8 @@
 
 namespace whit {
 
-// `progress`, if any, is told of each list of pixels before a worker takes it on; a frame traced
-// as one batch (--batch frame) has none.
+// `progress`, if any, is told of each tile that is finished; a frame traced as one batch
+// (--batch frame) has none.
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
                        Progress* progress = nullptr);
 

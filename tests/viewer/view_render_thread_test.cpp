@@ -131,11 +131,11 @@ TEST_F(RenderThreadTest, NothingQueuesBehindAPictureInMotion) {
 
 TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
   RenderThread thread(opened_, common_, [] {});
-  FrameRequest long_ = request_;
-  long_.options.size = {4000, 4000};
-  long_.spp = 64;
-  long_.interruptible = true;
-  EXPECT_TRUE(thread.ask(long_));
+  FrameRequest large = request_;
+  large.options.size = {4000, 4000};
+  large.spp = 64;
+  large.interruptible = true;
+  EXPECT_TRUE(thread.ask(large));
   std::optional<UnfinishedFrame> begun;
   while (!begun) begun = thread.takeUnfinished();
   EXPECT_FALSE(thread.committed());

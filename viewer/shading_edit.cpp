@@ -1,15 +1,18 @@
-// Edits as settings of the scene.
+#include "viewer/shading_edit.h"
+
+#include <filesystem>
 #include <set>
 
 #include "io/scene/describe_scene.h"
+#include "io/supply_view.h"
 #include "io/scene/scene_view.h"
-#include "viewer/traced_frame.h"
+#include "make/studio_sky.h"
 
 namespace whit::view {
 
 namespace {
 
-// A member whose default follows from one that is set has to be set as well.
+// A member whose default value depends on a changed member has to be set as well.
 template <typename Noun>
 void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& settings) {
   std::set<std::string_view> decided;
@@ -30,7 +33,7 @@ void addMaterial(const Material& read, const Material& edited, std::vector<std::
   }
 }
 
-// `whole`: also what has not changed.
+// With `whole` a sky from another source is stated even if it has not changed.
 void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
             std::vector<std::string>& settings) {
   const auto say = [&](const char* pointer, const Json& value) {
@@ -43,6 +46,30 @@ void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
 }
 
 }  // namespace
+
+SkyChoice skyOf(const cli::OpenScene& scene) {
+  const Sky& sky = scene.scene.sky;
+  SkyChoice choice{"", sky.kind, sky.scale, sky.rotation};
+  if (!scene.sky.empty()) {
+    choice.source = chooseSky(scene.sky).source;
+  } else if (sky.name == kStudio) {
+    choice.source = kStudio;
+  }
+  return choice;
+}
+
+SkyChoice chooseSky(const std::string& source) {
+  if (source == kNoSky) return {source};
+  if (source == kStudio) return {source, Sky::Kind::image};
+  return {std::filesystem::absolute(source).lexically_normal().string(), Sky::Kind::image};
+}
+
+Json describeSky(const SkyChoice& sky) {
+  if (sky.kind == Sky::Kind::none) return {{"color", 0}};
+  Json json{{"scale", describe(sky.scale)}, {"rotation", describe(sky.rotation)}};
+  json[sky.source == kStudio ? "preset" : "image"] = sky.source;
+  return json;
+}
 
 ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene) {
   return {scene,         scene->scene.materials, scene->scene.lights,
@@ -58,9 +85,9 @@ std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit
     addMaterial(read.materials[i], edited.materials[i], settings);
   }
   const bool ambientChanged = !sameAmbient(read.ambient, edited.ambient);
-  // Ambient light is made from a sky of the scene's own, which one given by --sky is not.
+  // Only a sky in the file makes ambient light, not one that is given by --sky.
   addSky(read.sky, edited.sky, ambientChanged && edited.ambient.ofSky > 0, settings);
-  // A model's own would follow another sky.
+  // The default ambient light of a model follows its sky.
   const bool ambientFollows = read.scene && read.scene->scene.isModel && edited.sky != read.sky;
   if (ambientFollows || ambientChanged) {
     settings.push_back("/ambient=" + describe(edited.ambient).dump());

@@ -1,0 +1,307 @@
+#include "viewer/overlay.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/display.h"
+#include "core/formatted.h"
+#include "viewer/window.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 230), kShade = IM_COL32(0, 0, 0, 150);
+constexpr ImU32 kBrightWhite = IM_COL32(255, 255, 255, 255), kDarkShade = IM_COL32(0, 0, 0, 190);
+
+// Draws words above the panels, which would hide them. The shade goes beyond the text by `margin`
+// and has round corners of that radius.
+void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
+               ImU32 shade = kShade) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
+                     ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
+  list.AddText(at, color, text);
+}
+
+// The meaning of the colors of a picture of amounts, as a bar with numbers.
+struct ColorScale {
+  // Gives the 8-bit sRGB color at a share of the way along the bar, from 0 to 1.
+  std::function<std::array<std::uint8_t, 3>(double)> color;
+  struct Tick {
+    double at;  // share of the way
+    std::string text;
+  };
+  std::vector<Tick> ticks;
+};
+
+constexpr float kBarLines = 0.8f, kTickLines = 0.25f;  // heights of the font
+
+ColorScale differenceScale() {
+  ColorScale scale{heatColor, {}};
+  for (const int codes : kHeatTicks) {
+    const bool last = codes == kHeatTicks.back();
+    scale.ticks.push_back({heatPosition(codes), std::to_string(codes) + (last ? "+" : "")});
+  }
+  return scale;
+}
+
+ColorScale scaleOfView(DebugView view, const AmountScale& amounts) {
+  ColorScale scale{[view](double share) { return colorAt(view, share); }, {}};
+  for (const double at : {0.0, 0.5, 1.0}) {
+    scale.ticks.push_back({at, formatted("%.3g", amountAt(view, amounts, at))});
+  }
+  return scale;
+}
+
+float scaleHeight() { return ImGui::GetFontSize() * (1 + kBarLines + kTickLines); }
+
+void drawColorScale(const ColorScale& scale, const ImVec2& at, float width, ImDrawList& list) {
+  constexpr int kSteps = 64;
+  const float line = ImGui::GetFontSize(), bar = at.y + kBarLines * line;
+  const auto x = [&](double share) { return at.x + static_cast<float>(share) * width; };
+  for (int i = 0; i < kSteps; ++i) {
+    const auto c = scale.color((i + 0.5) / kSteps);
+    list.AddRectFilled(ImVec2(x(static_cast<double>(i) / kSteps), at.y),
+                       ImVec2(x((i + 1.0) / kSteps), bar), IM_COL32(c[0], c[1], c[2], 255));
+  }
+  for (const ColorScale::Tick& tick : scale.ticks) {
+    list.AddLine(ImVec2(x(tick.at), at.y), ImVec2(x(tick.at), bar + kTickLines * line), kWhite);
+    const float half = ImGui::CalcTextSize(tick.text.c_str()).x / 2;
+    // The texts at the ends stay within the bar.
+    const float left = std::clamp(x(tick.at) - half, at.x, at.x + std::max(width - 2 * half, 0.0f));
+    list.AddText(ImVec2(left, bar + kTickLines * line), kWhite, tick.text.c_str());
+  }
+}
+
+constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+
+// The line lies behind the panels and the words above them, because in a small window a panel may
+// cover their place.
+void drawSplit(double split, bool labels) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float x = static_cast<float>(split) * window.x, gap = ImGui::GetFontSize();
+  const float y = window.y - 5 * gap;
+  list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
+  list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
+  if (!labels) return;
+  drawLabel(ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
+  drawLabel(ImVec2(x + gap, y), "reference");
+}
+
+// The lines are short enough for the room beside the panel in a small window.
+void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
+  const ImageDifference& d = *comparison.difference;
+  ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
+  ImGui::Text("FLIP  %.2g", d.flipMean);
+  ImGui::Text("8-bit codes: largest %d", d.maxCode);
+  ImGui::Text("             over 1 in %.3f %%", d.pixelsGe2CodesPct);
+  ImGui::Text("packets   %.1f ms", frame.stats.frameMs);
+  ImGui::Text("reference %.0f ms", comparison.referenceMs);
+}
+
+void drawFindings(const TracedFrame& frame, bool heat) {
+  if (heat) {
+    ImGui::TextUnformatted("difference, 8-bit codes");
+    const ColorScale scale = differenceScale();
+    const ImVec2 size(ImGui::GetFontSize() * 15, scaleHeight());
+    drawColorScale(scale, ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList());
+    ImGui::Dummy(size);
+  } else {
+    ImGui::TextUnformatted("packets against the reference");
+  }
+  if (!frame.comparison) {
+    ImGui::TextDisabled("waits until nothing moves");
+  } else if (frame.comparison->complete()) {
+    drawDifference(frame, *frame.comparison);
+  } else {
+    const double done = frame.comparison->progress();
+    ImGui::ProgressBar(static_cast<float>(done), ImVec2(ImGui::GetFontSize() * 15, 0),
+                       formatted("reference: %.0f %%", 100 * done).c_str());
+  }
+}
+
+// All scales are multiples of 1/16.
+std::string fraction(double scale) {
+  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
+  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
+  return below == 1 ? "full" : formatted("%d/%d", above, below);
+}
+
+// Returns the place in the picture, each coordinate from 0 to 1; null: beside the picture.
+std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const ImageSize& window,
+                                             const std::array<int, 2>& pixel) {
+  const auto shares = sharesFilled(madeFor, window);
+  const double x = ((pixel[0] + 0.5) / window.width - 0.5) / shares[0] + 0.5;
+  const double y = ((pixel[1] + 0.5) / window.height - 0.5) / shares[1] + 0.5;
+  if (!(x >= 0 && x < 1 && y >= 0 && y < 1)) return std::nullopt;
+  return std::array{x, y};
+}
+
+int indexAt(double share, int pixels) { return static_cast<int>(share * pixels); }
+
+std::string colorText(const Rgb& c) {
+  const RgbD d(c);
+  return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
+}
+
+Image alone(const Rgb& radiance) {
+  Image image(1, 1);
+  image.pixels[0] = radiance;
+  return image;
+}
+
+// Returns the difference as the map of differences shows it.
+int codesApart(const Rgb& a, const Rgb& b) {
+  return codeDifferences(toDisplay(alone(a), 0, ToneCurve::none),
+                         toDisplay(alone(b), 0, ToneCurve::none))[0];
+}
+
+std::string comparedText(const Comparison& comparison, const Rgb& packets, int x, int y) {
+  std::string text = "\npackets   " + colorText(packets);
+  if (y >= comparison.rows) return text + "\nreference: not traced yet";
+  const Image& image = comparison.reference.image;
+  const Rgb reference = image.pixels[image.index(x, y)];
+  return text + "\nreference " + colorText(reference) +
+         formatted("\n%d 8-bit codes apart", codesApart(packets, reference));
+}
+
+}  // namespace
+
+std::string errorText(double sampleError) {
+  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
+}
+
+std::string samplesText(const UnfinishedFrame& frame) {
+  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
+         errorText(frame.sampleError);
+}
+
+std::string sharpnessText(const FrameRequest& request) {
+  const int window = std::max(request.window.width, 1);
+  const int width = request.options.size ? request.options.size->width : window;
+  std::string text = fraction(static_cast<double>(width) / window);
+  if (request.depth < request.options.depth) text += formatted(", depth %d", request.depth);
+  if (request.spp != 1) text += formatted(", %d samples", request.spp);
+  return text;
+}
+
+std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& window,
+                    const std::array<int, 2>& pixel) {
+  const Image& image = frame.film.image;
+  const DisplayImage& display = frame.film.display;
+  const ImageSize& madeFor = frame.request.window;
+  if (!frame.scene || window.width < 1 || window.height < 1 || madeFor.width < 1 ||
+      image.pixels.empty() || display.rgba.size() < 4 * image.pixels.size()) {
+    return "";
+  }
+  const auto place = placeIn(madeFor, window, pixel);
+  if (!place) return "";
+  const auto [shareX, shareY] = *place;
+  const int x = indexAt(shareX, image.width), y = indexAt(shareY, image.height);
+  const std::size_t at = image.index(x, y);
+  std::string text =
+      formatted("pixel %d, %d", indexAt(shareX, madeFor.width), indexAt(shareY, madeFor.height));
+  if (frame.watched) {
+    text += "\n" + textOf(frame.request.view, (*frame.watched)[at], frame.options.spp);
+  } else {
+    const std::uint8_t* codes = &display.rgba[4 * at];
+    text += formatted("\n8-bit codes %d %d %d", codes[0], codes[1], codes[2]) +
+            "\nradiance, W/sr a square unit";
+    if (!compared || !frame.comparison) text += "\n" + colorText(image.pixels[at]);
+  }
+  if (compared && frame.comparison) {
+    text += comparedText(*frame.comparison, image.pixels[at], x, y);
+  }
+  return text;
+}
+
+void drawInspection(const std::string& lines, double pointerX, double pointerY) {
+  if (lines.empty()) return;
+  constexpr float kMargin = 4;
+  const float away = ImGui::GetFontSize();
+  const ImVec2 size = ImGui::CalcTextSize(lines.c_str()), window = ImGui::GetIO().DisplaySize;
+  const auto beside = [&](double pointer, float length, float room) {
+    const auto at = static_cast<float>(pointer);
+    const bool fits = at + away + length + kMargin <= room;
+    return std::max(fits ? at + away : at - away - length, kMargin);
+  };
+  drawLabel(ImVec2(beside(pointerX, size.x, window.x), beside(pointerY, size.y, window.y)),
+            lines.c_str(), kMargin, kBrightWhite, kDarkShade);
+}
+
+void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
+  constexpr float kMargin = 10, kPadding = 4;
+  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
+  const bool more = next && next->samples > frame.request.spp && !next->display.rgba.empty();
+  if (more) {
+    text = samplesText(*next);
+  }
+  if (rate > 0) text += formatted(", %.0f frames/s", rate);
+  if (next && !more) {
+    text += formatted("; next %s: %.0f %%", sharpnessText(next->request).c_str(), 100 * next->done);
+  }
+  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+  drawLabel(ImVec2(window.x - kMargin - size.x, window.y - kMargin - kPadding - size.y),
+            text.c_str(), kPadding);
+  if (frame.request.view == DebugView::none) return;
+  text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
+  if (!frame.legend.empty()) text += ": " + frame.legend;
+  const ImVec2 said = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 corner(window.x - kMargin - said.x, window.y - kMargin - 3 * kPadding - 2 * size.y);
+  drawLabel(corner, text.c_str(), kPadding);
+  if (!hasScale(frame.request.view)) return;
+  const ColorScale scale = scaleOfView(frame.request.view, frame.scale);
+  const float height = scaleHeight() + 2 * kPadding, top = corner.y - height - kPadding;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(ImVec2(corner.x - kPadding, top - kPadding),
+                     ImVec2(corner.x + said.x + kPadding, top + height - kPadding), kShade,
+                     kPadding);
+  drawColorScale(scale, ImVec2(corner.x, top), said.x, list);
+}
+
+void drawMessage(const std::string& message) {
+  constexpr float kMargin = 10, kPadding = 6;
+  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(message.c_str());
+  drawLabel(ImVec2((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y),
+            message.c_str(), kPadding, kBrightWhite, kDarkShade);
+}
+
+bool drawError(const std::string& error) {
+  bool open = true;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
+  if (ImGui::Begin("error", nullptr, kBare)) {
+    ImGui::PushTextWrapPos(window.x * 0.9f);
+    ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
+    ImGui::PopTextWrapPos();
+    open = !ImGui::Button("dismiss");
+  }
+  ImGui::End();
+  return open;
+}
+
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
+  const bool under = frame.comparison.has_value();
+  const bool heat = mode == CompareMode::heatMap && under && frame.comparison->complete();
+  if (under && !heat) drawSplit(split, words);
+  if (!words) return;
+  const float gap = 10;
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
+                          ImVec2(1, 0));
+  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+  if (ImGui::Begin("comparison", nullptr, kBare)) drawFindings(frame, heat);
+  ImGui::End();
+}
+
+}  // namespace whit::view

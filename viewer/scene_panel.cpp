@@ -1,0 +1,187 @@
+// The tab of the scene: lights, materials, sky and ambient light as controls.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/supply_view.h"
+#include "make/studio_sky.h"
+#include "scene/members.h"
+#include "viewer/panel.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // also clamps typed values
+
+bool drawColor(const char* label, Rgb& color) {
+  if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
+  color = min(max(color, Rgb(0.0f)), Rgb(1.0f));
+  return true;
+}
+
+// Shows a value without upper limit as its largest channel and a color that has 1 there.
+bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb& value) {
+  float strength = maxComponent(value);
+  Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
+  const bool recolored = drawColor(label, color);
+  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
+  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
+  if (!recolored && !turned) return false;
+  value = color * strength;
+  return true;
+}
+
+// The change of a value without limits for each pixel that the mouse is dragged.
+float dragStep(float value) { return 0.002f * std::max(1.0f, std::abs(value)); }
+
+template <typename Noun, typename Value>
+bool drawMember(const Member<Noun, Value>& member, Value& value) {
+  const auto low = static_cast<float>(member.rules.low);
+  const auto high = static_cast<float>(std::min(member.rules.high, member.rules.usual));
+  if constexpr (std::is_same_v<Value, Light::Kind>) {
+    return false;  // the kind decides which members there are
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return ImGui::Checkbox(member.name, &value);
+  } else if constexpr (std::is_same_v<Value, int>) {
+    return ImGui::SliderInt(member.name, &value, static_cast<int>(low), static_cast<int>(high),
+                            "%d", kClamp);
+  } else if constexpr (std::is_same_v<Value, float>) {
+    const bool endless = member.rules.usual >= kLargestNumber;
+    return endless
+               ? ImGui::DragFloat(member.name, &value, dragStep(value), low, high, "%.3f", kClamp)
+               : ImGui::SliderFloat(member.name, &value, low, high, "%.3f", kClamp);
+  } else if (member.rules.kind != MemberKind::color) {
+    const float step = dragStep(maxComponent(abs(value)));
+    return ImGui::DragFloat3(member.name, &value.x, step, low, high, "%.3f", kClamp);
+  } else if (member.rules.high <= 1) {
+    return drawColor(member.name, value);
+  } else {
+    return drawBright(member.name, (std::string(member.name) + ", largest channel").c_str(), high,
+                      value);
+  }
+}
+
+template <typename Noun>
+bool drawMembers(Noun& noun) {
+  bool changed = false;
+  forEachMemberInFiles(noun, [&](const auto& member) {
+    if (member.rules.baked || (member.rules.matters && !member.rules.matters(noun))) return;
+    changed |= drawMember(member, noun.*member.field);
+  });
+  return changed;
+}
+
+bool drawLight(Light& light) {
+  const Vec3f before = light.direction;
+  if (!drawMembers(light)) return false;
+  if (light.direction == Vec3f()) light.direction = before;
+  light.innerConeAngle = std::min(light.innerConeAngle, std::nextafter(light.outerConeAngle, 0.0f));
+  return true;
+}
+
+// Draws a foldable node for each item, under its name or number; unfolds `selected` once and
+// scrolls to it. Returns whether something was changed.
+template <typename Item, typename Draw>
+bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected,
+               const Draw& draw) {
+  bool changed = false;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string number = std::string(kind) + " " + std::to_string(i + 1);
+    const std::string name = items[i].name.empty() ? number : items[i].name;
+    ImGui::PushID(static_cast<int>(i));
+    if (i == selected) {
+      ImGui::SetNextItemOpen(true);
+      ImGui::SetScrollHereY(0);
+      selected = kNoCounterpart;
+    }
+    if (ImGui::TreeNode(kind, "%s", name.c_str())) {
+      changed |= draw(items[i]);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+  ImGui::PopItemWidth();
+  if (items.empty()) ImGui::TextDisabled("none");
+  return changed;
+}
+
+constexpr float kLargestScale = 1e4f, kLargestAmbient = 1e4f;
+constexpr auto kLogarithmic = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+
+std::string nameOf(const SkyChoice& sky) {
+  if (sky.source.empty()) return "the scene's own";
+  return std::filesystem::path(sky.source).filename().string();
+}
+
+bool drawChoice(const SkyChoice& own, SkyChoice& sky) {
+  const SkyChoice before = sky;
+  if (!ImGui::BeginCombo("sky", nameOf(sky).c_str())) return false;
+  const auto offer = [&](const SkyChoice& choice) {
+    const bool current = choice.source == sky.source;
+    if (ImGui::Selectable(nameOf(choice).c_str(), current) && !current) sky = choice;
+  };
+  offer(own);
+  for (const char* source : {kNoSky, kStudio}) {
+    if (own.source != source) offer(chooseSky(source));
+  }
+  ImGui::EndCombo();
+  return sky != before;
+}
+
+bool drawSky(const SkyChoice& own, SkyChoice& sky) {
+  bool changed = drawChoice(own, sky);
+  if (sky.kind == Sky::Kind::none) return changed;
+  changed |= ImGui::SliderFloat("brightness", &sky.scale, 0, kLargestScale, "%.3g", kLogarithmic);
+  if (sky.kind == Sky::Kind::image) {
+    constexpr float kHalfTurn = 180;
+    changed |= ImGui::SliderFloat("rotation", &sky.rotation, -kHalfTurn, kHalfTurn, "%.1f");
+  }
+  return changed;
+}
+
+bool drawAmbient(bool skyThere, Ambient& ambient) {
+  constexpr double kUsualShare = 0.4;
+  bool changed = false, fromSky = ambient.ofSky > 0;
+  if ((skyThere || fromSky) && ImGui::Checkbox("ambient light from the sky", &fromSky)) {
+    ambient.ofSky = fromSky ? kUsualShare : 0;
+    changed = true;
+  }
+  if (ambient.ofSky > 0) {
+    constexpr float kLeast = 0.01f, kMost = 10;
+    auto share = static_cast<float>(ambient.ofSky);
+    if (!ImGui::SliderFloat("times the sky's mean", &share, kLeast, kMost, "%.2f", kLogarithmic)) {
+      return changed;
+    }
+    ambient.ofSky = static_cast<double>(share);
+    return true;
+  }
+  changed |= drawBright("ambient, from above", "radiance, from above", kLargestAmbient, ambient.up);
+  changed |=
+      drawBright("ambient, from below", "radiance, from below", kLargestAmbient, ambient.down);
+  return changed;
+}
+
+bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene) {
+  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+  bool changed = drawSky(ownSky, scene.sky);
+  changed |= drawAmbient(scene.sky.kind != Sky::Kind::none, scene.ambient);
+  ImGui::PopItemWidth();
+  return changed;
+}
+
+}  // namespace
+
+bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) {
+  ImGui::TextDisabled("lights");
+  bool edited = drawItems(scene.lights, "light", picked.light, drawLight);
+  ImGui::TextDisabled("materials");
+  edited |= drawItems(scene.materials, "material", picked.material, drawMembers<Material>);
+  ImGui::TextDisabled("surroundings");
+  return drawSurroundings(ownSky, scene) || edited;
+}
+
+}  // namespace whit::view
