@@ -13,7 +13,7 @@ void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
-  const CameraRays camera = c.frame->camera;
+  const CameraFrame& camera = c.frame->camera;
   const RayColumns rays = c.rays;
   const uint32_t* const pixels = c.pixels.data() + c.first;
   const size_t n = c.n;
@@ -21,11 +21,13 @@ void GenerateRays(Chunk& c) noexcept {
   const uint32_t sampleNumber = c.sampleNumber, seed = c.frame->seed;
   const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
   const bool streams = c.has(Feature::streams);
-  const V3 eye = Broadcast3(camera.eye), forward = Broadcast3(camera.forward);
-  const V3 right = Broadcast3(camera.right), up = Broadcast3(camera.up);
+  const V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
+  const V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
+  const auto coneWidth = static_cast<float>(pixelCone(camera).width);
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
   const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
-  const VF halfWidth = hn::Set(d, camera.halfWidth), halfHeight = hn::Set(d, camera.halfHeight);
+  const VF halfWidth = hn::Set(d, static_cast<float>(camera.width) / 2);
+  const VF halfHeight = hn::Set(d, static_cast<float>(camera.height) / 2);
   const VF one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
@@ -45,7 +47,7 @@ void GenerateRays(Chunk& c) noexcept {
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
     if (media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
-    if (cones) hn::Store(hn::Set(d, camera.coneWidth), d, rays.cone + i);
+    if (cones) hn::Store(hn::Set(d, coneWidth), d, rays.cone + i);
     if (streams) hn::Store(StreamOfPixel(packed, sampleNumber, seed), du, rays.path + i);
   }
 }

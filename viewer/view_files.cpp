@@ -1,7 +1,6 @@
 #include "viewer/view_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "cli/app/image_output.h"
@@ -15,6 +14,7 @@
 #include "io/scene/describe_scene.h"
 #include "io/scene/json_text.h"
 #include "io/scene/scene_settings.h"
+#include "io/scene/scene_view.h"
 #include "scene/members.h"
 
 namespace whit::view {
@@ -37,19 +37,21 @@ void sayNoCamera(RenderOptions& options) {
   forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
 }
 
-// As one of the scene's cameras, or as the first with what is different.
+// Names one of the scene's cameras: the same, or the first that the options can turn into it.
 void sayCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
   sayNoCamera(options);
-  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                 [&](const Camera& known) { return sameView(known, camera); });
-  if (same == scene.cameras.begin()) return;
-  if (same != scene.cameras.end()) {
-    options.camera = same->name;
-    return;
-  }
-  const Camera& first = scene.cameras.front();
+  const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
+  const auto canBecome = [&](Camera known) {
+    forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
+    return isSame(known);
+  };
+  const auto first = scene.cameras.begin(), end = scene.cameras.end();
+  auto named = std::find_if(first, end, isSame);
+  if (named == end) named = std::find_if(first, end, canBecome);
+  if (named == end) named = first;
+  if (named != first) options.camera = named->name;
   forEachCameraOption([&](auto option, auto member) {
-    if (camera.*member != first.*member) options.*option = camera.*member;
+    if (camera.*member != (*named).*member) options.*option = camera.*member;
   });
 }
 
@@ -63,22 +65,6 @@ std::string freeName(const std::string& scene) {
   }
   throwIo("'" + scene + "-9999' is taken: there are too many saved pictures in this folder");
 }
-
-Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
-
-Vec3f readVector(const Json& json, const std::string& key, const std::string& file) {
-  const auto found = json.find(key);
-  const bool good = found != json.end() && found->is_array() && found->size() == 3 &&
-                    (*found)[0].is_number() && (*found)[1].is_number() && (*found)[2].is_number();
-  if (!good) throwBadScene(file + "#/" + key, "expected three numbers");
-  const Vec3f v{(*found)[0].get<float>(), (*found)[1].get<float>(), (*found)[2].get<float>()};
-  if (!isFinite(v)) throwBadScene(file + "#/" + key, "expected numbers of single precision");
-  return v;
-}
-
-}  // namespace
-
-namespace {
 
 std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
                         const RenderOptions& usual) {
@@ -148,38 +134,19 @@ std::string savePicture(const TracedFrame& frame, const std::string& command) {
 }
 
 void writeCamera(const std::string& file, const Camera& camera, const std::string& command) {
-  Json json{{"eye", vectorJson(camera.eye)},
-            {"at", vectorJson(camera.at)},
-            {"up", vectorJson(camera.up)},
-            {"fov", camera.fov},
-            {"orthographicHeight", camera.orthographicHeight}};
+  Json json = describe(camera);
   if (!command.empty()) json["command"] = command;
   const cli::WriteScope scope;
   writeTextFile(file, json.dump(2) + "\n");
 }
 
 Camera readCamera(const std::string& file) {
-  constexpr float kLeastFov = 0.01f, kLargestFov = 179;
-  const Json json = parseJson(readTextFile(file, kJsonBytesLimit), file);
-  if (!json.is_object()) throwBadScene(file, "expected an object with eye, at, up and fov");
+  const JsonDocument document{file, parseJson(readTextFile(file, kJsonBytesLimit), file), {}};
+  JsonObject object{JsonValue(document)};
+  for (const char* name : {"eye", "at", "up", "fov"}) object.need(name);
   Camera camera;
   camera.name = "saved";
-  camera.eye = readVector(json, "eye", file);
-  camera.at = readVector(json, "at", file);
-  camera.up = readVector(json, "up", file);
-  const auto fov = json.find("fov");
-  if (fov == json.end() || !fov->is_number()) throwBadScene(file + "#/fov", "expected degrees");
-  camera.fov = fov->get<float>();
-  if (!(camera.fov >= kLeastFov && camera.fov <= kLargestFov)) {
-    throwBadScene(file + "#/fov", "expected degrees from 0.01 to 179");
-  }
-  const auto height = json.find("orthographicHeight");
-  if (height != json.end()) {
-    const bool sensible =
-        height->is_number() && height->get<float>() >= 0 && std::isfinite(height->get<float>());
-    if (!sensible) throwBadScene(file + "#/orthographicHeight", "expected a number, 0 or more");
-    camera.orthographicHeight = height->get<float>();
-  }
+  readMembers(object, camera);
   if (camera.eye == camera.at) throwBadScene(file + "#/at", "expected eye and at to differ");
   return camera;
 }

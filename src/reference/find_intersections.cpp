@@ -417,7 +417,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const std::uint32_t media = mediaOf(chunk, slot);
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
-  const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
+  const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);
   put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);

@@ -17,6 +17,13 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
   return {camera.eye, normalized(through, camera.forward), pixelCone(camera)};
 }
 
+PrimaryRay primaryRay(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                      std::size_t sample) {
+  const auto number = static_cast<std::uint32_t>(sample);
+  return {generateRay(camera, x + double{at.x}, y + double{at.y}),
+          {streamOfPixel(packedPixel(x, y), number), number}};
+}
+
 RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot) {
   const std::uint32_t pixel = chunk.pixels[chunk.first + slot];
   const Ray ray = generateRay(world.camera, pixelX(pixel) + double{chunk.sample.x},

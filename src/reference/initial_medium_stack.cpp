@@ -69,7 +69,8 @@ CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersec
                            const Camera& camera, int width, int height) {
   CameraFrame frame = makeCameraFrame(camera, width, height);
   frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
-  frame.mediaVary = frame.orthographic || liesOnDielectric(scene, effects, intersector, frame.eye);
+  frame.mediaVary =
+      frame.reach != Vec3d() || liesOnDielectric(scene, effects, intersector, frame.eye);
   return frame;
 }
 

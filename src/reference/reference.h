@@ -74,8 +74,9 @@ class Tracer {
   // Through any place in the pixel, from the top left, whose rays are those of this sample.
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
-  // The first hit of the ray through this place in the pixel, without the ray counts.
-  ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const;
+  // The first hit of the same ray, without the ray counts.
+  ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                         std::size_t sample) const;
 
  private:
   std::optional<Settled> nearest(Ray ray, int depth) const;

@@ -75,8 +75,10 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const double pixel =
       (orthographic ? camera.orthographicHeight : 2 * std::tan(fov * (std::numbers::pi / 360))) /
       height;
-  return {eye,    forward, right * pixel, cross(right, forward) * pixel, width,
-          height, 0,       orthographic};
+  CameraFrame frame{eye, forward, right * pixel, cross(right, forward) * pixel, width, height,
+                    {},  0,       orthographic};
+  if (orthographic) frame.reach = abs(frame.right * (width / 2.0)) + abs(frame.up * (height / 2.0));
+  return frame;
 }
 
 RayCone pixelCone(const CameraFrame& camera) {

@@ -41,6 +41,8 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time);
 struct CameraFrame {
   Vec3d eye, forward, right, up;
   int width = 0, height = 0;
+  // Half the sides of the box around the points where rays start; 0: all start at the eye.
+  Vec3d reach;
   // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
   // renders looks for them (reference/initial_medium_stack.h).
   std::uint32_t media = 0;

@@ -178,14 +178,14 @@ TEST(ViewFiles, BadCamerasSayWhere) {
     }
     return std::string("no error");
   };
-  EXPECT_EQ(errorOf("[]"), "camera.json: expected an object with eye, at, up and fov");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0]})"), "camera.json#/eye: expected three numbers");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1e99], "at": [0, 0, 0], "up": [0, 1, 0], "fov": 40})"),
-            "camera.json#/eye: expected numbers of single precision");
+  EXPECT_EQ(errorOf("[]"), "camera.json#: expected an object, found a list of 0");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1]})"), "camera.json#: expected a member \"at\"");
+  EXPECT_EQ(errorOf(R"({"eye": [0, 0], "at": [0, 0, 0], "up": [0, 1, 0], "fov": 40})"),
+            "camera.json#/eye: expected three numbers [x, y, z], found a list of 2");
   EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 1], "up": [0, 1, 0], "fov": 40})"),
             "camera.json#/at: expected eye and at to differ");
   EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 0], "up": [0, 1, 0], "fov": 0})"),
-            "camera.json#/fov: expected degrees from 0.01 to 179");
+            "camera.json#/fov: expected a number from 0.001 to 179.9, found 0");
 }
 
 }  // namespace
