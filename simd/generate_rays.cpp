@@ -1,13 +1,59 @@
 // The camera's rays through the pixels of a queue.
 #include "simd/kernels.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
+
+#include "hwy/contrib/math/math-inl.h"
 #include "simd/random_streams-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
+
+// Points of the unit disk that belong to points of the unit square (reference/generate_rays.cpp).
+struct DiskPoints {
+  VF x, y;
+};
+
+HWY_INLINE DiskPoints DiskPointsOf(const UnitPoints& square) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+  const VF a = hn::MulSub(two, square.u, one), b = hn::MulSub(two, square.v, one);
+  const MF byA = hn::Gt(hn::Abs(a), hn::Abs(b));
+  const VF radius = hn::IfThenElse(byA, a, b), other = hn::IfThenElse(byA, b, a);
+  const VF divisor = hn::IfThenElse(hn::Eq(radius, hn::Zero(d)), one, radius);
+  const VF turn = hn::Mul(hn::Set(d, 0.785398163f), hn::Div(other, divisor));
+  const VF along = hn::Mul(radius, hn::Cos(d, turn)), across = hn::Mul(radius, hn::Sin(d, turn));
+  return {hn::IfThenElse(byA, along, across), hn::IfThenElse(byA, across, along)};
+}
+
+// Moves the starts of rays to points of the lens and turns the rays, so that they meet in the plane
+// of focus where they met it before.
+class Lens {
+ public:
+  explicit Lens(const CameraFrame& camera)
+      : right_(Broadcast3(Vec3f(normalized(camera.right) * camera.aperture))),
+        up_(Broadcast3(Vec3f(normalized(camera.up) * camera.aperture))) {
+    // Neither factor of the sum is above 1, so that no component overflows.
+    const double largest = std::max(camera.aperture, camera.focus);
+    forward_ = hn::Set(FloatTag(), static_cast<float>(camera.focus / largest));
+    turnRight_ = Broadcast3(Vec3f(normalized(camera.right) * (-camera.aperture / largest)));
+    turnUp_ = Broadcast3(Vec3f(normalized(camera.up) * (-camera.aperture / largest)));
+  }
+
+  // `direction` reaches from the start to the plane at distance 1.
+  HWY_INLINE void Bend(const DiskPoints& at, V3& origin, V3& direction) const {
+    origin = MulAdd3(right_, at.x, MulAdd3(up_, at.y, origin));
+    direction = MulAdd3(turnRight_, at.x, MulAdd3(turnUp_, at.y, Scale3(direction, forward_)));
+  }
+
+ private:
+  V3 right_, up_, turnRight_, turnUp_;
+  VF forward_;
+};
 
 void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
@@ -29,6 +75,9 @@ void GenerateRays(Chunk& c) noexcept {
   const VF halfWidth = hn::Set(d, static_cast<float>(camera.width) / 2);
   const VF halfHeight = hn::Set(d, static_cast<float>(camera.height) / 2);
   const VF one = hn::Set(d, 1.0f);
+  const Lens lens(camera);
+  const bool hasLens = camera.aperture > 0;
+  const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
     const VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
@@ -39,8 +88,13 @@ void GenerateRays(Chunk& c) noexcept {
     if (camera.orthographic) {
       origin = MulAdd3(right, x, MulAdd3(up, y, eye));
     } else {
-      direction = Normalize3(MulAdd3(right, x, MulAdd3(up, y, forward)));
+      direction = MulAdd3(right, x, MulAdd3(up, y, forward));
     }
+    if (hasLens) {
+      const VU path = StreamOfPixel(packed, sampleNumber, seed);
+      lens.Bend(DiskPointsOf(SaltedPoints(path, lensSampling, kLensSalt, 0)), origin, direction);
+    }
+    if (hasLens || !camera.orthographic) direction = Normalize3(direction);
     Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
