@@ -36,7 +36,7 @@ struct SurfelJob {
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
   return {c.tables(),
           c.options().shading,
-          c.frame->camera.coneSpread,
+          static_cast<float>(pixelCone(c.frame->camera).spread),
           c.rays,
           c.hits,
           c.surfels,

@@ -41,19 +41,22 @@ void clearCamera(RenderOptions& options) {
   forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });
 }
 
-// Sets the options to one of the scene's cameras, or to the first one and the members that differ.
+// Sets the options to the scene's camera that equals this one, or to the first that the options can
+// turn into it, and to the members that differ.
 void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options) {
   clearCamera(options);
-  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                 [&](const Camera& known) { return sameView(known, camera); });
-  if (same == scene.cameras.begin()) return;
-  if (same != scene.cameras.end()) {
-    options.camera = same->name;
-    return;
-  }
-  const Camera& first = scene.cameras.front();
+  const auto isSame = [&](const Camera& known) { return sameView(known, camera); };
+  const auto canBecome = [&](Camera known) {
+    forEachCameraOption([&](auto /*option*/, auto member) { known.*member = camera.*member; });
+    return isSame(known);
+  };
+  const auto first = scene.cameras.begin(), end = scene.cameras.end();
+  auto named = std::find_if(first, end, isSame);
+  if (named == end) named = std::find_if(first, end, canBecome);
+  if (named == end) named = first;
+  if (named != first) options.camera = named->name;
   forEachCameraOption([&](auto option, auto member) {
-    if (camera.*member != first.*member) options.*option = camera.*member;
+    if (camera.*member != (*named).*member) options.*option = camera.*member;
   });
 }
 

@@ -81,6 +81,7 @@ class Gatherer {
     geometry();
     surroundings();
     lights();
+    cameras();
   }
 
  private:
@@ -109,6 +110,7 @@ class Gatherer {
   void geometry();
   void surroundings();
   void lights();
+  void cameras();
 
   Scene& scene_;
   std::vector<std::uint64_t> uses_;
@@ -165,6 +167,17 @@ void Gatherer::lights() {
       shining > 0 ? "no triangle casts a shadow" : dark);
   set(Effect::softShadows, wide > 0 && casting > 0, counted(wide, "light") + " with a radius",
       wide > 0 ? "no triangle casts a shadow" : "no light has a radius");
+}
+
+void Gatherer::cameras() {
+  const auto wide = std::count_if(scene_.cameras.begin(), scene_.cameras.end(),
+                                  [](const Camera& camera) { return camera.hasLens(); });
+  const bool path = std::any_of(scene_.cameraPath.begin(), scene_.cameraPath.end(),
+                                [](const Keyframe& key) { return key.camera.hasLens(); });
+  set(Effect::depthOfField, wide > 0 || path,
+      wide > 0 ? counted(static_cast<std::uint64_t>(wide), "camera") + " with an aperture"
+               : "the camera path has an aperture",
+      "no camera has an aperture");
 }
 
 }  // namespace

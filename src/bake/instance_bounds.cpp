@@ -28,8 +28,11 @@ float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   float farthest = 0;
   const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
   if (!all.empty()) add(all.lower), add(all.upper);
-  for (const Camera& camera : scene.cameras) add(camera.eye);
-  for (const Keyframe& frame : scene.cameraPath) add(frame.camera.eye);
+  const auto addStarts = [&](const Camera& camera) {
+    add(abs(camera.eye) + Vec3f(camera.aperture));
+  };
+  for (const Camera& camera : scene.cameras) addStarts(camera);
+  for (const Keyframe& frame : scene.cameraPath) addStarts(frame.camera);
   return farthest;
 }
 

@@ -36,7 +36,8 @@ namespace whit {
   X(indirect, "indirect diffuse lighting")          \
   X(absorption, "absorption in dielectrics")        \
   X(spheres, "exact spheres")                       \
-  X(instances, "instanced geometry")
+  X(instances, "instanced geometry")                \
+  X(depthOfField, "depth of field by a thin lens")
 
 enum class Effect : std::uint32_t {
 #define WHIT_EFFECT_ENUM(name, text) name,

@@ -214,7 +214,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
-                      "one elsewhere; with --glossy or --indirect all pixels get all samples",
+                      "one elsewhere; with --glossy, --indirect or a lens all get all of them",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
                                .alongside = "--spp 24"}},
@@ -491,11 +491,12 @@ struct AskedFor {
   bool asked;
   std::string_view otherwise;  // said if it does not
 };
-inline std::array<AskedFor, 4> effectsAskedFor(const RenderOptions& o) {
+inline std::array<AskedFor, 5> effectsAskedFor(const RenderOptions& o) {
   return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
            {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"},
            {Effect::indirect, o.indirect > 0, "but --indirect is 0"},
-           {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"}}};
+           {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"},
+           {Effect::depthOfField, o.spp > 1, "but --spp is 1"}}};
 }
 // The effects above that the options do not ask for.
 inline EffectSet notAskedFor(const RenderOptions& o) {

@@ -70,12 +70,11 @@ Camera cameraAside(const RayTree& tree, const Camera& camera) {
   const Vec3d up = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d aside = normalized(cross(up, toEye), Vec3d{1, 0, 0});
   const double away = std::max(length(toEye), diagonalOf(box));
-  Camera seen = camera;
+  Camera seen;
+  seen.up = camera.up;
   seen.eye = Vec3f(center + normalized(toEye + aside * (0.8 * away) + up * (0.35 * away), up) *
                                 (1.2 * away));
   seen.at = Vec3f(center);
-  seen.fov = 45;
-  seen.orthographicHeight = 0;
   return seen;
 }
 

@@ -32,7 +32,9 @@ Json describe(const Camera& camera) {
           {"at", camera.at},
           {"up", camera.up},
           {"fov", camera.fov},
-          {"orthographicHeight", camera.orthographicHeight}};
+          {"orthographicHeight", camera.orthographicHeight},
+          {"aperture", camera.aperture},
+          {"focus", camera.focus}};
 }
 
 // Writes only members that are given, because others may follow from them.

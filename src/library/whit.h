@@ -149,6 +149,8 @@ struct Camera {
   Vector eye{0, 0, 5}, at{0, 0, 0}, up{0, 1, 0};
   double fov = 45;                // vertical, degrees
   double orthographicHeight = 0;  // above 0: parallel rays, and what they show of the eye's plane
+  double aperture = 0;            // radius of the lens; 0: everything is sharp
+  double focus = 0;               // distance of the plane in focus; 0: it contains `at`
 };
 
 struct Light {

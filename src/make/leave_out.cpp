@@ -95,6 +95,10 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
   if (effects.has(Effect::ambientOcclusion)) d.ambient.occlusion = 0;
   leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::instances)) keepFirstUses(d);
+  if (effects.has(Effect::depthOfField)) {
+    for (Camera& camera : d.cameras) camera.aperture = 0;
+    for (Keyframe& key : d.cameraPath) key.camera.aperture = 0;
+  }
   for (Object& object : d.objects) {
     for (Mesh& mesh : object.meshes) {
       if (effects.has(Effect::spheres)) procedural::tessellateSpheres(mesh, kSegmentsOfSphere);

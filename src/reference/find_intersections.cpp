@@ -419,7 +419,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
   limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading, s);
-  const RayCone cone{ray.cone.width, double{chunk.frame->camera.coneSpread}};
+  const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);
   put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);

@@ -67,9 +67,12 @@ bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& 
 
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
                            const Camera& camera, int width, int height) {
-  CameraFrame frame = makeCameraFrame(camera, width, height);
+  Camera seen = camera;
+  if (!effects.has(Effect::depthOfField)) seen.aperture = 0;
+  CameraFrame frame = makeCameraFrame(seen, width, height);
   frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
-  frame.mediaVary = frame.orthographic || liesOnDielectric(scene, effects, intersector, frame.eye);
+  frame.mediaVary =
+      frame.reach != Vec3d() || liesOnDielectric(scene, effects, intersector, frame.eye);
   return frame;
 }
 

@@ -26,8 +26,9 @@ Vec2f uvAt(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
 
 }  // namespace
 
-ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const {
-  const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
+ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                               std::size_t sample) const {
+  const Ray ray = primaryRay(camera, x, y, at, sample).ray;
   const std::optional<Settled> met = nearest(ray, 0);
   ChannelValues values;
   if (!met) return values;
@@ -66,7 +67,7 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
     const int y = window.y0 + static_cast<int>(row);
     for (int x = window.x0; x < window.x1; ++x) {
       const std::size_t pixel = image.index(x, y);
-      layers.keep(pixel, tracer.channels(frame, x, y, samples[number]));
+      layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
       if (!layers.channels().has(Channel::rays)) continue;
       RayCounts counts;
       tracer.sampled(frame, x, y, samples[number], number, counts);

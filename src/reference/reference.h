@@ -76,8 +76,9 @@ class Tracer {
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
   bool samplesAdaptively() const { return whit::samplesAdaptively(options_, scene_.effects); }
-  // The first hit of the ray through this place in the pixel, without the ray counts.
-  ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at) const;
+  // The first hit of the same ray, without the ray counts.
+  ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                         std::size_t sample) const;
 
  private:
   std::optional<Settled> nearest(Ray ray, int depth) const;

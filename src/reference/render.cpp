@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/display.h"
-#include "core/pixel.h"
 #include "core/worker_pool.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
@@ -14,16 +13,10 @@
 #include "reference/settle_coplanar.h"
 #include "reference/update_image.h"
 #include "sampling/probe_samples.h"
-#include "sampling/random_streams.h"
 
 namespace whit::reference {
 
 namespace {
-
-Path pathOf(int x, int y, std::size_t sample) {
-  const auto number = static_cast<std::uint32_t>(sample);
-  return {streamOfPixel(packedPixel(x, y), number), number};
-}
 
 PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
   return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
@@ -145,13 +138,13 @@ RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) 
 RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                      RayCounts& counts) const {
   ++counts[RayKind::primary];
-  const Ray ray = generateRay(camera, x + double{at.x}, y + double{at.y});
+  const auto [ray, path] = primaryRay(camera, x, y, at, sample);
   const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
-  return traceImpulse(ray, 0, 1.0, media, counts, pathOf(x, y, sample));
+  return traceImpulse(ray, 0, 1.0, media, counts, path);
 }
 
 PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
-  const Ray ray = generateRay(camera, x + 0.5, y + 0.5);
+  const Ray ray = primaryRay(camera, x, y, {0.5f, 0.5f}, 0).ray;
   const std::optional<Settled> met = nearest(ray, 0);
   if (!met) return {};
   const TriangleHit hit = refineHit(scene_, ray, met->candidate);

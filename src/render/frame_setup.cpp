@@ -64,21 +64,6 @@ Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t ma
   return film;
 }
 
-CameraRays cameraRays(const CameraFrame& camera) {
-  const RayCone cone = pixelCone(camera);
-  return {.eye = Vec3f(camera.eye),
-          .forward = Vec3f(camera.forward),
-          .right = Vec3f(camera.right),
-          .up = Vec3f(camera.up),
-          .halfWidth = static_cast<float>(camera.width) / 2,
-          .halfHeight = static_cast<float>(camera.height) / 2,
-          .media = camera.media,
-          .mediaVary = camera.mediaVary,
-          .orthographic = camera.orthographic,
-          .coneWidth = static_cast<float>(cone.width),
-          .coneSpread = static_cast<float>(cone.spread)};
-}
-
 void sizeDisplay(Film& film) {
   if (!film.wantDisplay) return;
   film.display.width = film.image.windowWidth();

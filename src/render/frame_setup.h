@@ -9,7 +9,6 @@
 #include "render/film.h"
 #include "render/frame_stats.h"
 #include "scene/camera.h"
-#include "stages/chunk.h"
 
 namespace whit {
 
@@ -19,8 +18,6 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options);
 // The scene's camera path at `seconds`, changed by the same options. Throws Error(usage) when the
 // scene has no path.
 Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
-// The camera as kernels take it.
-CameraRays cameraRays(const CameraFrame& camera);
 // An empty film of the size and crop that the options ask for. Throws Error(usage) for a crop
 // outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
 Film makeFilm(const Scene& scene, const RenderOptions& options,

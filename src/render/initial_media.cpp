@@ -45,11 +45,8 @@ Box dielectricBounds(const Scene& scene) {
   return all;
 }
 
-bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics) {
+bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
   if (dielectrics.empty()) return false;
-  const Vec3d right = abs(camera.right * (camera.width / 2.0)),
-              up = abs(camera.up * (camera.height / 2.0));
-  const Vec3d reach = right + up;
   const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (int i = 0; i < 8; ++i) {
@@ -59,21 +56,19 @@ bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics) {
   }
   if (nearest > 0 || farthest < 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
-    if (camera.eye[axis] + reach[axis] < lower[axis]) return false;
-    if (camera.eye[axis] - reach[axis] > upper[axis]) return false;
+    if (camera.eye[axis] + camera.reach[axis] < lower[axis]) return false;
+    if (camera.eye[axis] - camera.reach[axis] > upper[axis]) return false;
   }
   return true;
 }
 
 void findInitialMedia(Chunk& c) {
-  const CameraRays& camera = c.frame->camera;
+  const CameraFrame& camera = c.frame->camera;
   if (!camera.mediaVary) return;
   const EmbreeIntersector intersector(*c.frame->accel);
-  CameraFrame frame;
-  frame.mediaVary = true;
   for (std::size_t i = 0; i < c.n; ++i) {
-    c.rays.media[i] = reference::mediaAtStart(*c.frame->scene, c.frame->effects, intersector, frame,
-                                              reference::rayOf(c, i));
+    c.rays.media[i] = reference::mediaAtStart(*c.frame->scene, c.frame->effects, intersector,
+                                              camera, reference::rayOf(c, i));
   }
 }
 

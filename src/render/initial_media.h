@@ -13,9 +13,9 @@ namespace whit {
 // A box around all surfaces of dielectrics, instances included; empty without any.
 Box dielectricBounds(const Scene& scene);
 
-// True if the rays of a parallel camera may start in different media. The test is conservative
-// because it compares boxes.
-bool rectangleMeets(const CameraFrame& camera, const Box& dielectrics);
+// True if rays that start at different points, all in the plane through the eye, may start in
+// different media. The test is conservative because it compares boxes.
+bool startsMeet(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.
 void findInitialMedia(Chunk& c);

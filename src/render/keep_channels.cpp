@@ -48,7 +48,7 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   const SurfelColumns& s = c.surfels;
   if (s.material[i] == kMiss) return values;
   const Scene& scene = *c.frame->scene;
-  const Vec3f& forward = c.frame->camera.forward;
+  const Vec3f forward(c.frame->camera.forward);
   values.distance = c.hits.t[i];
   values.z = values.distance *
              (c.rays.dirX[i] * forward.x + c.rays.dirY[i] * forward.y + c.rays.dirZ[i] * forward.z);

@@ -97,21 +97,18 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
-  CameraFrame frame = makeCameraFrame(camera, film.image.width, film.image.height);
-  if (!plan_.effects.has(Effect::transmission)) return frame;
   const EmbreeIntersector intersector(*accel_);
-  frame.media = reference::initialMediumStack(scene_, plan_.effects, intersector, frame.eye);
-  frame.mediaVary = frame.orthographic ? rectangleMeets(frame, dielectrics_)
-                                       : reference::liesOnDielectric(scene_, plan_.effects,
-                                                                     intersector, frame.eye);
+  CameraFrame frame = reference::frameWithMedia(scene_, plan_.effects, intersector, camera,
+                                                film.image.width, film.image.height);
+  if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
   return frame;
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const ShadowCacheView* const shadowCache =
       shadowTables_ ? shadowTables_->views().data() : nullptr;
-  return {&scene_,  &tables_,           &*accel_, shadowCache, plan_.effects, plan_.features,
-          options_, cameraRays(camera), asking_,  {},          seed_};
+  return {&scene_,  &tables_, &*accel_, shadowCache, plan_.effects, plan_.features,
+          options_, camera,   asking_,  {},          seed_};
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {

@@ -40,6 +40,10 @@ Vec3d fallbackRight(const Vec3d& forward) {
 
 bool sameView(const Camera& a, const Camera& b) { return sameMembers(a, b); }
 
+double Camera::focusDistance() const {
+  return focus > 0 ? double{focus} : length(Vec3d(at) - Vec3d(eye));
+}
+
 Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   if (!(time > path.front().time)) return path.front().camera;
   if (time >= path.back().time) return path.back().camera;
@@ -59,6 +63,11 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   });
   camera.eye = along(&Camera::eye);
   camera.at = along(&Camera::at);
+  // A plane through `at` and one that is given by its distance are mixed by their distances.
+  if ((a.camera.focus > 0) != (b.camera.focus > 0)) {
+    camera.focus =
+        static_cast<float>(a.camera.focusDistance() * (1 - s) + b.camera.focusDistance() * s);
+  }
   return camera;
 }
 
@@ -75,8 +84,15 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const double pixel =
       (orthographic ? camera.orthographicHeight : 2 * std::tan(fov * (std::numbers::pi / 360))) /
       height;
-  return {eye,    forward, right * pixel, cross(right, forward) * pixel, width,
-          height, 0,       orthographic};
+  CameraFrame frame{eye, forward, right * pixel, cross(right, forward) * pixel, width, height,
+                    {},  0,       orthographic};
+  if (orthographic) frame.reach = abs(frame.right * (width / 2.0)) + abs(frame.up * (height / 2.0));
+  if (!camera.hasLens()) return frame;
+  frame.aperture = camera.aperture;
+  const double focus = camera.focusDistance();
+  if (focus > 0 && std::isfinite(focus)) frame.focus = focus;
+  frame.reach += (abs(right) + abs(cross(right, forward))) * frame.aperture;
+  return frame;
 }
 
 RayCone pixelCone(const CameraFrame& camera) {

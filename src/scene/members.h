@@ -57,6 +57,8 @@ inline constexpr auto kMembers<Camera> = std::tuple{
     Member{"up", &Camera::up},
     Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov}},
     Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0}},
+    Member{"aperture", &Camera::aperture, {.low = 0}},
+    Member{"focus", &Camera::focus, {.low = 0}},
 };
 
 constexpr MemberRules<Material> mapOf(TextureUse use) {

@@ -13,6 +13,8 @@ void carry(const Camera& own, const Affine& map, Camera& camera) {
   camera.eye = Vec3f(eye);
   camera.at = Vec3f(eye + normalized(forward) * distance);
   camera.up = Vec3f(normalized(map.vector(Vec3d(own.up)), Vec3d(own.up)));
+  // `at` may have moved away from the plane of focus.
+  if (own.hasLens() && own.focus == 0) camera.focus = static_cast<float>(length(forward));
 }
 
 void carry(const MovingLight& own, const Affine& map, Light& light) {

@@ -10,6 +10,7 @@
 
 #include "core/channels.h"
 #include "core/options.h"
+#include "scene/camera.h"
 #include "stages/columns.h"
 #include "stages/features.h"
 #include "stages/ray_kinds.h"
@@ -23,16 +24,6 @@ namespace whit {
 class Accel;
 class Scene;
 struct Film;
-
-// A CameraFrame (scene/camera.h) in float.
-struct CameraRays {
-  Vec3f eye, forward, right, up;
-  float halfWidth = 0, halfHeight = 0;  // of the image, in pixels
-  std::uint32_t media = 0;              // around the eye
-  bool mediaVary = false;               // each ray may start in others
-  bool orthographic = false;
-  float coneWidth = 0, coneSpread = 0;  // RayCone's, of a pixel
-};
 
 // Requesting parts of the shadow cache takes time: one tile of `turns` does so, another one in each
 // frame.
@@ -57,7 +48,7 @@ struct FrameConstants {
   EffectSet effects;                             // of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
-  CameraRays camera;
+  CameraFrame camera;
   AskingTurn asking;
   ChannelTarget channels;
   std::uint32_t seed = 0;  // of the random numbers

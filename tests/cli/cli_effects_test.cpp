@@ -27,6 +27,24 @@ TEST(InfoKernels, ListsEveryVariant) {
   EXPECT_EQ(json["kernels"].size() + 1, static_cast<std::size_t>(lines));
 }
 
+TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
+  const auto line = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"info", "effects"};
+    words.insert(words.end(), more.begin(), more.end());
+    const std::string out = runWhit(words).out;
+    const std::size_t begin = out.find("depthOfField");
+    return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin) - begin);
+  };
+  EXPECT_NE(line({}).find("1 camera with an aperture, but --spp is 1"), std::string::npos);
+  const std::string two = line({"--spp", "2"});
+  EXPECT_NE(two.find("1 camera with an aperture"), std::string::npos) << two;
+  EXPECT_EQ(two.find("but"), std::string::npos) << two;
+  EXPECT_NE(line({"--spp", "2", "--disable", "depthOfField"}).find("disabled by --disable"),
+            std::string::npos);
+  EXPECT_NE(line({"--set", "/cameras/lens/aperture=0"}).find("no camera has an aperture"),
+            std::string::npos);
+}
+
 TEST(InfoKernels, EitherASceneOrTheList) {
   EXPECT_EQ(runWhit({"info"}).status, 2);
   EXPECT_EQ(runWhit({"info", "--kernels", "matte"}).status, 2);

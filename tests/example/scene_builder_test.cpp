@@ -91,6 +91,22 @@ TEST(SceneBuilder, TellsWhereThingsAre) {
   EXPECT_EQ(builder.addMaterial("blue", {}), "/materials/blue");
 }
 
+TEST(SceneBuilder, CamerasHaveALens) {
+  const auto picture = [](const Camera& camera) {
+    SceneBuilder builder = sheetBuilder();
+    builder.addInstance("sheet", "red");
+    builder.addCamera("front", camera);
+    return smallRenderer(builder.build()).set("spp", "4").render();
+  };
+  Camera camera = kCamera;
+  const Image sharp = picture(camera);
+  camera.aperture = 0.5;
+  const Image blurred = picture(camera);
+  EXPECT_FALSE(samePictures(blurred, sharp));
+  camera.focus = 2;
+  EXPECT_FALSE(samePictures(picture(camera), blurred));
+}
+
 TEST(SceneBuilder, VerticesComeInThreesWithoutTriangles) {
   constexpr std::array<float, 18> kSoup{-1, 0, -1, 1,  0,    1, 1, 0, -1,
                                         -1, 0, -1, -1, 0.5f, 1, 1, 0, 1};

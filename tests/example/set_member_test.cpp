@@ -96,6 +96,18 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
   EXPECT_TRUE(samePictures(renderer.render(), smallRenderer(whittedWith(settings)).render()));
 }
 
+TEST(SetMember, AnApertureComesAndGoesBetweenFrames) {
+  Renderer renderer = smallRenderer(loadScene("whitted"));
+  const Image sharp = renderer.set("spp", "4").render();
+  BuildWatch watch(renderer);
+  const Image blurred = renderer.setMember("/cameras/main/aperture", "0.4").render();
+  EXPECT_FALSE(samePictures(blurred, sharp));
+  Renderer read = smallRenderer(whittedWith({"/cameras/main/aperture=0.4"}));
+  EXPECT_TRUE(samePictures(read.set("spp", "4").render(), blurred));
+  EXPECT_TRUE(samePictures(renderer.setMember("/cameras/main/aperture", "0").render(), sharp));
+  EXPECT_FALSE(watch.built());
+}
+
 TEST(SetMember, AmbientLightFromTheSkyKeepsItsOcclusion) {
   const Member member{"/ambient", R"({"fromSky": 0.5, "occlusion": 2})", true};
   Renderer renderer = smallRenderer(loadScene("whitted"));

@@ -43,6 +43,17 @@ TEST_F(SceneMotionFile, KeysScaleThenTurnThenTranslate) {
   expectPoint(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
 }
 
+// Far from the origin, `at` is put so far ahead that rounding does not turn the view.
+TEST_F(SceneMotionFile, CamerasKeepTheirPlaneOfFocus) {
+  const std::string moving =
+      "\"cameras\": {\"a\": {\"eye\": [1000, 0, 0], \"at\": [1000, 0, -5], "
+      "\"aperture\": 0.5, \"motion\": {\"keys\": [{\"time\": 0}, {\"time\": "
+      "1, \"translate\": [0, 4, 0]}]}}}";
+  const Camera camera = at(1, moving).cameras.at(0);
+  EXPECT_GT(length(Vec3d(camera.at) - Vec3d(camera.eye)), 50);
+  EXPECT_NEAR(camera.focusDistance(), 5, 1e-6);
+}
+
 TEST_F(SceneMotionFile, AnItemIsMovedFromWhereItsTransformPutsIt) {
   const std::string moving =
       scene(item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 90]}]",

@@ -30,6 +30,23 @@ TEST_F(SceneSections, CamerasKeepTheFilesOrder) {
   EXPECT_EQ(scene.cameras[1].fov, 45);
 }
 
+TEST_F(SceneSections, CamerasHaveALens) {
+  const auto cameras = [](const std::string& members) {
+    return "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5]" + members + "}}";
+  };
+  const Camera lens = loadMembers(cameras(", \"aperture\": 0.25, \"focus\": 3")).cameras.at(0);
+  EXPECT_EQ(lens.aperture, 0.25f);
+  EXPECT_EQ(lens.focusDistance(), 3);
+  const Camera plain = loadMembers(cameras("")).cameras.at(0);
+  EXPECT_EQ(plain.aperture, 0);
+  EXPECT_EQ(plain.focusDistance(), 4);
+  for (const char* member : {"aperture", "focus"}) {
+    const std::string bad = cameras(std::string(", \"") + member + "\": -1");
+    EXPECT_NE(errorOf([&] { loadMembers(bad); }).find(std::string("/cameras/a/") + member),
+              std::string::npos);
+  }
+}
+
 TEST_F(SceneSections, KeyframesRepeatWhatIsMissing) {
   const SceneDescription scene = loadMembers(
       "\"path\": [{\"time\": 0, \"eye\": [0,0,5], \"at\": [0,0,0], \"fov\": 30},"

@@ -28,6 +28,7 @@ const char* sceneWith(Effect effect) {
     case Effect::vertexColors:
     case Effect::spotLights:
     case Effect::directionalLights:
+    case Effect::depthOfField:
       return "effects";
     default:
       return "whitted";
@@ -58,6 +59,7 @@ TEST_P(EffectLaw, DisablingAnEffectChangesASceneThatHasIt) {
   if (effect == Effect::softShadows) o.lightSamples = 2;
   if (effect == Effect::indirect) o.indirect = 2;
   if (effect == Effect::ambientOcclusion) o.ambientSamples = 2;
+  if (effect == Effect::depthOfField) o.camera = "lens", o.spp = 2;
   const Image with = render(scene, o).image;
   o.disable = EffectSet().with(effect);
   EXPECT_NE(firstDifference(render(scene, o).image, with), "") << name;

@@ -130,6 +130,24 @@ TEST(CameraFrame, SenselessCamerasStillGiveAPicture) {
   expectSound(makeCameraFrame(camera, 30, 20));
 }
 
+TEST(CameraFrame, HasTheLensOfItsCamera) {
+  Camera camera;
+  camera.at = {0, 0, 2};
+  const CameraFrame pinhole = makeCameraFrame(camera, 30, 20);
+  EXPECT_EQ(pinhole.aperture, 0);
+  EXPECT_EQ(pinhole.reach, Vec3d());
+  camera.aperture = 0.5f;
+  const CameraFrame lens = makeCameraFrame(camera, 30, 20);
+  EXPECT_EQ(lens.aperture, 0.5);
+  EXPECT_EQ(lens.focus, 3);  // at the target
+  EXPECT_EQ(lens.reach, Vec3d(0.5, 0.5, 0));
+  camera.focus = 7;
+  camera.orthographicHeight = 4;
+  const CameraFrame parallel = makeCameraFrame(camera, 30, 20);
+  EXPECT_EQ(parallel.focus, 7);
+  expectNear(parallel.reach, {3.5, 2.5, 0});
+}
+
 std::vector<Keyframe> pathOf(const std::vector<std::pair<float, float>>& timeAndX) {
   std::vector<Keyframe> path;
   for (const auto& [time, x] : timeAndX) {
@@ -161,6 +179,20 @@ TEST(CameraPath, CatmullRomHalfWay) {
   EXPECT_FLOAT_EQ(c.eye.x, 0.375f);
   EXPECT_FLOAT_EQ(c.at.x, 0.375f);
   EXPECT_FLOAT_EQ(c.fov, 5);  // linear
+}
+
+// Of two keyframes, one whose plane of focus contains its target and one that gives a distance.
+TEST(CameraPath, FocusGoesFromTheTargetToADistance) {
+  auto path = pathOf({{0, 0}, {1, 1}, {2, 2}});
+  for (Keyframe& key : path) key.camera.aperture = 0.25f;
+  path[1].camera.focus = 3;  // the targets are at distance 1
+  EXPECT_EQ(cameraAt(path, 0).focusDistance(), 1);
+  EXPECT_FLOAT_EQ(cameraAt(path, 0.5).focus, 2);
+  EXPECT_EQ(cameraAt(path, 1).focus, 3);
+  EXPECT_FLOAT_EQ(cameraAt(path, 1.25).focus, 2.5f);
+  EXPECT_FLOAT_EQ(cameraAt(path, 1.25).aperture, 0.25f);
+  path[1].camera.focus = 0;
+  EXPECT_EQ(cameraAt(path, 0.5).focus, 0);
 }
 
 TEST(CameraPath, UniformMotionStaysUniformForUnevenKeyframes) {

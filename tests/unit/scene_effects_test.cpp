@@ -180,6 +180,13 @@ const std::vector<Rule>& rules() {
        },
        "2 instances of 1 object",
        {}},
+      {Effect::depthOfField,
+       [](auto& d) {
+         d.cameras.resize(3);
+         d.cameras[1].aperture = 0.5f;
+       },
+       "1 camera with an aperture",
+       {}},
   };
   return all;
 }
@@ -218,6 +225,16 @@ TEST(SceneEffects, MapsOfRoughnessAreTexturesWhereThereIsALobe) {
     first(d).roughnessMap = addTexture(d, TexelFormat::data);
     EXPECT_EQ(finalized(std::move(d)).effects.has(Effect::textures), specular > 0);
   }
+}
+
+TEST(SceneEffects, ACameraPathMayHaveAnAperture) {
+  SceneDescription d = plainScene();
+  d.cameraPath.resize(1);
+  d.cameraPath[0].camera.aperture = 0.5f;
+  const Scene scene = finalized(std::move(d));
+  // The scene has no camera but the first one of the path.
+  EXPECT_EQ(reason(scene, Effect::depthOfField).because, "the camera path has an aperture");
+  EXPECT_EQ(scene.effects, EffectSet().with(Effect::depthOfField));
 }
 
 TEST(SceneEffects, UnusedMaterialsDoNotCount) {

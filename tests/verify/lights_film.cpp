@@ -142,7 +142,7 @@ Finding cameraDirections(const Setup&) {
     for (const Vec3f& eye : {Vec3f{0, 0, 5}, {1e6f, -2e6f, 5e5f}}) {
       const Camera camera{.eye = eye, .at = eye + Vec3f{1, 0.25f, -1}, .fov = fov};
       const CameraFrame frame = makeCameraFrame(camera, 1024, 576);
-      const ColumnStore<RayColumns> columns = raysThrough(pixels, cameraRays(frame));
+      const ColumnStore<RayColumns> columns = raysThrough(pixels, frame);
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;

@@ -212,7 +212,7 @@ std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children) {
 }
 
 ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
-                                    const CameraRays& camera) {
+                                    const CameraFrame& camera) {
   std::vector<std::uint32_t> padded = pixels;
   padded.resize(roundUpToBlock(pixels.size()));  // kernels read whole vectors
   ColumnStore<RayColumns> rays(pixels.size(), FeatureSet());

@@ -95,7 +95,7 @@ std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children);
 
 // Primary rays through the centers of these packed pixels, made by the kernel.
 ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
-                                    const CameraRays& camera);
+                                    const CameraFrame& camera);
 
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);

@@ -213,9 +213,9 @@ Mesh roomOfPixels(const CameraFrame& frame) {
   }
   // The grid begins one pixel up and left of the picture; a middle that is moved by one corrects
   // that.
-  CameraRays rays = cameraRays(frame);
-  rays.halfWidth += 1;
-  rays.halfHeight += 1;
+  CameraFrame rays = frame;
+  rays.width = columns;
+  rays.height = rows;
   const std::size_t count = pixels.size();
   const ColumnStore<RayColumns> directions = raysThrough(pixels, rays);
   Mesh mesh;

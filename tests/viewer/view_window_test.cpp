@@ -50,6 +50,21 @@ TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
   EXPECT_EQ(readCamera(folder_ / "tiny-0001.json").orthographicHeight, 3);
 }
 
+// No option gives a lens, so the camera that has it is named.
+TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
+  const cli::Outcome outcome =
+      play("key H\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+           {"--size", "240x160", "--spp", "4", "--camera", "side", "--set",
+            "/cameras/side/aperture=0.3"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  EXPECT_NE(lines[0].find("--camera=side"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("--eye="), std::string::npos) << lines[0];
+  render(lines[0], "again.png");
+  expectSameCodes("shown.png", "again.png");
+  EXPECT_EQ(readCamera(folder_ / "tiny-0001.json").aperture, 0.3f);
+}
+
 TEST_F(Viewer, SavesThePictureAndItsCamera) {
   const cli::Outcome outcome =
       play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
@@ -130,12 +145,15 @@ TEST(ViewFiles, CamerasComeBackBitForBit) {
   camera.at = {1.0f / 3, 2, -0.0f};
   camera.up = {0.7f, 0.1f, 0};
   camera.fov = 33.3f;
+  camera.aperture = 0.07f;
+  camera.focus = 1.9f;
   writeCamera(folder / "camera.json", camera);
   const Camera read = readCamera(folder / "camera.json");
   EXPECT_EQ(read.eye, camera.eye);
   EXPECT_EQ(read.at, camera.at);
   EXPECT_EQ(read.up, camera.up);
   EXPECT_EQ(read.fov, camera.fov);
+  EXPECT_TRUE(sameView(read, camera));
 }
 
 TEST(ViewFiles, BadCamerasSayWhere) {

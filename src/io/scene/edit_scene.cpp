@@ -59,6 +59,7 @@ bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& s
   scene.cameraPath = std::move(read.cameraPath);
   scene.width = read.width;
   scene.height = read.height;
+  gatherEffects(scene);
   return true;
 }
 
