@@ -226,8 +226,7 @@ bool App::supersamples() const {
 FrameRequest App::movingRequest(const ImageSize& window) {
   stillFor_.reset();
   const double pixels = static_cast<double>(window.width) * window.height;
-  const double waitMs = thread_.busy() && asked_ && asked_->interruptible ? kGiveUpMs : 0;
-  return requestFor(resolution_.moving(pixels, waitMs), false);
+  return requestFor(resolution_.moving(pixels), false);
 }
 
 // Returns the next step at rest, or the first one when the picture shows something new.

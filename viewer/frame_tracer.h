@@ -12,8 +12,6 @@
 
 namespace whit::view {
 
-// A new request usually waits no longer than this for a picture at rest to be given up.
-inline constexpr double kGiveUpMs = 10;
 // A picture under way is shown again after this time.
 inline constexpr double kUnfinishedMs = 25;
 // Each pass of a picture that gains samples takes about this long, with at least one sample a

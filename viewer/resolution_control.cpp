@@ -88,9 +88,9 @@ void ResolutionControl::chooseDepth(double frameMs) {
   if (msPerSample_[0] > 0 && costOf(tier_) > (1 - kDepthSaves) * msPerSample_[0]) tier_ = 0;
 }
 
-Sharpness ResolutionControl::moving(double windowPixels, double waitMs) {
+Sharpness ResolutionControl::moving(double windowPixels) {
   windowPixels_ = windowPixels;
-  const double frameMs = 1000 / rate_ - waitMs;
+  const double frameMs = 1000 / rate_;
   const std::size_t coarsest = kScales.size() - 1;
   if (!learned()) return {kScales[coarsest], 1, kFirstDepth};  // cheap in any scene
   chooseDepth(frameMs);

@@ -60,9 +60,8 @@ class ResolutionControl {
   // Notes the time of a frame with this number of samples, traced to this depth.
   void learn(double ms, double samples, int depth = kDepthLimit);
 
-  // Returns the choice for a frame in motion. The frame waits `waitMs` before it is traced and is
-  // coarser for it, so that it still comes in time.
-  Sharpness moving(double windowPixels, double waitMs = 0);
+  // Returns the choice for a frame in motion.
+  Sharpness moving(double windowPixels);
   // Returns the present step at rest; without `supersample` it has the options' samples at most.
   Sharpness still(bool supersample) const;
   // Goes to the next step; returns false when there is none.

@@ -48,13 +48,6 @@ TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
   EXPECT_EQ(scaleOf(hopeless), kScales.back());
 }
 
-TEST(ResolutionControl, WhatHasToWaitIsCoarser) {
-  ResolutionControl control = learned(15);
-  EXPECT_EQ(control.moving(kPixels).scale, 1);
-  EXPECT_EQ(control.moving(kPixels, 5).scale, 0.875);  // 11.5 ms of the 11.7 that are left
-  EXPECT_EQ(control.moving(kPixels, 1000).scale, kScales.back());
-}
-
 TEST(ResolutionControl, MoreSamplesCostMore) {
   ResolutionControl control(kDefaultRate, 4);
   control.learn(100, 4 * kPixels);  // four samples a pixel
