@@ -12,34 +12,28 @@ namespace whit {
 namespace fs = std::filesystem;
 namespace {
 
-class OpenFile {
- public:
-  explicit OpenFile(const fs::path& path) : path_(path.string()) {
-    std::error_code error;
-    const auto status = fs::status(path, error);
-    if (!fs::exists(status)) throwIo(path_, "cannot open " + path_ + ": no such file");
-    if (!fs::is_regular_file(status)) throwIo(path_, "cannot read " + path_ + ": not a file");
-    in_.open(path, std::ios::binary);
-    if (!in_) throwIo(path_, "cannot open " + path_ + ": " + std::strerror(errno));
-    size_ = fs::file_size(path, error);
-    if (error) throwIo(path_, "cannot read " + path_ + ": " + error.message());
+// Reads at most `maxBytes`; a longer file is Error(limit) or, with `cut`, read in part.
+std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
+  const std::string name = path.string();
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) throwIo(name, "cannot open " + name + ": no such file");
+  if (!fs::is_regular_file(status)) throwIo(name, "cannot read " + name + ": not a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throwIo(name, "cannot open " + name + ": " + std::strerror(errno));
+  const std::uint64_t size = fs::file_size(path, error);
+  if (error) throwIo(name, "cannot read " + name + ": " + error.message());
+  if (size > maxBytes && !cut) {
+    throwLimit(name + " has " + std::to_string(size) + " bytes, more than the limit of " +
+               std::to_string(maxBytes));
   }
+  std::string bytes(std::min(size, maxBytes), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throwIo(name, "cannot read " + name + ": reading stopped early");
+  return bytes;
+}
 
-  std::uint64_t size() const { return size_; }
-  std::string read(std::uint64_t bytes) {
-    std::string text(bytes, '\0');
-    in_.read(text.data(), static_cast<std::streamsize>(bytes));
-    if (!in_) throwIo(path_, "cannot read " + path_ + ": reading stopped early");
-    return text;
-  }
-
- private:
-  std::string path_;
-  std::ifstream in_;
-  std::uint64_t size_ = 0;
-};
-
-// Told by its mark, or by the zeros beside its first two letters.
+// Recognizes UTF-16 by its byte order mark, or by zeros beside the first two letters.
 bool isUtf16(const std::string& text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return true;
   const auto letters = [&](std::size_t at) {
@@ -51,12 +45,7 @@ bool isUtf16(const std::string& text) {
 }  // namespace
 
 std::string readFile(const fs::path& path, std::uint64_t maxBytes) {
-  OpenFile file(path);
-  if (file.size() > maxBytes) {
-    throwLimit(path.string() + " has " + std::to_string(file.size()) +
-               " bytes, more than the limit of " + std::to_string(maxBytes));
-  }
-  std::string bytes = file.read(file.size());
+  std::string bytes = read(path, maxBytes, false);
   if (bytes.starts_with("version https://git-lfs.github.com/spec/")) {
     throwBadScene(path.string(),
                   "expected the file itself, found a Git LFS pointer to it (git lfs pull fetches "
@@ -76,8 +65,7 @@ std::string readTextFile(const fs::path& path, std::uint64_t maxBytes) {
 }
 
 std::string readBeginning(const fs::path& path, std::uint64_t bytes) {
-  OpenFile file(path);
-  return file.read(std::min(file.size(), bytes));
+  return read(path, bytes, true);
 }
 
 }  // namespace whit

@@ -1,4 +1,4 @@
-// Files, read whole.
+// Reading files into memory.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace whit {
 
-// Throws Error(io) if it cannot be read, limit beyond maxBytes, badScene where a Git LFS pointer
-// stands in for it.
+// Throws Error(io) if the file cannot be read, limit if it has more than `maxBytes`, badScene if it
+// is a Git LFS pointer.
 std::string readFile(const std::filesystem::path& path, std::uint64_t maxBytes);
-// Reads text without the mark that some editors put before UTF-8. Refuses UTF-16.
+// Reads text without a byte order mark of UTF-8. Refuses UTF-16.
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxBytes);
-// At most so many bytes.
+// Reads at most `bytes` bytes of the file.
 std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);
 
 inline std::span<const std::uint8_t> asBytes(const std::string& text) {

@@ -82,7 +82,7 @@ class MtlParser {
     return static_cast<float>(value);
   }
 
-  // The format allows to leave out g and b; they are then equal to r.
+  // g and b may be left out; they are then equal to r.
   std::optional<Rgb> readColor() {
     Rgb color;
     for (int i = 0; i < 3; ++i) {
