@@ -4,8 +4,8 @@
 #include <set>
 
 #include "io/scene/describe_scene.h"
-#include "io/supply_view.h"
 #include "io/scene/scene_view.h"
+#include "io/supply_view.h"
 #include "make/studio_sky.h"
 
 namespace whit::view {
