@@ -214,7 +214,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
-                      "one elsewhere; with --glossy, --indirect or a lens all get all of them",
+                      "one elsewhere; with --glossy or --indirect all pixels get all samples",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
                                .alongside = "--spp 24"}},

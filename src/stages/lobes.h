@@ -48,13 +48,12 @@ constexpr bool samplesLobes(EffectSet effects) {
                      [&](const Lobe& lobe) { return effects.has(lobe.effect); });
 }
 
-// True if --adaptive decides how many samples each pixel gets. It does not where lobes or the lens
-// are sampled: pixels whose first samples agree because all of them missed the light would end
-// there, and the picture would be too dark. `effects` are the scene's.
+// True if --adaptive decides how many samples each pixel gets. It does not where lobes are sampled:
+// pixels whose first samples agree because all of them missed the light would end there, and the
+// picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
   const EffectSet used = effects.without(options.disable).without(notAskedFor(options));
-  return options.adaptive && options.spp > 1 && !samplesLobes(used) &&
-         !used.has(Effect::depthOfField);
+  return options.adaptive && options.spp > 1 && !samplesLobes(used);
 }
 
 // Sample k of the surfel that `path` has led to.
