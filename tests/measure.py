@@ -36,7 +36,6 @@ FRAME_SCENES = ["sponza-mirror", "atrium", "landscape", "whitted"]
 CHOICE_SCENES = ["sponza-mirror", "atrium"]
 CHOICES = ["--batch frame", "--robust off", "--threads 1", "--threads 8", "--mode reference"]
 ROUNDS = 3
-DEPTHS = [0, 1, 2, 4, 8, 64]
 TRIANGLES = [1000000, 20000000]
 LONG_PATHS = ["matte", "sponza-mirror", "mirrors", "whitted", "glass"]
 SEGMENTS = [0, 16, 48, 192]
@@ -101,10 +100,6 @@ def measure_spheres():
          merged([(bench("whitted", "--size", "480x300", "--depth", "8", "--frames", "9",
                         "--sphere-segments", segments), {"segments": segments})
                  for _ in range(ROUNDS) for segments in SEGMENTS]))
-    against = OUT / "spheres-povray.json"
-    if not shutil.which("povray"):
-        return complain("povray is not installed: spheres are not compared with its")
-    run([ROOT / "tests/bench/spheres_povray.py", "--rounds", "7", "--json", against])
 
 
 def measure_speed():
@@ -116,9 +111,6 @@ def measure_speed():
     measure_choices()
     keep("effects-kernels.json",
          bench("matte", "--ab-effects", "--size", "480x300", "--frames", "40"))
-    keep("depths.json",
-         merged([(bench("mirrors", "--size", "480x300", "--frames", "5", "--depth", depth),
-                  {"depth": depth}) for depth in DEPTHS]))
     keep("triangles.json",
          merged([(bench(f"landscape?triangles={n}", "--size", "480x300", "--frames", "5"), {})
                  for n in TRIANGLES]))
@@ -226,12 +218,6 @@ def choice_table(data):
                  [[f"`{choice}`"] + [ratio(scene, choice) for scene in scenes] for choice in CHOICES])
 
 
-def depth_table(data):
-    return table(["`--depth`", "ms", "million rays", "Mray/s"],
-                 [[str(r["depth"]), number(r["frame_ms"]["median"]), number(million_rays(r), 2),
-                   number(r["mrays_per_s"])] for r in data["runs"]])
-
-
 def triangle_table(data):
     return table(["million triangles", "ms", "Mray/s", "building the BVH, ms", "peak memory, MB"],
                  [[number(r["triangles"] / 1e6, 2), number(r["frame_ms"]["median"]),
@@ -260,13 +246,6 @@ def sphere_table(data):
                      number(million_rays(one), 2)])
     return table(["whitted, `--sphere-segments`", "triangles", "ms", "times the exact",
                   "million rays"], rows)
-
-
-def povray_table(times):
-    own = statistics.median(times["whit"])
-    return table(["nine spheres", "ms", "times whit's"],
-                 [[name, number(statistics.median(ms)), number(statistics.median(ms) / own, 2)]
-                  for name, ms in times.items()])
 
 
 def compare_table(data, targets):
@@ -464,8 +443,8 @@ def put(page, tables):
 
 
 def write_speed():
-    made = {"widths": width_table, "choices": choice_table, "depths": depth_table,
-            "triangles": triangle_table, "long-paths": long_path_table, "spheres": sphere_table}
+    made = {"widths": width_table, "choices": choice_table,
+           "triangles": triangle_table, "long-paths": long_path_table, "spheres": sphere_table}
     files = {name: read(name + ".json") for name in [*made, "effects-kernels"]}
     frames = [(size, read(f"frames-{size}.json")) for size in SIZES]
     if not all(data for _, data in frames):
@@ -480,9 +459,6 @@ def write_speed():
         tables["effects-kernels"] = (
             f"With every effect compiled in, a frame of matte takes {ratio['frame']:.2f} times as "
             f"long, its part outside Embree {ratio['outside_embree']:.2f} times.")
-    against = read("spheres-povray.json")
-    if against:
-        tables["spheres-povray"] = povray_table(against)
     effects = OUT / "effects/effects.csv"
     if effects.exists():
         put_charts("effects", {"effects": "effects.svg"})

@@ -7,7 +7,12 @@
 #   FRAMES  frames that count (default 20)
 #   LINK    bytes a second into the leader's machine (default 1.25e9, 10 Gbit Ethernet)
 #   DELAY   seconds from one machine to another (default 50e-6)
-# scenes/farm/README.md explains the model.
+#
+# With the time W of one rank, B blocks, the longest block b, the leader's time s and the transfer time m
+# of a block, and the delay d of a message, a frame on N ranks takes at least
+#   T(N) = max(W/N + (1 - 1/N) b + B (1 - 1/N) s / N,  B (1 - 1/N) (s + m)) + 2 d
+# The first part is the bound for work that is handed out to whoever is free (Graham 1969), with the
+# leader's time added as work; the second is the leader's link.
 set -euo pipefail
 
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
