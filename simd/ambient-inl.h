@@ -1,4 +1,4 @@
-// Ambient light that surfels reflect (the scalar twin: src/reference/
+// Ambient light that surfels reflect (the scalar reference: src/reference/
 // write_emitted_and_reflective_ambient.cpp).
 #if defined(WHIT_SIMD_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_AMBIENT_INL_H_

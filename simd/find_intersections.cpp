@@ -282,7 +282,7 @@ HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
   }
 }
 
-// The scalar twin is findColors in src/reference/find_intersections.cpp.
+// The scalar reference is findColors in src/reference/find_intersections.cpp.
 void LookUpRoughness(Chunk& c) noexcept {
   LookUpDataMap(
       c, [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().roughnessMap; },
@@ -310,7 +310,7 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
   hn::Store(coverage, d, job.surfels.coverage + i);
 }
 
-// The scalar twin is findColors in src/reference/find_intersections.cpp.
+// The scalar reference is findColors in src/reference/find_intersections.cpp.
 void LookUpCoverage(Chunk& c) noexcept {
   const FloatTag d;
   if ((c.materialFlags & kMaterialIsPartlyThere) == 0) {
@@ -350,7 +350,7 @@ HWY_INLINE Corners UnitNormals(Corners normals) {
   return normals;
 }
 
-// The scalar twin is terminatorLift in src/reference/find_intersections.cpp.
+// The scalar reference is terminatorLift in src/reference/find_intersections.cpp.
 void LiftShadowOrigins(Chunk& c) noexcept {
   const FloatTag d;
   const ShadingTables& tables = c.tables();

@@ -1,4 +1,4 @@
-// Samples of the GGX lobe (the scalar twin, with sources: src/reference/add_impulses.cpp).
+// Samples of the GGX lobe (the scalar reference, with sources: src/reference/add_impulses.cpp).
 #if defined(WHIT_SIMD_GLOSSY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_GLOSSY_INL_H_
 #undef WHIT_SIMD_GLOSSY_INL_H_

@@ -4,8 +4,9 @@
 // A kernel that is a step of its own is a function of a chunk (stages/chunk.h); the others work for
 // steps that call Embree or write the film. Kernels run over the slots [0, n) of their columns with
 // the SIMD target that was chosen last, are noexcept and allocate nothing. Slots from n to the next
-// multiple of 16 may be overwritten with anything; their hits must be misses. The scalar twin of
-// each is in src/reference, in the file of the same stage, written to the same formulas in double.
+// multiple of 16 may be overwritten with anything; their hits must be misses. The scalar reference
+// of each is in src/reference, in the file of the same stage, written to the same formulas in
+// double.
 //
 // An effect that changes what a kernel does in each lane is a choice of that kernel: a template
 // bit. It is compiled once for every subset of its choices, and once more for every SIMD target.

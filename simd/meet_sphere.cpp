@@ -38,7 +38,7 @@ HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v
   return {row(sphere.rows[0]), row(sphere.rows[1]), row(sphere.rows[2])};
 }
 
-// The octahedral map of sphereWeights in src/scene/sphere.cpp.
+// The octahedral map of sphereWeights in src/bake/sphere.cpp.
 template <class D>
 HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits& to) {
   const hn::Rebind<float, D> df;
@@ -57,7 +57,7 @@ HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits
   store(flatY, to.v);
 }
 
-// The scalar twin is meetSphere in src/scene/sphere.cpp.
+// The scalar reference is meetSphere in src/bake/sphere.cpp.
 template <class D>
 HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, size_t width,
                           size_t i, const float* after, const SphereHits& to) {

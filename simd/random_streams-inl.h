@@ -1,4 +1,5 @@
-// Random numbers of paths (the scalar twin: src/sampling/random_streams.h; the bits are the same).
+// Random numbers of paths (the scalar reference: src/sampling/random_streams.h; the bits are the
+// same).
 #if defined(WHIT_SIMD_RANDOM_STREAMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_RANDOM_STREAMS_INL_H_
 #undef WHIT_SIMD_RANDOM_STREAMS_INL_H_

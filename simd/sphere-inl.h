@@ -72,7 +72,7 @@ HWY_INLINE V3 SphereNormal(const SphereLanes& s) {
   return NormalizeOr(Scale3(carried, s.outward), s.unit);
 }
 
-// The triangle that touches the sphere there, as touchingTriangle in src/scene/sphere.cpp has it,
+// The triangle that touches the sphere there, as touchingTriangle in src/bake/sphere.cpp has it,
 // and the weights of its first corner.
 HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;
@@ -116,7 +116,8 @@ HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
   return !hn::AllFalse(FloatTag(), hn::And(s.on, HasFlags(flags, kMaterialMapped)));
 }
 
-// Before CarryToWorld. The scalar twin is placeOnSphere in src/reference/find_intersections.cpp.
+// Before CarryToWorld. The scalar reference is placeOnSphere in
+// src/reference/find_intersections.cpp.
 HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              VI number, size_t i, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;

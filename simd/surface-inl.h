@@ -214,7 +214,7 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   return s;
 }
 
-// The scalar twin, with what its terms are for: placeSurfel in
+// The scalar reference, with what its terms are for: placeSurfel in
 // src/reference/find_intersections.cpp.
 HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
   const FloatTag d;

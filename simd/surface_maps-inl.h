@@ -95,8 +95,8 @@ HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, cons
 }
 
 // The area of texture space, of which a repeat is 1, that a cone of this width covers (the scalar
-// twin, with its source: find_intersections.h). Lengths are brought to the order of the edges by a
-// power of two first, as for GeometricNormal.
+// reference, with its source: find_intersections.h). Lengths are brought to the order of the edges
+// by a power of two first, as for GeometricNormal.
 HWY_INLINE VF TextureFootprint(const UvLanes& t, const V3& edge1, const V3& edge2, VF coneWidth,
                                VF cosine) {
   const VF inTexture = hn::Abs(DifferenceOfProducts(hn::Sub(t.u1, t.u0), hn::Sub(t.v2, t.v0),

@@ -19,9 +19,9 @@ struct KnobCost {
   accuracy::Timing timing;  // of frames with the other setting; the present one is the baseline
   double presentMs = 0;     // of a frame of the whole window
 
-  // What the present setting costs of a frame of the whole window.
+  // The time that the present setting adds to a frame of the whole window.
   double ms() const { return presentMs * (1 - timing.ratio); }
-  // Whether the difference is more than what the machine's other work may have made.
+  // True if the difference is larger than the noise of the machine.
   bool significant() const { return timing.ratioLow > 1 || timing.ratioHigh < 1; }
 };
 

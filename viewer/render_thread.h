@@ -41,7 +41,7 @@ class RenderThread {
   std::optional<RayPick> takePick();
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
-  // What there is of the picture that is being traced; null: nothing new.
+  // The finished tiles of the picture that is being traced; null if there are no new ones.
   std::optional<UnfinishedFrame> takeUnfinished();
   std::string takeError();  // empty: none
   bool busy() const;        // tracing, or about to
@@ -66,13 +66,13 @@ class RenderThread {
 
   mutable std::mutex mutex_;  // guards all that follows
   std::condition_variable wake_;
-  // What the window wants; each is handed to the tracing thread once, in this order.
+  // Requests of the window; each is handed to the tracing thread once, in this order.
   std::optional<SceneChoice> scene_;
   std::optional<ShadingEdit> edit_;
   std::optional<RayQuery> query_;
   std::optional<FrameRequest> asked_;
   std::optional<FrameRequest> tracing_;
-  // What the tracing thread has made.
+  // Results of the tracing thread.
   std::optional<RayPick> pick_;
   std::optional<UnfinishedFrame> unfinished_;
   TracedFrame ready_;

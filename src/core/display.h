@@ -1,5 +1,5 @@
 // Scalar post-processing: from linear radiance to what the film keeps of it, and to 8-bit display
-// codes. The scalar twin of updateImage's encoding.
+// codes. The scalar reference of updateImage's encoding.
 #pragma once
 
 #include <array>

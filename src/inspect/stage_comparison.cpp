@@ -149,7 +149,7 @@ class StageComparer : public StageObserver {
     row->depth = depth;
   }
 
-  // `slot` is that of the surfel that the row is about; of some rows twins know nothing.
+  // `slot` is that of the surfel that the row is about; some rows have no reference.
   template <typename Row>
   void compareRow(Stage stage, const Chunk& c, std::size_t slot, const Row& got,
                   const std::type_identity_t<std::optional<Row>>& twin) {

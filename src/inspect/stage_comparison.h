@@ -1,4 +1,4 @@
-// Each step of the vector pipeline held against its scalar twin, on the very same input
+// Each step of the vector pipeline held against the scalar reference, on the very same input
 // (whit compare --stages).
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace whit {
 
-// The worst difference between what a stage wrote into a column and what its twin says, in ulps of
-// the column's magnitude.
+// The worst difference between what a stage wrote into a column and what the scalar reference says,
+// in ulps of the column's magnitude.
 struct StageDifference {
   Stage stage;
   std::string column;

@@ -53,7 +53,7 @@ inline double ulpOf(double magnitude) {
   return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
 }
 
-// Where a row stands, and what its twin says.
+// Where a row stands, and what the scalar reference says.
 template <typename Row>
 struct Place {
   const reference::World& world;

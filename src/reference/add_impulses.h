@@ -99,8 +99,8 @@ bool survives(const RenderOptions& options, double contribution, std::uint32_t p
 // By how much its weight grows then, and its contribution.
 double growthOfSurvivors(const RenderOptions& options, double contribution);
 
-// The twin, of a child. Throughput is what decides whether it is worth tracing; samples of a lobe
-// count there as if each were the whole.
+// The row that the step writes for a child. Throughput is what decides whether it is worth tracing;
+// samples of a lobe count there as if each were the whole.
 RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child);
 
 }  // namespace whit::reference

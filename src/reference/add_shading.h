@@ -5,7 +5,7 @@
 
 namespace whit::reference {
 
-// The twin. `before` is the radiance that the step has added to.
+// The row that the step writes. `before` is the radiance that the step has added to.
 RadianceRow addShading(const RadianceRow& before, const Chunk& chunk, std::size_t slot);
 
 }  // namespace whit::reference

@@ -10,7 +10,7 @@ inline bool isVisible(const Intersector& intersector, const Ray& toLight, double
   return !intersector.occluded(toLight, tFar);
 }
 
-// The twin: of the slot that the shadow ray started from.
+// The row that the step writes for the slot that the shadow ray started from.
 UnshadowedRow checkShadows(const World& world, const Chunk& chunk, std::size_t shadowRay);
 
 }  // namespace whit::reference

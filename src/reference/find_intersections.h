@@ -68,7 +68,7 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
               const Vec3d& direction);
 
-// The twin, of the hit that Embree has found; none where it has found none.
+// The row that the step writes for the hit that Embree has found; none where there is none.
 std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chunk,
                                            std::size_t slot);
 

@@ -44,8 +44,8 @@ LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel&
 // The arrival at the chunk's slot from the current point of its light.
 LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot);
 
-// The twins: of a slot that the light reaches, and of a shadow ray. None where in double the light
-// lies in the surface's plane, or behind it.
+// The rows that the step writes for a slot that the light reaches and for a shadow ray. None where
+// in double the light lies in the surface's plane, or behind it.
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk, std::size_t slot);
 std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
                                        std::size_t shadowRay);

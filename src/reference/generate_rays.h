@@ -16,7 +16,7 @@ struct PrimaryRay {
 };
 PrimaryRay primaryRay(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample);
 
-// The twin.
+// The row that the step generateRays writes.
 RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot);
 
 }  // namespace whit::reference

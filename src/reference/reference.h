@@ -1,5 +1,5 @@
-// The scalar twin: Whitted's recursion in double precision, one ray at a time. No SIMD, no queues,
-// no tiles, no variants; independent of the kernels.
+// The scalar reference: Whitted's recursion in double precision, one ray at a time. No SIMD, no
+// queues, no tiles, no variants; independent of the kernels.
 #pragma once
 
 #include <array>
@@ -104,7 +104,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
                  const Settings& settings, Image& image, Progress* progress = nullptr);
 
 // Every triangle, instances included, in double. Quadratic; for small scenes and as an oracle.
-// Of the effects, alpha masks and instances matter here: without them masks cut no holes and
+// Alpha masks and instances are the effects that matter here: without them masks cut no holes and
 // instanced geometry is not there.
 class BruteForce : public Intersector {
  public:

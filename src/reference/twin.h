@@ -1,5 +1,6 @@
-// The twins of the stages: what a vector step has written of one row of its chunk, computed again
-// in double from what the step has read. A twin has the name of its stage and is in its file.
+// The scalar reference of one vector step: one row of what the step has written into its chunk,
+// computed again in double from what the step has read. The function has the name of its stage and
+// is in its file.
 #pragma once
 
 #include "bake/mip_maps.h"

@@ -18,8 +18,8 @@ inline void addSample(RgbD& mean, const RgbD& sample, double number) {
 std::uint32_t displayCode(const Rgb& pixel, double exposureScale, ToneCurve curve,
                           SrgbEncoding encoding);
 
-// The twin: of a pixel as the film keeps it. Exposure is a product of floats in both, or codes
-// would differ by it at their borders.
+// The row that the step writes for a pixel as the film keeps it. Exposure is a product of floats in
+// both, or codes would differ by it at their borders.
 std::uint32_t updateImage(const RenderOptions& options, const Rgb& pixel);
 
 }  // namespace whit::reference

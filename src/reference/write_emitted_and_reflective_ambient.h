@@ -15,7 +15,7 @@ RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfe
 // Emission, and ambient light that nothing is looked for to hold off.
 RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel);
 
-// The twin.
+// The row that the step writes.
 RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,
                                              std::size_t slot);
 

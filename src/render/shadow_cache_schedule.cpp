@@ -18,7 +18,7 @@ constexpr std::size_t kFramesInView = 96;
 // lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 4
 // %.
 constexpr double kSamplesATriangle = 250;
-// Of many samples of one view, one is spent on collecting requests.
+// One of the samples of a view is spent on collecting requests, if there are many.
 constexpr std::size_t kFewestFrames = 2 * ShadowCacheSchedule::kTurns, kFewestSamples = 32;
 constexpr double kMostCounted = 255;
 

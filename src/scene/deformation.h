@@ -59,7 +59,7 @@ struct DeformationPose {
 };
 DeformationPose poseAt(const Deformation& deformation, double seconds);
 
-// Morph targets first, then joints. The scalar twin of simd/deform_vertices.h.
+// Morph targets first, then joints. The scalar reference of simd/deform_vertices.h.
 DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose);
 using DeformVertices = DeformedVertices (*)(const Deformation&, const DeformationPose&);
 

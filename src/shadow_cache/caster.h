@@ -33,7 +33,7 @@ enum class Meeting {
   unsure
 };
 
-// The scalar twin of simd/meet_casters.cpp, which asks about many triangles.
+// The scalar reference of simd/meet_casters.cpp, which asks about many triangles.
 class Caster {
  public:
   Caster(const TriangleRecord& record, const LightPoint& light);

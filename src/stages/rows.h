@@ -1,4 +1,4 @@
-// One row of the columns in double, as the reference's twins write it. Made from the same lists: a
+// One row of the columns in double, as the scalar reference writes it. Made from the same lists: a
 // column that is added there is in its row, and is compared.
 #pragma once
 

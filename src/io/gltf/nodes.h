@@ -45,10 +45,11 @@ struct GltfStage {
   std::vector<std::uint32_t> lightMovers;
 };
 
-// Of the default scene, else the first, else all nodes. Nodes that flatten space are left out with
-// what they hold; the ranges of lights are left out; rotations are normalized; skins that cannot
-// be read are not applied: each is counted in the document's warnings. Cameras have names of their
-// own. `tracks`, one a node, go before what nodes say themselves; nodes that are `movable`
+// Places the nodes of the default scene, else of the first one, else all nodes. Nodes that flatten
+// space are left out with what they hold; the ranges of lights are left out; rotations are
+// normalized; skins that cannot be read are not applied: each is counted in the document's
+// warnings. Cameras have names of their own. `tracks`, one a node, go before what nodes say
+// themselves; nodes that are `movable`
 // ("/nodes/i") move always. Throws badScene "file#/nodes/i" where the nodes are no tree or deeper
 // than kGltfDepthLimit.
 GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
