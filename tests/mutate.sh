@@ -131,7 +131,7 @@ mutations() {
     'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene, *accel_)'
-  plant eye-in-vacuum src/render/frame_setup.cpp '.media = camera.media,' '.media = 0,'
+  plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
   plant sphere-in-floats simd/meet_sphere.cpp \
     'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \
