@@ -39,7 +39,10 @@ void onError(png_structp png, png_const_charp message) {
   std::snprintf(own->message, sizeof own->message, "%s", message);
   png_longjmp(png, 1);
 }
-void onWarning(png_structp, png_const_charp) {}
+// libpng warns of chunks beyond the limit, and then allocates them.
+void onWarning(png_structp png, png_const_charp message) {
+  if (std::strstr(message, "chunk data is too large") != nullptr) onError(png, message);
+}
 
 class PngReader {
  public:
