@@ -253,8 +253,9 @@ void LimitDiffuse(Chunk& c) noexcept {
     V3 taken = CoatReflectance(material, material.Mirror().mirror, lanes.cosine);
     VF passed = one;
     if (job.transmission) {
-      const V3 through = Limited(material.Transmission(), taken);
-      const MF transmits = hn::And(lanes.dielectric, hn::Gt(MaxComponent(through), hn::Zero(d)));
+      const V3 transmission = material.Transmission(), through = Limited(transmission, taken);
+      const MF transmits =
+          hn::And(lanes.dielectric, hn::Gt(MaxComponent(transmission), hn::Zero(d)));
       taken = Select3(transmits, Add3(taken, through), taken);
       const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
       passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);

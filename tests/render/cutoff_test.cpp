@@ -74,6 +74,31 @@ TEST(ImpulseShare, ClosedRoomsKeepTheirLight) {
   }
 }
 
+// A red mirror leaves nothing of a red transmission, but Fresnel's law still takes its share of the
+// other channels' diffuse light.
+TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
+  SceneBuilder builder;
+  Material m = diffuseMaterial(0.8f);
+  m.mirror = m.mirrorGrazing = Rgb(1, 0, 0);
+  m.transmission = Rgb(0.5f, 0, 0);
+  m.ior = 2.5f;
+  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
+  builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0.5f, 0.7f, 3};
+  builder.description.cameras[0].at = {0, 0, 0};
+  const Scene scene = builder.build();
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{16, 12};
+  Renderer renderer(scene, o);
+  Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
+  renderer.render(chooseCamera(scene, o), packets);
+  renderer.renderReference(chooseCamera(scene, o), reference);
+  for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
+    EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
+  }
+}
+
 // Twenty faces that reflect 0.9 and pass the rest on. Without a cutoff, impulses would double at
 // every one of them: up to 2^16 a pixel at this depth, and 2^64 at the default one.
 TEST(ImpulseShare, RaysOfCoatedGlassAreBounded) {
