@@ -429,13 +429,13 @@ void ReturnToEye(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindLimitDiffuse(size_t /*index*/) { return LimitDiffuse; }
-StepFunction FindAddReflections(size_t /*index*/) { return AddReflections; }
-StepFunction FindAddGlossyReflections(size_t /*index*/) { return AddSamples<GlossySamples>; }
-StepFunction FindAddRefractions(size_t /*index*/) { return AddRefractions; }
-StepFunction FindAddIndirect(size_t /*index*/) { return AddSamples<DiffuseSamples>; }
-StepFunction FindReturnImpulses(size_t /*index*/) { return ReturnImpulses; }
-StepFunction FindReturnToEye(size_t /*index*/) { return ReturnToEye; }
+StepFunction FindLimitDiffuse() { return LimitDiffuse; }
+StepFunction FindAddReflections() { return AddReflections; }
+StepFunction FindAddGlossyReflections() { return AddSamples<GlossySamples>; }
+StepFunction FindAddRefractions() { return AddRefractions; }
+StepFunction FindAddIndirect() { return AddSamples<DiffuseSamples>; }
+StepFunction FindReturnImpulses() { return ReturnImpulses; }
+StepFunction FindReturnToEye() { return ReturnToEye; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -24,7 +24,7 @@ void AddShading(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindAddShading(size_t /*index*/) { return AddShading; }
+StepFunction FindAddShading() { return AddShading; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

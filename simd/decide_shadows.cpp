@@ -340,7 +340,7 @@ void DecideShadows(Chunk& c) noexcept {
   c.shadowCount = count;
 }
 
-StepFunction FindDecideShadows(size_t /*index*/) { return DecideShadows; }
+StepFunction FindDecideShadows() { return DecideShadows; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

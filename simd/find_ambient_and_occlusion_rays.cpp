@@ -62,9 +62,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) noexcept {
   c.shadowCount = count;
 }
 
-StepFunction FindFindAmbientAndOcclusionRays(size_t /*index*/) {
-  return FindAmbientAndOcclusionRays;
-}
+StepFunction FindFindAmbientAndOcclusionRays() { return FindAmbientAndOcclusionRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -87,7 +87,6 @@ HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF 
 
 // Everything but textures, which are queued, for the vector of rays at i; returns the flags of
 // their materials.
-template <uint32_t kBits>
 HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
   const FloatTag d;
   const UintTag du;
@@ -105,8 +104,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   }
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(hits, i);
-  Surface s =
-      InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  Surface s = InterpolateSurface(tables, t, triangle, w, job.shading.reciprocal, job.smooth);
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
   const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
@@ -188,9 +186,8 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
   if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
 }
 
-template <uint32_t kBits>
-HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns& hits, size_t begin,
-                                  size_t end) {
+HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns& hits, bool smooth,
+                                  size_t begin, size_t end) {
   // Locals: what memory may alias would be read again for every ray.
   const uint32_t* const hit = hits.triangle;
   const TriangleRecord* const triangles = tables.triangles;
@@ -199,11 +196,10 @@ HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns&
   for (size_t i = begin; i < end; ++i) {
     const size_t triangle = hit[i] == kMiss ? 0 : hit[i];
     hwy::Prefetch(triangles + triangle);
-    if constexpr ((kBits & kSmooth) != 0) hwy::Prefetch(normals + triangle * stride);
+    if (smooth) hwy::Prefetch(normals + triangle * stride);
   }
 }
 
-template <uint32_t kBits>
 void InterpolateSurfels(Chunk& c) noexcept {
   const UintTag du;
   const size_t lanes = hn::Lanes(du), n = c.n;
@@ -212,10 +208,10 @@ void InterpolateSurfels(Chunk& c) noexcept {
   BlockTextures block;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    PrefetchTriangles<kBits>(job.tables, job.hits, begin, end);
+    PrefetchTriangles(job.tables, job.hits, job.smooth, begin, end);
     for (size_t i = begin; i < end; i += lanes) {
-      flags = hn::Or(flags, InterpolateVector<kBits>(job, i, i - begin, block));
-      if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs<kBits>(job, i, i - begin, block);
+      flags = hn::Or(flags, InterpolateVector(job, i, i - begin, block));
+      if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs(job, i, i - begin, block);
     }
     if (job.textures || job.normalMaps) {
       for (size_t i = begin; i < end; i += lanes) ApplyTextures(job, block, i - begin, i);
@@ -227,11 +223,7 @@ void InterpolateSurfels(Chunk& c) noexcept {
   for (size_t lane = 0; lane < lanes; ++lane) c.materialFlags |= perLane[lane];
 }
 
-StepFunction FindInterpolateSurfels(size_t index) {
-  static constexpr auto kVariants = variantTable<kInterpolateSurfels>(
-      []<uint32_t kBits>() { return &InterpolateSurfels<kBits>; });
-  return kVariants[index];
-}
+StepFunction FindInterpolateSurfels() { return InterpolateSurfels; }
 
 // Queues the map that mapOf(materials) names for the vector at i, looked up by the first texture
 // coordinates.
@@ -247,7 +239,7 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(d, mapped)) return;
   Weights w = LoadWeights(job.hits, i);
-  Surface s = InterpolateSurface<false>(job.tables, t, triangle, w, job.shading.reciprocal);
+  Surface s = InterpolateSurface(job.tables, t, triangle, w, job.shading.reciprocal, false);
   if (job.spheres) PutOnSpheres(job.tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(job.tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
@@ -289,7 +281,7 @@ void LookUpRoughness(Chunk& c) noexcept {
       ApplyRoughness);
 }
 
-StepFunction FindLookUpRoughness(size_t /*index*/) { return LookUpRoughness; }
+StepFunction FindLookUpRoughness() { return LookUpRoughness; }
 
 // 1 where a ray has left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
@@ -322,7 +314,7 @@ void LookUpCoverage(Chunk& c) noexcept {
       c, [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().coverageMap; }, StoreCoverage);
 }
 
-StepFunction FindLookUpCoverage(size_t /*index*/) { return LookUpCoverage; }
+StepFunction FindLookUpCoverage() { return LookUpCoverage; }
 
 // Corners and their normals, in the world.
 struct WorldCorners {
@@ -389,7 +381,7 @@ void LiftShadowOrigins(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindLiftShadowOrigins(size_t /*index*/) { return LiftShadowOrigins; }
+StepFunction FindLiftShadowOrigins() { return LiftShadowOrigins; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -36,7 +36,6 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
   return Scale3(MulAdd3(grazing, schlick, f0), scale);
 }
 
-template <uint32_t kBits>
 void FindRadianceAndShadowRays(Chunk& c) noexcept {
   const FloatTag d;
   const UintTag du;
@@ -49,8 +48,9 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
   const size_t n = c.n;
   const bool traced = c.has(Feature::shadows), hidden = c.has(Feature::transmission);
   const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
+  const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const LightLanes<kBits> lanes(light);
+  const LightLanes lanes(light, c.has(Feature::spotLights));
   const V3 intensity = Broadcast3(light.intensity);
   size_t count = 0;
   // One point of several of a light with a radius.
@@ -97,7 +97,7 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
     const VF nl = Dot(ns, l);
     V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
                      hn::Set(d, 0.318309886f));
-    if constexpr ((kBits & EffectSet::bit(Effect::glossy)) != 0) {
+    if (glossy) {
       const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
       const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
       if (!hn::AllFalse(d, shiny)) {
@@ -139,11 +139,7 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
   c.shadowCount = count;
 }
 
-StepFunction FindFindRadianceAndShadowRays(size_t index) {
-  static constexpr auto kVariants = variantTable<kFindRadianceAndShadowRays>(
-      []<uint32_t kBits>() { return &FindRadianceAndShadowRays<kBits>; });
-  return kVariants[index];
-}
+StepFunction FindFindRadianceAndShadowRays() { return FindRadianceAndShadowRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -106,7 +106,7 @@ void GenerateRays(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindGenerateRays(size_t /*index*/) { return GenerateRays; }
+StepFunction FindGenerateRays() { return GenerateRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,5 +1,4 @@
-// Light that arrives from a light source of any kind. `kBits` are the effects that the kernel is
-// compiled for; the code for other kinds is left out.
+// Light that arrives from a light source of any kind.
 #if defined(WHIT_SIMD_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_LIGHT_INL_H_
 #undef WHIT_SIMD_LIGHT_INL_H_
@@ -9,7 +8,6 @@
 
 #include <limits>
 
-#include "core/effects.h"
 #include "hwy/contrib/math/math-inl.h"
 #include "scene/light.h"
 #include "simd/random_streams-inl.h"
@@ -19,48 +17,33 @@ HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
 // lightPoint(): the lattice of each lane's own stream.
-template <uint32_t kBits>
 class LightLanes {
-  static constexpr bool kSpots = (kBits & EffectSet::bit(Effect::spotLights)) != 0;
-  static constexpr bool kDirectional = (kBits & EffectSet::bit(Effect::directionalLights)) != 0;
-
  public:
-  HWY_INLINE explicit LightLanes(const Light& light) {
+  // Without `cones` a spot light shines to all sides.
+  HWY_INLINE LightLanes(const Light& light, bool cones)
+      : spot_(cones && light.kind == Light::Kind::spot),
+        directional_(light.kind == Light::Kind::directional) {
     const FloatTag d;
-    const bool directional = light.kind == Light::Kind::directional;
-    position_ = Broadcast3(light.position);
+    position_ = Broadcast3(directional_ ? Vec3f(towards(light, {})) : light.position);
     radiusSquared_ = hn::Set(d, light.radius * light.radius);
-    if constexpr (kDirectional) {
-      directional_ = directional;
-      if (directional) position_ = Broadcast3(Vec3f(towards(light, {})));
-    }
-    if constexpr (kSpots) {
-      const SpotCone cone = light.kind == Light::Kind::spot ? coneOf(light) : SpotCone();
-      spot_ = light.kind == Light::Kind::spot;
-      axis_ = Broadcast3(Vec3f(cone.axis));
-      cosOuter_ = hn::Set(d, static_cast<float>(cone.cosOuter));
-      coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
-    }
+    const SpotCone cone = spot_ ? coneOf(light) : SpotCone();
+    axis_ = Broadcast3(Vec3f(cone.axis));
+    cosOuter_ = hn::Set(d, static_cast<float>(cone.cosOuter));
+    coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
   }
 
   // All the way, or a unit vector where the light is directional.
   HWY_INLINE V3 Towards(const V3& from) const {
-    if constexpr (kDirectional) {
-      if (directional_) return position_;
-    }
-    return Sub3(position_, from);
+    return directional_ ? position_ : Sub3(position_, from);
   }
 
   // True in lanes that the cone reaches. The test is not exact where the light has almost fallen
   // off to nothing.
   HWY_INLINE MF Within(MF live, const V3& toLight, VF distanceSquared) const {
-    if constexpr (kSpots) {
-      if (!spot_) return live;
-      const VF along = hn::Neg(Dot(axis_, toLight)), zero = hn::Zero(FloatTag());
-      const VF edge = hn::Mul(hn::Mul(cosOuter_, cosOuter_), distanceSquared);
-      live = hn::And(live, hn::And(hn::Gt(along, zero), hn::Gt(hn::Mul(along, along), edge)));
-    }
-    return live;
+    if (!spot_) return live;
+    const VF along = hn::Neg(Dot(axis_, toLight)), zero = hn::Zero(FloatTag());
+    const VF edge = hn::Mul(hn::Mul(cosOuter_, cosOuter_), distanceSquared);
+    return hn::And(live, hn::And(hn::Gt(along, zero), hn::Gt(hn::Mul(along, along), edge)));
   }
 
   // The area by which the intensity is divided at this distance.
@@ -103,23 +86,15 @@ class LightLanes {
   // The share of the intensity that a surface receives; `nl` is the cosine at the surface, `l` the
   // direction.
   HWY_INLINE VF Falloff(VF nl, const V3& l, VF area) const {
-    if constexpr (kDirectional) {
-      if (directional_) return nl;
-    }
+    if (directional_) return nl;
     const VF falloff = hn::Div(nl, area);
-    if constexpr (kSpots) {
-      if (spot_) return hn::Mul(falloff, Cone(l));
-    }
-    return falloff;
+    return spot_ ? hn::Mul(falloff, Cone(l)) : falloff;
   }
 
   // Where shadow rays end, in lengths of Towards().
   HWY_INLINE VF Reach() const {
-    const FloatTag d;
-    if constexpr (kDirectional) {
-      if (directional_) return hn::Set(d, std::numeric_limits<float>::infinity());
-    }
-    return hn::Set(d, kShadowReach);
+    return hn::Set(FloatTag(),
+                   directional_ ? std::numeric_limits<float>::infinity() : kShadowReach);
   }
 
  private:
@@ -133,7 +108,7 @@ class LightLanes {
 
   V3 position_;  // of a directional light the unit vector towards it
   VF radiusSquared_;
-  bool spot_ = false, directional_ = false;
+  bool spot_, directional_;
   V3 axis_;
   VF cosOuter_, coneScale_;
 };

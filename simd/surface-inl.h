@@ -196,9 +196,8 @@ struct Surface {
   VF handedness;
 };
 
-template <bool kSmoothNormals>
 HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const TriangleLanes& t,
-                                      VI triangle, const Weights& w, Reciprocal how) {
+                                      VI triangle, const Weights& w, Reciprocal how, bool smooth) {
   Surface s;
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
   s.spans = Add3(Abs3(s.edge1), Abs3(s.edge2));
@@ -207,7 +206,7 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   s.ng = found.normal;
   s.inDoubt = found.inDoubt;
   s.ns = s.ng;
-  if constexpr (kSmoothNormals) s.ns = SmoothNormal(tables, triangle, w, s.ng, how);
+  if (smooth) s.ns = SmoothNormal(tables, triangle, w, s.ng, how);
   const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
   s.magnitude = Interpolate3(absolute, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
   s.handedness = hn::Set(FloatTag(), 1.0f);

@@ -6,7 +6,6 @@
 #define WHIT_SIMD_SURFACE_MAPS_INL_H_
 #endif
 
-#include "core/effects.h"
 #include "hwy/contrib/math/math-inl.h"
 #include "simd/material-inl.h"
 #include "simd/sphere-inl.h"
@@ -16,9 +15,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
-
-// The choice that variants of interpolateSurfels are compiled for.
-constexpr uint32_t kSmooth = EffectSet::bit(Effect::smoothNormals);
 
 // A chunk as interpolateSurfels sees it: what lies in the chunk itself would be read again after
 // each store to its columns.
@@ -30,7 +26,7 @@ struct SurfelJob {
   HitColumns hits;
   SurfelColumns surfels;
   bool absorption, cones, emissionFactors, coplanar, glossy, instances, normalMaps, radianceMaps,
-      secondUvs, spheres, textures, transmission, vertexColors;
+      secondUvs, smooth, spheres, textures, transmission, vertexColors;
 };
 
 HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
@@ -49,6 +45,7 @@ HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
           c.has(Feature::normalMaps),
           c.tables().radianceMaps,
           c.has(Feature::secondUvs),
+          c.has(Feature::smoothNormals),
           c.has(Feature::spheres),
           c.has(Feature::textures),
           c.has(Feature::transmission),
@@ -299,7 +296,6 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
 // Queues maps again that the material looks up by the second texture coordinates, in scenes that
 // have them. The function is not inlined and starts from the hits, so that other frames do not pay
 // for it.
-template <uint32_t kBits>
 HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
   const FloatTag d;
   const ShadingTables& tables = job.tables;
@@ -307,8 +303,7 @@ HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, Blo
   if (hn::AllFalse(d, valid)) return;
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(job.hits, i);
-  Surface s =
-      InterpolateSurface<(kBits & kSmooth) != 0>(tables, t, triangle, w, job.shading.reciprocal);
+  Surface s = InterpolateSurface(tables, t, triangle, w, job.shading.reciprocal, job.smooth);
   if (job.spheres) PutOnSpheres(tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);

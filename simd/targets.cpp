@@ -71,16 +71,6 @@ std::vector<std::string> compiledTargets() {
   return names;
 }
 
-std::string variantName(EffectSet variant) {
-  std::string name;
-  for (int i = 0; i < kEffectCount; ++i) {
-    if (!variant.has(static_cast<Effect>(i))) continue;
-    if (!name.empty()) name += '+';
-    name += kEffectNames[static_cast<std::size_t>(i)].name;
-  }
-  return name.empty() ? "plain" : name;
-}
-
 bool chooseTarget(const std::string& name) {
   static std::mutex mutex;
   static std::string chosen;

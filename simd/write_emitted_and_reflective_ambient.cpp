@@ -58,9 +58,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindWriteEmittedAndReflectiveAmbient(size_t /*index*/) {
-  return WriteEmittedAndReflectiveAmbient;
-}
+StepFunction FindWriteEmittedAndReflectiveAmbient() { return WriteEmittedAndReflectiveAmbient; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -64,8 +64,8 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
   }
   std::printf("\nkernels\n");
   for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
-    std::printf("  %-34s%-34s%-8s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
-                kernel.kernel.c_str(), kernel.target.c_str(), kernel.variant.c_str());
+    std::printf("  %-34s%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
+                kernel.kernel.c_str(), kernel.target.c_str());
   }
   if (open.warnings.entries().empty()) return;
   std::printf("\nwarnings\n");
@@ -75,19 +75,14 @@ void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOpti
   }
 }
 
-// Every variant that is compiled, whatever the scene.
 void printKernels() {
   std::string targets;
   for (const std::string& name : simd::compiledTargets()) targets += " " + name;
-  std::size_t variants = 0;
   for (const simd::Kernel& kernel : simd::kKernels) {
-    for (std::size_t i = 0; i < kernel.variantCount(); ++i, ++variants) {
-      std::printf("%-34s%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
-                  std::string(kernel.name).c_str(), simd::variantName(kernel.variant(i)).c_str());
-    }
+    std::printf("%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
+                std::string(kernel.name).c_str());
   }
-  std::printf("%zu variants of %zu kernels, each for:%s\n", variants, simd::kKernels.size(),
-              targets.c_str());
+  std::printf("%zu kernels, each for:%s\n", simd::kKernels.size(), targets.c_str());
 }
 
 }  // namespace
@@ -98,7 +93,7 @@ int infoCommand(const Words& words) {
   std::string json;
   bool kernels = false;
   OptionList list;
-  list.flag("kernels", "list every compiled variant of every kernel, without a scene", kernels);
+  list.flag("kernels", "list every kernel and the SIMD targets, without a scene", kernels);
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 0, 1, scenes);

@@ -217,7 +217,6 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
   for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
     json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
                                {"kernel", kernel.kernel},
-                               {"variant", kernel.variant},
                                {"target", kernel.target}});
   }
   return json;
@@ -226,11 +225,8 @@ Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions&
 Json kernelsJson() {
   Json json{{"targets", simd::compiledTargets()}};
   for (const simd::Kernel& kernel : simd::kKernels) {
-    for (std::size_t i = 0; i < kernel.variantCount(); ++i) {
-      json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
-                                 {"kernel", kernel.name},
-                                 {"variant", simd::variantName(kernel.variant(i))}});
-    }
+    json["kernels"].push_back(
+        {{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]}, {"kernel", kernel.name}});
   }
   return json;
 }

@@ -47,7 +47,7 @@ Json compareJson(const Comparison& comparison);
 Json infoJson(const Scene& scene, const Renderer& renderer, const RenderOptions& options,
               const Warnings& warnings);
 
-// Every compiled variant of every kernel: {"targets":[...],"kernels":[{stage, kernel, variant}]}.
+// Every kernel: {"targets":[...],"kernels":[{stage, kernel}]}.
 Json kernelsJson();
 
 // "-" is standard output. Throws Error(io).

@@ -1,5 +1,5 @@
 // The scalar reference: Whitted's recursion in double precision, one ray at a time. No SIMD, no
-// queues, no tiles, no variants; independent of the kernels.
+// queues, no tiles; independent of the kernels.
 #pragma once
 
 #include <array>

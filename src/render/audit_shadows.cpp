@@ -35,7 +35,7 @@ std::vector<KeptRay> raysOf(const Chunk& c) {
 
 void auditShadows(Chunk& c) {
   const std::vector<KeptRay> rays = raysOf(c);
-  simd::kDecideShadows.functionFor(EffectSet())(c);
+  simd::kDecideShadows.find()(c);
   const std::uint32_t *const slots = c.shadows.slot, *const end = slots + c.shadowCount;
   for (const KeptRay& ray : rays) {
     if (std::binary_search(slots, end, ray.slot)) continue;

@@ -59,6 +59,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::spheres, e.has(Effect::spheres))
       .with(Feature::coplanar, !scene.coplanar.empty())
       .with(Feature::shadows, e.has(Effect::shadows))
+      .with(Feature::spotLights, e.has(Effect::spotLights))
+      .with(Feature::smoothNormals, e.has(Effect::smoothNormals))
       // Where no vertex normal differs from its triangle's there is nothing to lift.
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
@@ -68,21 +70,18 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
 }
 
-KernelUse useOf(const simd::Kernel& kernel, EffectSet effects) {
-  const EffectSet variant = kernel.variant(kernel.variantFor(effects));
-  return {kernel.stage, std::string(kernel.name), simd::variantName(variant), simd::chosenTarget()};
+KernelUse useOf(const simd::Kernel& kernel) {
+  return {kernel.stage, std::string(kernel.name), simd::chosenTarget()};
 }
 
-KernelUse embreeCall(Stage stage, const char* name) { return {stage, name, "plain", "embree"}; }
-
-Step stepOf(const simd::Kernel& kernel, EffectSet effects) {
+Step stepOf(const simd::Kernel& kernel) {
   return {.name = std::string(kernel.name),
           .number = simd::indexOf(kernel),
           .stage = kernel.stage,
-          .run = kernel.functionFor(effects),
+          .run = kernel.find(),
           .reads = kernel.reads,
           .writes = kernel.writes,
-          .kernels = {useOf(kernel, effects)}};
+          .kernels = {useOf(kernel)}};
 }
 
 // Rays to Embree and back: one at a time, or in packets that kernels fill and empty.
@@ -94,8 +93,8 @@ Step embreeStep(const char* name, const char* call, StepFunction run, const simd
             .run = run,
             .reads = pack.reads,
             .writes = unpack.writes,
-            .kernels = {embreeCall(pack.stage, call)}};
-  if (packets) step.kernels = {useOf(pack, {}), step.kernels[0], useOf(unpack, {})};
+            .kernels = {{pack.stage, call, "embree"}}};
+  if (packets) step.kernels = {useOf(pack), step.kernels[0], useOf(unpack)};
   return step;
 }
 
@@ -117,19 +116,19 @@ class Planner {
   }
 
   Plan make() {
-    plan_.perSample = {stepOf(simd::kGenerateRays, plan_.effects)};
+    plan_.perSample = {stepOf(simd::kGenerateRays)};
     if (has(Effect::transmission)) {
       plan_.perSample.push_back(amendingStep("findInitialMedia", simd::kGenerateRays,
                                              findInitialMedia, {Part::rays}, {Part::rays}));
     }
     findIntersections();
-    plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient, plan_.effects));
+    plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient));
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
     addImpulses();
-    if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye, plan_.effects)};
+    if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye)};
     keepChannels();
     plan_.perTile = {updateImageStep()};
     markEndsOfStages();
@@ -147,20 +146,20 @@ class Planner {
       plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
-    plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels, plan_.effects));
+    plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels));
     if (plan_.features.has(Feature::roughnessMaps)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness, plan_.effects));
+      plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness));
       plan_.perQueue.back().wants = kMaterialVariesRoughness;
     }
     if (plan_.features.has(Feature::coverage)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage, plan_.effects));
+      plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
     if (plan_.features.has(Feature::limitedDiffuse)) {
-      plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse, plan_.effects));
+      plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse));
       plan_.perQueue.back().wants = kMaterialLimitsDiffuse;
     }
     if (plan_.features.has(Feature::lift)) {
-      plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins, plan_.effects));
+      plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
     }
   }
 
@@ -194,12 +193,11 @@ class Planner {
   void addAmbientLight() {
     const auto samples = static_cast<std::uint32_t>(options_.ambientSamples);
     for (std::uint32_t k = 0; k < samples; ++k) {
-      plan_.perLight.push_back(
-          {.light = kAmbientLight,
-           .sample = k,
-           .samples = samples,
-           .steps = {stepOf(simd::kFindAmbientAndOcclusionRays, plan_.effects), checkShadowsStep(),
-                     stepOf(simd::kAddShading, plan_.effects)}});
+      plan_.perLight.push_back({.light = kAmbientLight,
+                                .sample = k,
+                                .samples = samples,
+                                .steps = {stepOf(simd::kFindAmbientAndOcclusionRays),
+                                          checkShadowsStep(), stepOf(simd::kAddShading)}});
     }
   }
 
@@ -214,35 +212,22 @@ class Planner {
     for (std::uint32_t k = 0; k < count; ++k) addLight(index, k, count);
   }
 
-  // A light needs the code of its own kind only, and surfels that do not shine need less again.
   void addLight(std::size_t index, std::uint32_t sample, std::uint32_t samples) {
-    const Light& light = scene_.lights[index];
-    EffectSet effects = plan_.effects;
-    if (light.kind != Light::Kind::spot) effects = effects.without(Effect::spotLights);
-    if (light.kind != Light::Kind::directional) {
-      effects = effects.without(Effect::directionalLights);
-    } else if (!has(Effect::directionalLights)) {
-      return;
-    }
+    const bool directional = scene_.lights[index].kind == Light::Kind::directional;
+    if (directional && !has(Effect::directionalLights)) return;
     LightSteps lightSteps{.light = index,
                           .sample = sample,
                           .samples = samples,
-                          .steps = {stepOf(simd::kFindRadianceAndShadowRays, effects)}};
-    Step& find = lightSteps.steps[0];
-    if (has(Effect::glossy)) {
-      find.wants = kMaterialGlossy;
-      find.otherwise =
-          simd::kFindRadianceAndShadowRays.functionFor(effects.without(Effect::glossy));
-    }
+                          .steps = {stepOf(simd::kFindRadianceAndShadowRays)}};
     if (has(Effect::shadows)) {
       if (shadowTables_ && samples == 1 && canDecide(plan_, options_)) {
-        lightSteps.steps.push_back(stepOf(simd::kDecideShadows, plan_.effects));
+        lightSteps.steps.push_back(stepOf(simd::kDecideShadows));
         if (options_.shadowCache == ShadowCacheMode::audit)
           lightSteps.steps.back().run = auditShadows;
       }
       lightSteps.steps.push_back(checkShadowsStep());
     }
-    lightSteps.steps.push_back(stepOf(simd::kAddShading, effects));
+    lightSteps.steps.push_back(stepOf(simd::kAddShading));
     plan_.perLight.push_back(std::move(lightSteps));
   }
 
@@ -259,7 +244,7 @@ class Planner {
     if (options_.depth == 0) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
-    plan_.onReturn = {stepOf(simd::kReturnImpulses, plan_.effects)};
+    plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
     // frustums. Paths that have met more than two surfaces no longer are, and samples of lobes
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting
@@ -274,7 +259,7 @@ class Planner {
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {
-    Step step = stepOf(kernel, plan_.effects);
+    Step step = stepOf(kernel);
     step.wants = flag;
     step.childKind = kind;
     step.childrenAtEye = atEye;
@@ -301,7 +286,7 @@ class Planner {
             .run = updateImage,
             .reads = {Part::radiance, Part::pixels},
             .writes = {Part::radiance, Part::codes, Part::film},
-            .kernels = {useOf(simd::kEncodeDisplay, {})}};
+            .kernels = {useOf(simd::kEncodeDisplay)}};
   }
 
   void markEndsOfStages() {
@@ -389,7 +374,7 @@ std::vector<KernelUse> kernelsOf(const Plan& plan) {
       if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
     }
   });
-  // Lights of several kinds: their variants side by side.
+  // Lights begin with different kernels of the same stage.
   std::stable_sort(uses.begin(), uses.end(),
                    [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; });
   return uses;

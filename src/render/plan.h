@@ -27,8 +27,7 @@ namespace whit {
 struct KernelUse {
   Stage stage;
   std::string kernel;
-  std::string variant;  // effect names joined by '+', "plain" if none
-  std::string target;   // SIMD target, or "embree"
+  std::string target;  // SIMD target, or "embree"
   bool operator==(const KernelUse&) const = default;
 };
 
@@ -38,10 +37,7 @@ struct Step {
   Stage stage;
   StepFunction run;
   Parts reads, writes;
-  // kMaterial flags. A chunk of which no surfel has any of them goes to `otherwise`, which does the
-  // same with less code, or without that is left out.
-  std::uint32_t wants = 0;
-  StepFunction otherwise = nullptr;
+  std::uint32_t wants = 0;  // kMaterial flags: chunks of which no surfel has any of them skip it
   // For steps that write children: the kind of the children, and upper bounds on their number per
   // surfel, for primary hits and for deeper ones.
   RayKind childKind = RayKind::reflection;
@@ -49,9 +45,8 @@ struct Step {
   std::vector<KernelUse> kernels;  // what it consists of
   bool endsStage = false;          // no other step of its stage follows
 
-  // The function that runs for a chunk with these material flags; null if none runs.
-  StepFunction functionFor(std::uint32_t materialFlags) const {
-    return wants == 0 || (materialFlags & wants) != 0 ? run : otherwise;
+  bool runsFor(std::uint32_t materialFlags) const {
+    return wants == 0 || (materialFlags & wants) != 0;
   }
   std::size_t childrenAt(int depth) const { return depth == 0 ? childrenAtEye : childrenBeyond; }
 };
@@ -64,7 +59,7 @@ struct LightSteps {
 };
 
 struct Plan {
-  EffectSet effects;      // what kernels are compiled for
+  EffectSet effects;      // of the scene and the options
   FeatureSet features;    // what whole calls ask for
   int depth = 0;          // deepest impulse that can occur
   int coherentDepth = 0;  // deepest queue whose rays travel close together

@@ -136,7 +136,7 @@ void TileTracer::shadeChunk(int depth, const Watch& watch) {
 void TileTracer::addImpulses(const Watch& watch) {
   std::size_t most = 0;
   for (const Step& step : plan_.impulses) {
-    if (step.functionFor(chunk_.materialFlags)) most += step.childrenAt(chunk_.depth);
+    if (step.runsFor(chunk_.materialFlags)) most += step.childrenAt(chunk_.depth);
   }
   work_.reserveChildren(most * roundUpToBlock(chunk_.n), chunk_);
   runSteps(plan_.impulses, watch);
@@ -157,12 +157,11 @@ void TileTracer::runSteps(const std::vector<Step>& steps, const Watch& watch) {
 }
 
 void TileTracer::run(const Step& step, FrameStats& stats) {
-  const StepFunction function = step.functionFor(chunk_.materialFlags);
-  if (!function) return;
+  if (!step.runsFor(chunk_.materialFlags)) return;
   const std::size_t children = chunk_.childCount;
   {
     const ContractCheck check(step, chunk_);
-    function(chunk_);
+    step.run(chunk_);
   }
   ++stats.stepCalls[step.number];
   Workspace::noteChildren(step.childKind, children, chunk_);

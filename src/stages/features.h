@@ -1,7 +1,6 @@
 // Feature flags of a plan, found once for all frames. Whole calls test these and nothing else,
 // neither null columns nor empty tables: a set of columns belongs to a feature and exists only with
-// it, and steps ask their chunk (`chunk.has(Feature::cones)`). Code in the lanes of a kernel that
-// only some effects need is chosen at compile time by template bits (simd/kernels.h).
+// it, and steps ask their chunk (`chunk.has(Feature::cones)`).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@ namespace whit {
 #define WHIT_FEATURES(X)                                                  \
   X(always, "every frame")                                                \
   X(ambient, "ambient light")                                             \
+  X(spotLights, "cones of spot lights")                                   \
   X(emission, "materials that emit")                                      \
   X(emissionFactors, "emission by maps or vertex colors")                 \
   X(vertexColors, "vertex colors")                                        \
@@ -29,6 +29,7 @@ namespace whit {
   X(shadows, "shadow rays")                                               \
   X(lift, "shadow rays that start above their facets (--terminator)")     \
   X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
+  X(smoothNormals, "vertex normals")                                      \
   X(textures, "maps of colors")                                           \
   X(normalMaps, "maps of normals")                                        \
   X(secondUvs, "maps looked up with second texture coordinates")

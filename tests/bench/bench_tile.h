@@ -60,7 +60,7 @@ class BenchTile {
   // Once more on the tile as it is after run(); steps that append children do it again from none.
   void runStep(const Step& step) {
     if (step.childrenAtEye > 0 && &step == &plan().impulses.front()) chunk_.childCount = 0;
-    if (const StepFunction function = step.functionFor(chunk_.materialFlags)) function(chunk_);
+    if (step.runsFor(chunk_.materialFlags)) step.run(chunk_);
   }
 
   // What a step is timed on.

@@ -139,7 +139,7 @@ void registerAll(Subject& subject, std::vector<std::string>& known) {
         step.name, subject,
         [&tile, &step] {
           Chunk chunk = tile.chunkFor(step);
-          step.functionFor(chunk.materialFlags)(chunk);
+          step.run(chunk);
         },
         tile.raysOf(step));
   });

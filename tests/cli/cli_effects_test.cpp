@@ -14,11 +14,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(InfoKernels, ListsEveryVariant) {
+TEST(InfoKernels, ListsEveryKernel) {
   const Outcome outcome = runWhit({"info", "--kernels"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* text : {"interpolateSurfels", "smoothNormals", "glossy", "encodeDisplay",
-                           "variants of 22 kernels, each for:"}) {
+  for (const char* text : {"interpolateSurfels", "encodeDisplay", "22 kernels, each for:"}) {
     EXPECT_NE(outcome.out.find(text), std::string::npos) << text << "\n" << outcome.out;
   }
   const Json json = Json::parse(runWhit({"info", "--kernels", "--json", "-"}).out);

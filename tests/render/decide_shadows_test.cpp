@@ -206,7 +206,7 @@ void expectAsTheTwin(MadeUp& made, bool empty, bool asks) {
   constants.asking = {asks ? 1u : 0u, 2};
   const std::uint32_t pixel = packedPixel(constants.options.tile, 0);
   c.pixels = {&pixel, 1};
-  simd::kDecideShadows.functionFor(EffectSet())(c);
+  simd::kDecideShadows.find()(c);
   std::size_t kept = 0, lit = 0, dark = 0;
   std::vector<std::uint8_t> wanted(made.wanted().size(), 0);
   for (const MadeUp::Ray& ray : made.rays) {

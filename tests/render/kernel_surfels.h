@@ -38,7 +38,7 @@ class KernelSurfels {
     c.hits.t[slot] = 1;
     c.hits.u[slot] = c.hits.v[slot] = 0.25f;
   }
-  void interpolate() { simd::kInterpolateSurfels.functionFor(renderer_.plan().effects)(chunk()); }
+  void interpolate() { simd::kInterpolateSurfels.find()(chunk()); }
 
   Chunk& chunk() { return small_.chunk; }
   SurfelRow twin(std::size_t slot) {

@@ -1,4 +1,4 @@
-// The table of compiled kernel variants, and the plans that are made of them.
+// The table of kernels, and the plans that are made of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,35 +42,7 @@ Plan planOf(EffectSet effects) {
   return makePlan(scene, options);
 }
 
-TEST(KernelVariants, AreFewEnoughToCompile) {
-  std::size_t variants = 0;
-  for (const Kernel& kernel : kKernels) {
-    // A choice doubles a kernel's code and the time to compile it, once for every target.
-    EXPECT_LE(kernel.variantCount(), 8u) << kernel.name;
-    variants += kernel.variantCount();
-  }
-  EXPECT_LE(variants, 30u);
-}
-
-TEST(KernelVariants, AreTheSubsetsOfAKernelsChoices) {
-  for (const Kernel& kernel : kKernels) {
-    std::set<std::uint32_t> seen;
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < kernel.variantCount(); ++i) {
-      const EffectSet variant = kernel.variant(i);
-      EXPECT_EQ(variant.without(kernel.choices), EffectSet()) << kernel.name;
-      EXPECT_EQ(kernel.variantFor(variant), i) << kernel.name;
-      // Effects that are no choice of this kernel do not choose another variant.
-      EXPECT_EQ(kernel.variantFor(EffectSet(variant.bits() | ~kernel.choices.bits())), i);
-      seen.insert(variant.bits());
-      names.insert(simd::variantName(variant));
-    }
-    EXPECT_EQ(seen.size(), kernel.variantCount()) << kernel.name;
-    EXPECT_EQ(names.size(), kernel.variantCount()) << kernel.name;
-  }
-}
-
-TEST(KernelVariants, BelongToStagesInOrder) {
+TEST(Kernels, BelongToStagesInOrder) {
   EXPECT_TRUE(std::is_sorted(kKernels.begin(), kKernels.end(),
                              [](const Kernel& a, const Kernel& b) { return a.stage < b.stage; }));
   for (std::size_t s = 0; s < kStageCount; ++s) {
@@ -81,7 +53,7 @@ TEST(KernelVariants, BelongToStagesInOrder) {
   }
 }
 
-TEST(KernelVariants, AreCompiledForEveryTargetThatCanBeChosen) {
+TEST(Kernels, AreCompiledForEveryTargetThatCanBeChosen) {
   const std::vector<std::string> compiled = simd::compiledTargets();
   for (const std::string& target : simd::availableTargets()) {
     EXPECT_NE(std::find(compiled.begin(), compiled.end(), target), compiled.end()) << target;
@@ -108,20 +80,18 @@ TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
   }
 }
 
-TEST(KernelsOfAPlan, NameTheVariant) {
+TEST(KernelsOfAPlan, AreThoseThatItsEffectsNeed) {
   const Plan plan = planOf(EffectSet()
                                .with(Effect::lights)
                                .with(Effect::textures)
                                .with(Effect::normalMaps)
                                .with(Effect::mirror));
   std::vector<std::string> names;
-  for (const KernelUse& use : kernelsOf(plan)) names.push_back(use.kernel + ":" + use.variant);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{
-                "generateRays:plain", "packRays:plain", "intersect:plain", "unpackHits:plain",
-                "interpolateSurfels:plain", "writeEmittedAndReflectiveAmbient:plain",
-                "findRadianceAndShadowRays:plain", "addShading:plain", "addReflections:plain",
-                "returnImpulses:plain", "encodeDisplay:plain"}));
+  for (const KernelUse& use : kernelsOf(plan)) names.push_back(use.kernel);
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "generateRays", "packRays", "intersect", "unpackHits", "interpolateSurfels",
+                       "writeEmittedAndReflectiveAmbient", "findRadianceAndShadowRays",
+                       "addShading", "addReflections", "returnImpulses", "encodeDisplay"}));
 }
 
 TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
@@ -167,22 +137,6 @@ TEST(Plans, EndEachStageWithItsLastStep) {
   EXPECT_FALSE(plan.find("addReflections")->endsStage);
   EXPECT_TRUE(plan.find("addRefractions")->endsStage);
   EXPECT_TRUE(plan.find("updateImage")->endsStage);
-}
-
-TEST(Plans, GiveEachLightTheCodeOfItsOwnKind) {
-  Scene scene;
-  scene.effects = EffectSet::all();
-  scene.lights.resize(3);
-  scene.lights[1].kind = Light::Kind::spot;
-  scene.lights[2].kind = Light::Kind::directional;
-  const Plan plan = makePlan(scene, RenderOptions());
-  ASSERT_EQ(plan.perLight.size(), 3u);
-  std::set<std::string> variants;
-  for (const LightSteps& light : plan.perLight) {
-    variants.insert(light.steps[0].kernels[0].variant);
-  }
-  EXPECT_EQ(variants,
-            (std::set<std::string>{"glossy", "glossy+spotLights", "glossy+directionalLights"}));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void Probe::hit(std::size_t i, std::uint32_t triangle, float t, float u, float v
 }
 
 void Probe::run(const simd::Kernel& kernel) {
-  kernel.functionFor(renderer_.plan().effects)(chunk_);
+  kernel.find()(chunk_);
 }
 
 void Probe::interpolate() {
@@ -223,7 +223,7 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
   chunk.pixels = {padded.data(), pixels.size()};
   chunk.n = pixels.size();
   chunk.rays = *rays;
-  simd::kGenerateRays.functionFor({})(chunk);
+  simd::kGenerateRays.find()(chunk);
   return rays;
 }
 
