@@ -61,25 +61,21 @@ void forEachLayer(Layers& layers, Use&& use) {
   });
 }
 
-// Receives the next message for this rank from anyone; false if there is none yet.
-bool lookForLetter(Letter& letter) {
+// Receives the next message for this rank from anyone.
+Letter waitForLetter() {
   int there = 0;
   MPI_Status status;
-  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
-  if (!there) return false;
+  for (;;) {
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+    if (there) break;
+    std::this_thread::sleep_for(kNap);
+  }
   int count = 0;
   MPI_Get_count(&status, MPI_BYTE, &count);
-  letter.from = status.MPI_SOURCE;
-  letter.kind = static_cast<FarmMessage>(status.MPI_TAG);
+  Letter letter{status.MPI_SOURCE, static_cast<FarmMessage>(status.MPI_TAG), {}};
   letter.bytes.resize(static_cast<std::size_t>(count));
   MPI_Recv(letter.bytes.data(), count, MPI_BYTE, letter.from, status.MPI_TAG, MPI_COMM_WORLD,
            MPI_STATUS_IGNORE);
-  return true;
-}
-
-Letter waitForLetter() {
-  Letter letter;
-  while (!lookForLetter(letter)) std::this_thread::sleep_for(kNap);
   return letter;
 }
 

@@ -252,7 +252,7 @@ class Scene:
         return f"<whit.Scene {self.name!r}: {self.triangles} triangles>"
 
 
-Scene.render.__doc__ = f"""Renders the same picture as `whit render` with these options, bit for bit.
+Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
         path_time: time in seconds at which the camera path places the camera.
         progress: called now and then, by the thread that renders, with the current phase and the
