@@ -1,8 +1,7 @@
 // The command line of whit-view.
 #include <cstdio>
 
-#include "cli/app/completion.h"
-#include "cli/app/man_page.h"
+#include "cli/app/help_text.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/progress_bar.h"
 #include "core/error.h"

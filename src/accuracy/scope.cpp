@@ -1,7 +1,6 @@
 #include "accuracy/scope.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "accuracy/reference_cache.h"
 
@@ -42,16 +41,6 @@ bool Scope::comparesPaths(const Point& point) const {
   return point.cause == Cause::arithmetic && (chosenKnobs || !longFrames());
 }
 
-std::string paceText(const std::string& subject, const std::string& step, double elapsedSeconds,
-                     double fraction) {
-  std::string text = subject;
-  if (fraction > 0.01 && fraction <= 1) {
-    const double left = elapsedSeconds * (1 - fraction) / fraction;
-    text += " " + std::to_string(static_cast<long>(std::ceil(left))) + " s left";
-  }
-  return text + ": " + step;
-}
-
 void Pace::begin(const std::string& step, double work) {
   step_ = step;
   current_ = work;
@@ -70,7 +59,7 @@ void Pace::skip() {
 
 void Pace::report(const std::string&, double fraction) {
   const double all = total_ > 0 ? (done_ + current_ * fraction) / total_ : 0;
-  reportProgress(out_, paceText(subject_, step_, seconds(), all), all);
+  reportProgress(out_, subject_ + ": " + step_, all);
 }
 
 }  // namespace whit::accuracy

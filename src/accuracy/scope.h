@@ -48,8 +48,8 @@ struct Scope {
   bool comparesPaths(const Point& point) const;
 };
 
-// Tells the progress of a sweep and the time that it will still take. Work has any unit that the
-// steps share. A running step can report its own fraction.
+// Tells the progress of a sweep. Work has any unit that the steps share. A running step can report
+// its own fraction.
 class Pace : public Progress {
  public:
   Pace(Progress* out, std::string subject) : out_(out), subject_(std::move(subject)) {}
@@ -67,9 +67,5 @@ class Pace : public Progress {
   double total_ = 0, done_ = 0, current_ = 0;
   Stopwatch stopwatch_;
 };
-
-// "sponza 35 s left: depth=4"; without a time while it is unknown.
-std::string paceText(const std::string& subject, const std::string& step, double elapsedSeconds,
-                     double fraction);
 
 }  // namespace whit::accuracy

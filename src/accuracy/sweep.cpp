@@ -1,19 +1,203 @@
 #include "accuracy/sweep.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
+#include <string>
+#include <vector>
 
-#include "accuracy/errors.h"
+#include "accuracy/digest.h"
 #include "accuracy/findings.h"
+#include "accuracy/reference_cache.h"
 #include "accuracy/scope.h"
+#include "accuracy/timing.h"
+#include "core/display.h"
+#include "core/quantile.h"
+#include "core/worker_pool.h"
+#include "inspect/hdr_flip.h"
+#include "inspect/path_divergence.h"
+#include "io/image/image_file.h"
 
 namespace whit::accuracy {
 
 namespace {
+
+// The largest difference of a channel, in units of the last place of the largest channel of `b`.
+double ulpsApart(const Rgb& a, const Rgb& b) {
+  const float largest = maxComponent(abs(b));
+  if (!std::isfinite(largest)) return 0;
+  const float next = std::nextafter(largest, std::numeric_limits<float>::max());
+  return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
+}
+
+ImageDifference noDifference() {
+  ImageDifference none;
+  none.psnrDb = std::numeric_limits<double>::infinity();
+  return none;
+}
+
+void runTogether(const std::vector<std::function<void()>>& tasks) {
+  parallelFor(static_cast<int>(tasks.size()), tasks.size(),
+              [&](std::size_t i, int) { tasks[i](); });
+}
+
+ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const Film& film,
+                                const ReferencePaths& reference) {
+  PathComparison paths = comparePaths(renderer, camera, film, reference);
+  ArithmeticError error;
+  error.divergences = paths.divergences;
+  const double pixels = static_cast<double>(paths.diverged.size());
+  error.divergencesPerMpx = 1e6 * static_cast<double>(paths.divergences) / pixels;
+  std::vector<double> ulps;
+  for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
+    if (paths.diverged[i]) {
+      paths.packets.pixels[i] = paths.reference.pixels[i];
+    } else {
+      ulps.push_back(ulpsApart(paths.packets.pixels[i], paths.reference.pixels[i]));
+    }
+  }
+  error.samePath = compareImages(paths.packets, paths.reference);
+  error.medianUlp = quantile(ulps, 0.5);
+  error.ulp999 = quantile(ulps, 0.999);
+  error.worstUlp = quantile(ulps, 1);
+  return error;
+}
+
+// Measures the points of one scene and view.
+class ErrorMeter {
+ public:
+  // `scene` has exact spheres. `base` has the display and the number of samples of the exact
+  // picture at equal samples. The truth is `transport`, or the reference of `samples` samples if
+  // that is null. Scene, cache and `transport` must outlive the meter.
+  ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
+             const Exactness& exactness, ReferenceCache& cache, int samples,
+             const TransportPicture* transport, Progress* progress);
+
+  // Sets the point's errors from its last frame. Errors of arithmetic are measured only if
+  // `arithmetic` is true. For a knob of arithmetic the errors of sampling and algorithm are not
+  // set, because they are the baseline's.
+  void measure(Point& point, FrameSource& frames, bool arithmetic);
+  // Sets the point's pictures, which stay in memory.
+  void addPictures(Point& point, const Image& image) const;
+  std::string pngOf(const Image& image) const;  // the displayed image
+
+  const ReferencePicture& reference() const { return *reference_; }
+  const Image& truth() const { return transport_ ? transport_->image : reference_->image; }
+
+ private:
+  ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const;
+  // The picture that more samples of the point converge to.
+  const Image& limitOf(const Point& point) const;
+  const Image& withoutApproximations(const Point& point, const Image& own);
+  // Paths of the scalar reference with the point's own options. Points whose options differ only in
+  // ways that the scalar reference ignores share them.
+  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames);
+
+  const Scene& scene_;
+  Camera camera_;
+  RenderOptions base_;
+  Exactness exactness_;
+  const ReferencePicture *reference_, *exact_;
+  const TransportPicture* transport_;
+  // The difference of the reference from the picture with all transport.
+  std::optional<ImageDifference> leftOut_;
+  HdrFlip hdrFlip_;                            // against the truth
+  std::map<std::string, Image> exactPackets_;  // key: digest of the options
+  std::map<std::string, ReferencePaths> referencePaths_;
+};
+
+ErrorMeter::ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
+                       const Exactness& exactness, ReferenceCache& cache, int samples,
+                       const TransportPicture* transport, Progress* progress)
+    : scene_(scene),
+      camera_(camera),
+      base_(base),
+      exactness_(exactness),
+      reference_(&cache.get(
+          referenceOptions(transport ? withoutTransport(base) : base, samples, exactness),
+          progress)),
+      exact_(&cache.get(exactAtSameSamples(base, exactness), progress)),
+      transport_(transport),
+      hdrFlip_(truth()) {
+  if (transport_) leftOut_ = against(reference_->image, truth(), SrgbEncoding::exact);
+}
+
+ImageDifference ErrorMeter::against(const Image& a, const Image& b, SrgbEncoding encoding) const {
+  return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
+}
+
+const Image& ErrorMeter::limitOf(const Point& point) const {
+  return transport_ && hasTransport(point.options) ? truth() : reference_->image;
+}
+
+const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& own) {
+  const Exactness exactness =
+      hasTransport(point.options) ? Exactness{kTransportCutoff} : exactness_;
+  const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness);
+  const std::string digest = digestOf(exact);
+  if (digest == digestOf(point.options)) return own;
+  const auto found = exactPackets_.find(digest);
+  if (found != exactPackets_.end()) return found->second;
+  FrameSource frames(scene_, camera_, exact);
+  frames.render();
+  return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
+}
+
+void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
+  point.stats = frames.stats;
+  const Image& image = frames.film.image;
+  const auto differenceOf = [&](const Image& a, const Image& b) {
+    return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
+  };
+  std::vector<std::function<void()>> comparisons;
+  comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
+  comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
+  // The point has the baseline's sampling if the exact options are the same.
+  if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
+      digestOf(exactAtSameSamples(base_, exactness_))) {
+    comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_->image); });
+  }
+  runTogether(comparisons);
+  if (point.cause != Cause::arithmetic) {
+    const Image& unapproximated = withoutApproximations(point, image);
+    runTogether({[&] { point.sampling = differenceOf(unapproximated, limitOf(point)); },
+                 [&] { point.algorithm = differenceOf(image, unapproximated); }});
+  }
+  if (transport_) point.transport = hasTransport(point.options) ? noDifference() : *leftOut_;
+  if (!arithmetic) return;
+  point.arithmetic =
+      arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
+}
+
+const ReferencePaths& ErrorMeter::referencePaths(const Point& point, FrameSource& frames) {
+  const RenderOptions defaults;
+  RenderOptions seen = point.options;
+  seen.shading.reciprocal = defaults.shading.reciprocal;
+  seen.film = defaults.film;
+  seen.srgb = defaults.srgb;
+  seen.packet = defaults.packet;
+  const std::string digest = digestOf(seen);
+  const auto found = referencePaths_.find(digest);
+  if (found != referencePaths_.end()) return found->second;
+  return referencePaths_.emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
+      .first->second;
+}
+
+std::string ErrorMeter::pngOf(const Image& image) const {
+  return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
+}
+
+void ErrorMeter::addPictures(Point& point, const Image& image) const {
+  point.imagePng = pngOf(image);
+  point.totalMapPng = encodePng(heatMap(image, truth()));
+  if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_->image));
+}
 
 // The approximate work of a packet frame in units of a scalar frame with one sample.
 constexpr double kPacketFrameWork = 0.1;

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -41,7 +39,7 @@ constexpr ImageSize kQuickSize{256, 256};
 struct AccuracyJob {
   CommonOptions common;
   std::vector<std::string> scenes;
-  std::string out, knobs, check;
+  std::string out, knobs;
   accuracy::Truth truth = accuracy::Truth::model;
   bool quick = false, full = false;
   int seed = 1;
@@ -78,8 +76,6 @@ OptionList listOptions(AccuracyJob& job) {
       job.quick);
   list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
-  list.value({"check", "CSV"}, "an earlier sweep.csv; exit status 1 when an error has grown",
-             job.check);
   list.value(
       {"time-budget", "SECONDS", 0, 1e6},
       "time for measuring times of a scene until their spread is known (default: 20, --full 600)",
@@ -100,12 +96,6 @@ void checkJob(AccuracyJob& job) {
   accuracy::chooseKnobs(job.knobNames());
   if (!job.full && !job.common.render.size) job.common.render.size = kQuickSize;
   makeFolder(job.out);
-}
-
-std::string readText(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throwIo("cannot read '" + path + "'");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 accuracy::RunFacts factsOf(const AccuracyJob& job) {
@@ -156,17 +146,6 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
   return sweeps;
 }
 
-// Returns the exit status.
-int checkAgainst(const AccuracyJob& job, const std::string& csv) {
-  const auto before = accuracy::parseCsv(readText(job.check), job.check);
-  const auto grown =
-      accuracy::grownErrors(before, accuracy::parseCsv(csv, "sweep.csv"), job.knobNames());
-  for (const std::string& line : grown) std::fprintf(stderr, "whit: %s\n", line.c_str());
-  if (grown.empty()) return 0;
-  std::fprintf(stderr, "whit: the check against '%s' failed\n", job.check.c_str());
-  return static_cast<int>(ExitStatus::checkFailed);
-}
-
 }  // namespace
 
 int accuracyCommand(const Words& words) {
@@ -175,19 +154,16 @@ int accuracyCommand(const Words& words) {
     return 0;
   settleOptions(job.common);
   checkJob(job);
-  if (!job.check.empty())
-    accuracy::parseCsv(readText(job.check), job.check);  // throws before the long measurement
   const accuracy::RunFacts facts = factsOf(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
-  const std::string csv = accuracy::sweepCsv(sweeps, facts);
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "sweep.csv").string(), csv);
+  writeTextFile((folder / "sweep.csv").string(), accuracy::sweepCsv(sweeps, facts));
   writeTextFile((folder / "report.html").string(),
                 accuracy::reportPage(accuracy::reportJson(sweeps, facts)));
-  return job.check.empty() ? 0 : checkAgainst(job, csv);
+  return 0;
 }
 
 }  // namespace whit::cli

@@ -4,17 +4,18 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/report.h"
 #include "cli/app/explained_rays.h"
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
-#include "cli/ray_diagram.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/printable.h"
+#include "inspect/ray_lines.h"
 #include "io/atomic_file.h"
 #include "io/image/image_file.h"
 #include "render/auto_exposure.h"
@@ -235,6 +236,32 @@ Json treeJson(const Explained& e, const RayTree& tree, bool ofPackets) {
     json["samples"].push_back(nodeJson(e.scene, tree, primary, ofPackets));
   }
   return json;
+}
+
+std::string lineSvg(const ScreenLine& line, RayLook look, double width) {
+  const auto& color = styleOf(look).color;
+  return formatted(
+      "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#%02x%02x%02x\" "
+      "stroke-width=\"%.2f\"%s/>\n",
+      line.x1, line.y1, line.x2, line.y2, color[0], color[1], color[2], width,
+      isDashed(look) ? " stroke-dasharray=\"4 3\"" : "");
+}
+
+// An SVG of the picture's size with the rays as lines over it, as in Whitted's figure of 1980;
+// shadow rays are dashed. `picture` is a PNG of the scene by that camera.
+std::string rayDiagram(const RayTree& tree, const Camera& camera, int width, int height,
+                       const std::string& picture) {
+  std::string svg = formatted(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+      "viewBox=\"0 0 %d %d\">\n<image width=\"%d\" height=\"%d\" href=\"",
+      width, height, width, height, width, height);
+  svg += "data:image/png;base64," + accuracy::base64(picture) + "\"/>\n";
+  const LineView view(camera, width, height);
+  for (const RayLine& line : linesOf(tree)) {
+    const auto seen = view.see(line.from, line.to);
+    if (seen) svg += lineSvg(*seen, line.look, line.width);
+  }
+  return svg + "</svg>\n";
 }
 
 void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,

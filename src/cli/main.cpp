@@ -3,8 +3,7 @@
 #include <cstdio>
 #include <iterator>
 
-#include "cli/app/completion.h"
-#include "cli/app/man_page.h"
+#include "cli/app/help_text.h"
 #include "cli/app/program.h"
 #include "cli/commands.h"
 #include "core/error.h"

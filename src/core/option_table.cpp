@@ -1,6 +1,8 @@
 #include "core/option_table.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <type_traits>
 
 #include "core/error.h"
@@ -49,6 +51,30 @@ void forEachPair(A& a, B& b, Visitor&& visit) {
   });
 }
 
+// The options of a preset, which trade time for accuracy.
+constexpr std::array kPresetOptions{"spp", "depth", "cutoff", "light-cutoff", "mode"};
+
+// Points of the fronts that `whit accuracy` finds. Rays and mean FLIP against depth 64 and a cutoff
+// of 1e-5 in double precision at equal samples, 128x128:
+//
+//            whitted          glass            mirrors         atrium          sponza-mirror
+// draft      100k  0.011      271k  0.019       93k  0.003      53k  0.000      62k  0.002
+// standard   327k  0.002     1496k  0.004       98k  0.000      53k  0.000      65k  0.000
+// fine      1110k  0.002     3766k  0.006      389k  0.000     213k  0.000     258k  0.000
+//
+// Depth costs rays only where there is something to follow, and what a lower one leaves out is seen
+// first: depth 8 with a cutoff of 4e-3 has 245k rays and 0.056 on glass. With the cutoff of
+// standard no more than one pixel in a thousand of whitted, mirrors, atrium and sponza-mirror is
+// two codes off; three times as much leaves six times as many. Without a cutoff, rays that branch
+// at every dielectric would double to the depth's limit.
+// The rows stand in the order of Quality.
+constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
+    {"1", "64", "4e-3", "1e-3", "packets"},
+    {"1", "64", "1e-4", "0", "packets"},
+    {"4", "64", "1e-4", "1e-4", "packets"},
+    {"16", "64", "1e-5", "0", "reference"},
+};
+
 }  // namespace
 
 void refuseFormerName(const std::string& name) {
@@ -94,6 +120,36 @@ void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to) {
   forEachPair(from, to, [&](const OptionSpec& spec, const auto& source, auto& target) {
     if (spec.rebuilds <= most) target = source;
   });
+}
+
+void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
+  const auto& preset = kPresets[static_cast<std::size_t>(options.quality)];
+  for (std::size_t i = 0; i < preset.size(); ++i) {
+    if (!given.contains(kPresetOptions[i])) setOption(options, kPresetOptions[i], preset[i]);
+  }
+}
+
+std::vector<QualityPreset> qualityPresets() {
+  const RenderOptions defaults;
+  std::vector<QualityPreset> all;
+  for (std::size_t i = 0; i < std::size(kPresets); ++i) {
+    RenderOptions options;
+    options.quality = static_cast<Quality>(i);
+    applyQuality(options, {});
+    QualityPreset preset{optionText(options, "quality"), ""};
+    for (const char* name : kPresetOptions) {
+      const std::string value = optionText(options, name);
+      if (value == optionText(defaults, name)) continue;
+      preset.options += (preset.options.empty() ? "--" : " --") + std::string(name) + " " + value;
+    }
+    all.push_back(std::move(preset));
+  }
+  return all;
+}
+
+void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given) {
+  if (!given.contains("exposure")) options.exposure = {0, true};
+  if (!given.contains("terminator")) options.shading.terminator = true;
 }
 
 }  // namespace whit

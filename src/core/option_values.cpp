@@ -157,6 +157,14 @@ void parseValue(const OptionSpec& spec, const std::string& text, Vec3f& value) {
   value = {v[0], v[1], v[2]};
 }
 
+EffectSet parseEffects(const std::string& commaSeparated) {
+  EffectSet set;
+  for (const std::size_t i : indicesOf(commaSeparated, namesIn(kEffectNames), "effect")) {
+    set = set.with(static_cast<Effect>(i));
+  }
+  return set;
+}
+
 void parseValue(const OptionSpec&, const std::string& text, EffectSet& value) {
   value = parseEffects(text);
 }

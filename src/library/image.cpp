@@ -3,8 +3,7 @@
 #include "core/error.h"
 #include "io/image/image_layers.h"
 #include "io/paths.h"
-#include "library/guarded.h"
-#include "library/private_data.h"
+#include "library/internal.h"
 
 namespace whit::api {
 

@@ -3,8 +3,7 @@
 #include <utility>
 
 #include "core/version.h"
-#include "library/guarded.h"
-#include "library/private_data.h"
+#include "library/internal.h"
 
 namespace whit::api {
 

@@ -2,8 +2,7 @@
 
 #include "io/scene/json_text.h"
 #include "io/scene/scene_settings.h"
-#include "library/guarded.h"
-#include "library/private_data.h"
+#include "library/internal.h"
 
 namespace whit::api {
 

@@ -1,5 +1,5 @@
-// Calls of the library from Python: without the GIL, with progress and Control-C, and with errors
-// as whit.Error.
+// Calls the library from Python without the GIL, with progress and Control-C, and raises errors as
+// whit.Error.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -30,11 +30,11 @@ namespace py = pybind11;
   throw py::error_already_set();
 }
 
-// Calls that are under way, which the end of the interpreter waits for: a thread that comes back to
-// Python after that is torn out of the middle of C++, which ends the process by a signal.
+// Counts running calls, so that the interpreter can wait for them before it exits. A thread that
+// returns to Python later would be terminated inside C++ code, which aborts the process.
 class Calls {
  public:
-  // One that is under way while it lives. Made with the GIL.
+  // One running call. It must be constructed with the GIL held.
   class Entry {
    public:
     Entry() {
@@ -54,7 +54,7 @@ class Calls {
 
   // True if the work of this thread must end.
   static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
-  // Ends them all, as far as they tell of their progress; `atexit` calls it.
+  // Ends all calls that report progress. `atexit` calls it.
   static void end() {
     constexpr std::chrono::milliseconds kStep{1};
     constexpr int kSteps = 10000;
@@ -65,7 +65,7 @@ class Calls {
   }
 
  private:
-  // Only threads that nobody waits for are there by then.
+  // Only daemon threads get here.
   [[noreturn]] static void waitForTheEnd() {
     const py::gil_scoped_release noGil;
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
@@ -77,8 +77,8 @@ class Calls {
   static inline thread_local int depth = 0;
 };
 
-// Looks on at work of the thread that makes it: there, now and then, Python sees to signals and the
-// caller's function is called.
+// Receives the progress of a call. On the calling thread it handles Python's signals and calls the
+// caller's progress function now and then.
 class Onlooker {
  public:
   explicit Onlooker(py::object function) : function_(std::move(function)) {}
@@ -105,7 +105,7 @@ class Onlooker {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // Each time costs the GIL, which other threads may have.
+  // Limits the rate, because each call acquires the GIL.
   bool isTime() {
     constexpr std::chrono::milliseconds kBetween{20};
     const Clock::time_point now = Clock::now();
@@ -136,7 +136,7 @@ auto call(const py::object& function, Body&& body) {
   }
 }
 
-// Calls `body` likewise, for work that takes no time.
+// Calls `body` with the GIL held, for work that takes no time.
 template <typename Body>
 auto call(Body&& body) {
   try {

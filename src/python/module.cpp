@@ -1,21 +1,146 @@
-// The extension _whit: the library as the package `whit` calls it, which gives it Python's manners.
+// The extension module _whit: the library's functions as the Python package `whit` calls them.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
-#include "python/session.h"
+#include "python/call.h"
 
 namespace whit::python {
 
 namespace {
 
+// Names of options and their values, as on the command line.
+using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+
+// A picture, and what its frame cost.
+struct Picture {
+  api::Image image;
+  api::FrameStatistics statistics;
+};
+
+// A scene with its renderer. Threads take turns at it.
+class Session {
+ public:
+  explicit Session(api::Scene scene) : renderer_(std::move(scene)) {}
+
+  // Returns the answer of a question about the scene.
+  template <typename Question>
+  auto ask(const Question& question) {
+    const Turn turn(*this);
+    return question(renderer_.scene());
+  }
+
+  // The options hold for this frame alone. With `pathSeconds` it is seen from the camera's path.
+  Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
+                 const py::object& progress);
+  void setMember(const std::string& pointer, const std::string& json, const py::object& progress);
+  void setTime(double seconds);
+  void setTransform(const std::string& pointer, const std::array<double, 12>& rows);
+
+ private:
+  // Waits without the GIL until other threads are done, and handles signals meanwhile.
+  class Turn {
+   public:
+    explicit Turn(Session& session);
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    bool wait();
+    Calls::Entry entry_;
+    Session& session_;
+  };
+  void takeOptions(const OptionTexts& options);
+
+  api::Renderer renderer_;
+  std::optional<OptionTexts> options_ = OptionTexts();  // that the renderer has, if that is known
+  std::timed_mutex turn_;
+  std::atomic<std::thread::id> owner_;  // whose turn it is
+};
+
+Session::Turn::Turn(Session& session) : session_(session) {
+  constexpr int kUsage = 2;
+  if (session.owner_ == std::this_thread::get_id()) {
+    raise(api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything"));
+  }
+  while (!wait()) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  session_.owner_ = std::this_thread::get_id();
+}
+
+Session::Turn::~Turn() {
+  session_.owner_ = std::thread::id();
+  session_.turn_.unlock();
+}
+
+bool Session::Turn::wait() {
+  constexpr std::chrono::milliseconds kPatience{50};
+  if (session_.turn_.try_lock()) return true;
+  const py::gil_scoped_release noGil;
+  return session_.turn_.try_lock_for(kPatience);
+}
+
+void Session::takeOptions(const OptionTexts& options) {
+  if (options == options_) return;
+  options_.reset();
+  renderer_.reset();
+  for (const auto& [name, value] : options) renderer_.set(name, value);
+  options_ = options;
+}
+
+Picture Session::render(const OptionTexts& options, std::optional<double> pathSeconds,
+                        const py::object& progress) {
+  const Turn turn(*this);
+  return call(progress, [&](const api::Progress& told) {
+    takeOptions(options);
+    renderer_.setProgress(told);
+    Picture picture;
+    if (pathSeconds) {
+      renderer_.renderOnPath(*pathSeconds, picture.image);
+    } else {
+      renderer_.render(picture.image);
+    }
+    picture.statistics = renderer_.statistics();
+    return picture;
+  });
+}
+
+void Session::setMember(const std::string& pointer, const std::string& json,
+                        const py::object& progress) {
+  const Turn turn(*this);
+  call(progress, [&](const api::Progress& told) {
+    renderer_.setProgress(told);
+    renderer_.setMember(pointer, json);
+  });
+}
+
+void Session::setTime(double seconds) {
+  const Turn turn(*this);
+  call([&] { renderer_.setTime(seconds); });
+}
+
+void Session::setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
+  const Turn turn(*this);
+  call([&] { renderer_.setTransform(pointer, rows); });
+}
+
 using Floats = py::array_t<float, py::array::c_style>;
 using Indices = py::array_t<std::uint32_t, py::array::c_style>;
 
-// For the library, which lets go of it without the GIL.
+// Keeps an object alive for the library, which releases it without holding the GIL.
 std::shared_ptr<const void> kept(const py::object& object) {
   return {new py::object(object), [](const py::object* held) {
             const py::gil_scoped_acquire gil;
@@ -28,7 +153,7 @@ auto spanOf(const Array& array) {
   return std::span(array.data(), static_cast<std::size_t>(array.size()));
 }
 
-// A member of what load() and build() take besides.
+// A member of the dict of loading options.
 template <typename T>
 T memberOf(const py::dict& given, const char* name) {
   const py::object value = given[name];
@@ -104,8 +229,7 @@ std::unique_ptr<Session> build(const std::string& name, const std::string& descr
   });
 }
 
-// A view of the picture's own memory, which it keeps alive. Not to be written to: files are made of
-// it as well.
+// A read-only view of the picture's memory, which the view keeps alive.
 template <typename T>
 py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t components) {
   const api::Image& image = picture.cast<const Picture&>().image;
@@ -116,7 +240,7 @@ py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t
   return view;
 }
 
-// By their names: those of their components, and the values.
+// Maps each channel's name to the names of its components and its values.
 py::dict channelsOf(const py::object& picture) {
   py::dict all;
   for (const auto& channel : picture.cast<const Picture&>().image.channels()) {

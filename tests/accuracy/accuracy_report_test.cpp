@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "accuracy/csv.h"
+#include "accuracy/sweep_rows.h"
 #include "embedded_data.h"
 
 namespace whit::accuracy {

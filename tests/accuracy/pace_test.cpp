@@ -7,12 +7,6 @@
 namespace whit::accuracy {
 namespace {
 
-TEST(Pace, TimeLeftFollowsFromWhatIsDone) {
-  EXPECT_EQ(paceText("room", "depth=4", 10, 0.25), "room 30 s left: depth=4");
-  EXPECT_EQ(paceText("room", "depth=4", 10, 1), "room 0 s left: depth=4");
-  EXPECT_EQ(paceText("room", "reference", 10, 0), "room: reference");
-}
-
 class Recorder : public Progress {
  public:
   void report(const std::string&, double fraction) override { fractions.push_back(fraction); }

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <map>
 
-#include "accuracy/csv.h"
+#include "accuracy/sweep_rows.h"
 #include "cli/run_program.h"
 
 namespace whit::accuracy {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "accuracy/csv.h"
+#include "accuracy/sweep_rows.h"
 #include "core/error.h"
 
 namespace whit::accuracy {

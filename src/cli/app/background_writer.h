@@ -3,7 +3,12 @@
 
 #include <functional>
 #include <future>
+#include <memory>
+#include <utility>
 #include <vector>
+
+#include "cli/app/interrupt.h"
+#include "core/stopwatch.h"
 
 namespace whit::cli {
 
@@ -33,5 +38,30 @@ class BackgroundWriter {
   std::future<double> job_;  // milliseconds
   std::vector<Times> times_;
 };
+
+inline BackgroundWriter::~BackgroundWriter() {
+  if (job_.valid()) job_.wait();
+}
+
+inline void BackgroundWriter::start(std::function<void()> write) {
+  finish();
+  // Opened here and not by the job: an interruption between the two would not know of the files.
+  auto scope = std::make_unique<WriteScope>();
+  job_ = std::async(std::launch::async,
+                    [write = std::move(write), scope = std::move(scope)]() mutable {
+                      const std::unique_ptr<WriteScope> held = std::move(scope);
+                      const Stopwatch stopwatch;
+                      write();
+                      return stopwatch.ms();
+                    });
+}
+
+inline void BackgroundWriter::finish() {
+  if (!job_.valid()) return;
+  const Stopwatch waiting;
+  job_.wait();
+  const double waitedMs = waiting.ms();
+  times_.push_back({job_.get(), waitedMs});
+}
 
 }  // namespace whit::cli

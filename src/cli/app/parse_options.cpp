@@ -4,9 +4,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "cli/app/completion.h"
 #include "cli/app/help_text.h"
-#include "cli/app/man_page.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/option_table.h"

@@ -6,7 +6,7 @@
     picture.rgb            # (480, 640, 3), float32, linear radiance, top row first
     picture.write("helmet.png")
 
-Everything that goes wrong with a scene, an option or a file is a whit.Error.
+Errors in a scene, an option or a file raise whit.Error.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Progress = Callable[[str, float], Optional[bool]]
 
 
 def _shipped_scenes() -> str:
-    """Where the scenes are that came with the module: beside it, or in share/whit of its prefix."""
+    """The folder of the shipped scenes: beside the module, or in share/whit of its prefix."""
     here = os.path.dirname(os.path.abspath(__file__))
     beside = os.path.join(here, "scenes")
     if os.path.isdir(beside):
@@ -37,8 +37,8 @@ def _shipped_scenes() -> str:
 
 
 class Picture:
-    """A rendered picture, or a crop of one. Its arrays are views of one memory, not to be written
-    to: copy() them for that."""
+    """A rendered picture, or a crop of one. Its arrays are read-only views of the picture's memory;
+    copy() gives an array that can be changed."""
 
     def __init__(self, picture: Any) -> None:
         self._picture = picture
@@ -55,16 +55,17 @@ class Picture:
 
     @property
     def channels(self) -> dict[str, np.ndarray]:
-        """What was kept beside it (render(channels=...)), by name: (height, width) or (height,
-        width, components), float32 or, of what is counted or numbered, uint32.
+        """The extra channels (render(channels=...)) by name: (height, width) or (height, width,
+        components), float32, or uint32 for counts and numbers of things.
 
-        What each is, its unit and its value where nothing is met, says share/doc/whit/scenes/
-        README.md. "object" and "material" are numbers in Scene.objects and Scene.materials.
+        share/doc/whit/scenes/README.md has the meaning and unit of each channel, and its value
+        where the ray hits nothing. "object" and "material" are indices into Scene.objects and
+        Scene.materials.
         """
         return {name: self[name] for name in self._picture.channels}
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A channel, "position" (height, width, 3), or a component of one as files name it,
+        """A channel, "position" (height, width, 3), or one component by its name in files,
         "depth.Z" (height, width)."""
         channel, _, component = name.partition(".")
         kept = self._picture.channels
@@ -79,32 +80,32 @@ class Picture:
 
     @property
     def width(self) -> int:
-        """In pixels; of a crop its own."""
+        """Width in pixels, of a crop its own width."""
         return self._picture.rgb.shape[1]
 
     @property
     def height(self) -> int:
-        """In pixels; of a crop its own."""
+        """Height in pixels, of a crop its own height."""
         return self._picture.rgb.shape[0]
 
     @property
     def left(self) -> int:
-        """Where the first column lies in the whole picture."""
+        """Column of the left edge in the whole picture."""
         return self._picture.left
 
     @property
     def top(self) -> int:
-        """Where the first row lies in the whole picture."""
+        """Row of the top edge in the whole picture."""
         return self._picture.top
 
     @property
     def statistics(self) -> dict[str, Any]:
-        """What the frame cost: "frame_ms", "embree_ms" and "stages_ms" (by stage) in milliseconds
-        of wall-clock time, "rays" (by kind) and "non_finite_pixels" as numbers."""
+        """Times and counts of the frame: "frame_ms", "embree_ms" and "stages_ms" (by stage) in
+        milliseconds of wall-clock time, "rays" (by kind) and "non_finite_pixels" as numbers."""
         return self._picture.statistics
 
     def write(self, path: Union[str, os.PathLike]) -> None:
-        """Writes .exr (linear, float) or .png (8-bit sRGB) with the options that make it again."""
+        """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""
         self._picture.write(os.fspath(path))
 
     def png(self) -> bytes:
@@ -127,24 +128,27 @@ class Scene:
     description in Python's own values.
 
     source: the path of a scene file (.json) or model (.gltf, .glb, .obj, .ply), the name of a
-        shipped scene ("atrium", "landscape?triangles=20000000"), or a dict of what a scene file
-        says (share/doc/whit/scenes/README.md). In a dict an item {"mesh": whit.Mesh(...)} is one of
-        arrays, and a texture may be an array (height, width, 1 to 4 channels) of uint8 codes or
-        linear floats, or {"array": array, "wrap": "clamp"}. One Mesh in several items is kept once.
+        shipped scene ("atrium", "landscape?triangles=20000000"), or a dict with the content of a
+        scene file (share/doc/whit/scenes/README.md). An item of the dict may be
+        {"mesh": whit.Mesh(...)}, and a texture an array (height, width, 1 to 4 channels) of uint8
+        codes or linear floats, or {"array": array, "wrap": "clamp"}. A Mesh that several items use
+        is stored once.
         Lengths, positions and transforms are in the scene's own units, y up.
-    settings: members of the description by their JSON pointers, as set() takes them.
-    sky: in place of the scene's own: "none", "studio" or the file of an image.
-    moves: it will be brought to other times (set_time).
-    movable: JSON pointers to what set_transform() will move: items, cameras and lights of scene
-        files and dicts ("/scene/3", "/cameras/front", "/lights/0"), nodes of models ("/nodes/7").
-    animation: which of a model's animations moves it, by name; empty: the first.
-    sphere_segments: triangles in place of exact spheres, so many around each; 0: none.
-    strict: what would be repaired (`warnings`) is an error.
+    settings: values for members of the description by their JSON pointers, as in set().
+    sky: replaces the scene's sky: "none", "studio" or an image file.
+    moves: loads animations, so that set_time() works.
+    movable: JSON pointers to the things that set_transform() will move: items, cameras and lights
+        of scene files and dicts ("/scene/3", "/cameras/front", "/lights/0"), nodes of models
+        ("/nodes/7").
+    animation: name of the model's animation that is played; empty: the first.
+    sphere_segments: triangles around each sphere in place of exact spheres; 0: exact spheres.
+    strict: raises an error instead of a repair (`warnings`).
     allow_outside: a scene may name files outside its own folder and $WHIT_DATA.
-    max_memory_gb: 10^9 bytes that geometry and images may take.
-    threads: 0: what affinity and cgroup quota allow.
-    progress: called now and then with what is going on and how far it is, 0 to 1; False ends it.
-    name: of a dict, in errors.
+    max_memory_gb: memory limit for geometry and images in 10^9 bytes.
+    threads: number of worker threads; 0: as many as CPU affinity and cgroup quota allow.
+    progress: called now and then with the current phase and the fraction done, 0 to 1; returning
+        False ends the work.
+    name: name of a dict's scene in errors.
 
     Threads may use one scene; they take turns. Several scenes render at the same time.
     """
@@ -170,69 +174,69 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """Of its file, without folder and extension."""
+        """Name of the scene's file without folder and extension."""
         return self._session.name
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of its pictures in pixels, where no size is given."""
+        """Default width and height of pictures in pixels."""
         return self._session.width, self._session.height
 
     @property
     def cameras(self) -> list[str]:
-        """Their names; the first is seen from where no camera is given."""
+        """Names of the cameras; the first one is the default."""
         return self._session.cameras
 
     @property
     def objects(self) -> list[str]:
-        """Names by the numbers in the channel "object", of the first 65,536."""
+        """Names of the first 65,536 objects; the channel "object" holds indices into this list."""
         return self._session.objects
 
     @property
     def materials(self) -> list[str]:
-        """Names by the numbers in the channel "material"."""
+        """Names of the materials; the channel "material" holds indices into this list."""
         return self._session.materials
 
     @property
     def triangles(self) -> int:
-        """As seen, instances multiplied out."""
+        """Number of triangles, counted once for each instance."""
         return self._session.triangles
 
     @property
     def animations(self) -> dict[str, float]:
-        """Those to choose from, and how many seconds each lasts."""
+        """Duration of each animation in seconds, by name."""
         return self._session.animations
 
     @property
     def path_seconds(self) -> float:
-        """When its camera path ends; 0 without a path."""
+        """End of the camera path in seconds; 0 without a path."""
         return self._session.path_seconds
 
     @property
     def warnings(self) -> list[str]:
-        """What was repaired while it was read."""
+        """Repairs that were made while the scene was read."""
         return self._session.warnings
 
     def set(self, pointer: str, value: Any, *, progress: Optional[Progress] = None) -> None:
-        """Sets a member of the scene's description, for pictures to come:
-        set("/lights/0/intensity", 40). The picture is that of a scene which was read so.
+        """Sets a member of the scene's description for the following pictures:
+        set("/lights/0/intensity", 40). They equal those of a scene that was read with this value.
 
-        pointer: a JSON pointer (RFC 6901) to it; "-" stands for a new element of a list.
+        pointer: a JSON pointer (RFC 6901) to the member; "-" stands for a new element of a list.
         value: as in the description.
 
-        Nothing is built anew for lights, colors of the sky, ambient light, numbers of a scene
-        file's or dict's own materials, and cameras where nothing is instanced; for all else the
-        scene is read again. After an error the scene is what it was.
+        Changes of lights, colors of the sky, ambient light, numbers of a scene file's or dict's own
+        materials, and cameras where nothing is instanced, need no rebuild; for others the scene is
+        read again. After an error the scene is unchanged.
         """
         self._session.set_member(pointer, Description(self.name).text(value, pointer), progress)
 
     def set_time(self, seconds: float) -> None:
-        """Brings a scene that was made with moves=True to a time in seconds: what moves, its
-        cameras and lights."""
+        """Moves animated items, cameras and lights to a time in seconds. The scene must have been
+        made with moves=True."""
         self._session.set_time(seconds)
 
     def set_transform(self, pointer: str, matrix: Any) -> None:
-        """Moves what is among `movable`, in place of its own motion.
+        """Sets the transform of one of `movable`, which replaces its own motion.
 
         matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units.
         """
@@ -248,14 +252,14 @@ class Scene:
         return f"<whit.Scene {self.name!r}: {self.triangles} triangles>"
 
 
-Scene.render.__doc__ = f"""A picture, by the bits that `whit render` makes with the same options.
+Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
-        path_time: seen from the scene's camera path, so many seconds after its begin.
-        progress: called now and then with what is going on and how far it is, 0 to 1; False ends
-            it with an Error of exit status 130. It is called by the thread that renders.
+        path_time: time in seconds at which the camera path places the camera.
+        progress: called now and then, by the thread that renders, with the current phase and the
+            fraction done, 0 to 1; returning False raises an Error of exit status 130.
 
-        The options of the command line, for this picture alone; angles are in degrees, lengths in
-        the scene's units, and what they are where they are not given is in brackets:
+        The other arguments are the options of the command line and hold for this picture only.
+        Angles are in degrees and lengths in the scene's units; defaults are in brackets:
 
 {_options.documentation()}
         """

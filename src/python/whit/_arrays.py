@@ -1,5 +1,5 @@
-"""Arrays as the extension takes them: C-contiguous, of 32-bit floats, of 32-bit indices, of 8-bit
-codes. What is so already is not copied."""
+"""Converts arrays to what the extension takes: C-contiguous 32-bit floats, 32-bit indices or 8-bit
+codes. Arrays that have this form already are not copied."""
 
 from __future__ import annotations
 
@@ -29,30 +29,26 @@ def _array(values: Any, what: str, kinds: str, expected: str) -> np.ndarray:
     return array
 
 
-def floats(values: Any, columns: int, what: str) -> np.ndarray:
-    """(n, columns), float32; None is no array."""
-    if values is None:
-        return _NO_FLOATS
-    expected = f"numbers of shape (n, {columns})"
-    array = _array(values, what, "fiu", expected)
+def _rows(values: Any, columns: int, what: str, kinds: str, noun: str) -> np.ndarray:
+    expected = f"{noun} of shape (n, {columns})"
+    array = _array(values, what, kinds, expected)
     if array.shape == (0,):
         array = array.reshape(0, columns)
     if array.ndim != 2 or array.shape[1] != columns:
         _fail(what, expected, f"an array of shape {array.shape}")
-    with np.errstate(over="ignore"):  # the infinity that it becomes is refused
+    return array
+
+
+def floats(values: Any, columns: int, what: str) -> np.ndarray:
+    """Converts to (n, columns), float32."""
+    array = _rows(values, columns, what, "fiu", "numbers")
+    with np.errstate(over="ignore"):  # numbers beyond float32 become infinite and are refused later
         return np.ascontiguousarray(array, np.float32)
 
 
 def indices(values: Any, what: str) -> np.ndarray:
-    """(n, 3), uint32; None is no array."""
-    if values is None:
-        return _NO_INDICES
-    expected = "whole numbers of shape (n, 3)"
-    array = _array(values, what, "iu", expected)
-    if array.shape == (0,):
-        array = array.reshape(0, 3)
-    if array.ndim != 2 or array.shape[1] != 3:
-        _fail(what, expected, f"an array of shape {array.shape}")
+    """Converts to (n, 3), uint32."""
+    array = _rows(values, 3, what, "iu", "whole numbers")
     if array.dtype == np.uint32 or array.size == 0:
         return np.ascontiguousarray(array, np.uint32)
     low, high = array.min(), array.max()
@@ -64,7 +60,7 @@ def indices(values: Any, what: str) -> np.ndarray:
 
 
 def image(values: Any, what: str) -> np.ndarray:
-    """(height, width, channels), uint8 or float32."""
+    """Converts to (height, width, channels), uint8 or float32."""
     expected = "an image of shape (height, width) or (height, width, 1 to 4), uint8 or float"
     array = _array(values, what, "fu", expected)
     if array.ndim == 2:
@@ -91,7 +87,7 @@ def matrix(values: Any, what: str) -> list[float]:
 
 
 class Mesh:
-    """Triangles of a scene made of arrays: an item of it is {"mesh": Mesh(...)}.
+    """Triangles in arrays. {"mesh": Mesh(...)} is an item of a scene described by a dict.
 
     positions: (n, 3), float32; x, y, z of each vertex.
     triangles: (m, 3), integers; the vertices of each triangle, counter-clockwise seen from outside.
@@ -100,8 +96,8 @@ class Mesh:
     uvs: (n, 2), v pointing up, or None.
     colors: (n, 3), linear, from 0 to 1, which multiply the material's; None: white.
 
-    Arrays of float32 and of uint32 or int32, C-contiguous, are read where they are and not copied;
-    others are converted. They are not to be changed while a scene of them is there.
+    C-contiguous arrays of float32, and of uint32 or int32, are used without a copy; others are
+    converted. Do not change the arrays while a scene uses them.
     """
 
     def __init__(self, positions: Any, triangles: Optional[Any] = None, *,

@@ -1,4 +1,4 @@
-"""A scene's description in Python's own values, as the JSON of scene files."""
+"""Converts a scene's description from Python values to the JSON of scene files."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ def _escaped(token: str) -> str:
 
 
 class Description:
-    """The text of a scene, and the arrays that it names."""
+    """Makes the JSON text of a scene, and collects the arrays that the text names."""
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.meshes: dict[str, tuple] = {}
         self.images: dict[str, np.ndarray] = {}
         self._names: dict[int, str] = {}
-        self._held: list[Any] = []  # so that ids stay theirs
+        self._held: list[Any] = []  # keeps things alive, so that no id is used twice
 
     def text(self, value: Any, pointer: str = "") -> str:
         return json.dumps(self._plain(value, pointer, 0), allow_nan=False)

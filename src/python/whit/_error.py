@@ -6,21 +6,20 @@ from typing import Optional
 
 
 class Error(Exception):
-    """What is wrong with a scene, an option or a file.
+    """An error in a scene, an option or a file.
 
-    str() says all of it in a line for people. Of what the attributes say, None is what is not
-    known.
+    str() is the message in one line. An attribute is None if it is unknown.
     """
 
     exit_status: int
-    """Of the program whit: 1 other, 2 wrong usage, 3 a bad scene or image, 4 cannot read or write,
-    5 a limit or memory ran out, 130 ended by a progress function."""
+    """Exit status of the program whit: 1 other, 2 wrong usage, 3 a bad scene or image, 4 cannot
+    read or write, 5 a limit or memory ran out, 130 ended by a progress function."""
     file: Optional[str]
     """The file, or the name of a scene made of arrays."""
     place: Optional[str]
     """Line ("12", "12:5") or JSON pointer ("/lights/0") in the file."""
     expected: Optional[str]
-    """What should be there."""
+    """The content that was expected there."""
 
     def __init__(self, message: str, exit_status: int = 3, file: Optional[str] = None,
                  place: Optional[str] = None, expected: Optional[str] = None) -> None:

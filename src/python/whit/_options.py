@@ -12,9 +12,9 @@ from . import _whit
 
 class Option(NamedTuple):
     name: str  # of the command line, "light-samples"
-    words: str  # what it takes
+    words: str  # possible values
     help: str
-    preset: str  # its value where nothing is said; empty where the scene decides
+    preset: str  # its default; empty where the scene decides
 
     @property
     def keyword(self) -> str:
@@ -22,7 +22,7 @@ class Option(NamedTuple):
 
     @property
     def annotation(self) -> str:
-        """Its type."""
+        """The Python type of its value."""
         words = self.words
         if words in ("", "on|off"):
             return "bool"
@@ -66,7 +66,7 @@ OPTIONS = {option.keyword: option for option in (Option(*row) for row in _whit.o
 
 
 def texts(given: dict[str, Any]) -> list[tuple[str, str]]:
-    """What is not None, in the order of the table."""
+    """Names and values of the options that are not None, in the order of the table."""
     for keyword in given:
         if keyword not in OPTIONS:
             near = difflib.get_close_matches(keyword, OPTIONS, 1)
@@ -77,7 +77,7 @@ def texts(given: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def documentation() -> str:
-    """A line for each option."""
+    """One line for each option."""
     lines = []
     for option in OPTIONS.values():
         preset = f" [{option.preset}]" if option.preset else ""

@@ -1,13 +1,22 @@
-// Turns exceptions into api::Error, except those that a callback of the caller throws.
+// Private data of the scenes and images that the library hands out, and the guard around its calls,
+// which turns exceptions into api::Error, except those that a callback of the caller throws.
 #pragma once
 
+#include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <variant>
+#include <vector>
 
+#include "bake/scene.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "io/image/image_file.h"
+#include "io/load_scene.h"
 #include "library/whit.h"
+#include "render/film.h"
 
 namespace whit::api {
 
@@ -78,5 +87,28 @@ decltype(auto) guarded(const Progress& callback, Body&& body) {
     throwAsOwn(error);
   }
 }
+
+using SceneSource = std::variant<std::string, std::shared_ptr<const SceneText>>;
+
+struct Scene::Data {
+  whit::Scene scene;
+  SceneSource source;
+  whit::LoadOptions load;
+  bool strict = false;
+  std::vector<std::string> warnings;
+
+  // Loads and bakes.
+  static std::shared_ptr<Data> read(SceneSource source, const whit::LoadOptions& load, bool strict,
+                                    whit::Progress* progress);
+  // The document that settings are put into; none for a model without a scene file.
+  std::optional<JsonDocument> document() const;
+};
+
+struct Image::Data {
+  Film film;
+  ImageMetadata metadata, aboutChannels;
+};
+
+whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes);
 
 }  // namespace whit::api
