@@ -5,7 +5,7 @@
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "render/embree_intersector.h"
-#include "render/observer.h"
+#include "render/frame.h"
 
 namespace whit {
 

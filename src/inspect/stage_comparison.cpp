@@ -18,7 +18,7 @@
 #include "reference/update_image.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "render/embree_intersector.h"
-#include "render/observer.h"
+#include "render/frame.h"
 #include "render/pixel_tracker.h"
 
 namespace whit {

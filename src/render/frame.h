@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "render/film.h"
-#include "render/observer.h"
 #include "render/sample_sums.h"
 #include "sampling/probe_samples.h"
 #include "stages/chunk.h"
@@ -22,6 +21,13 @@ struct FrameHooks {
   std::function<bool()> stop;
   // Called when the film holds the pixels of a tile; null: not wanted. Batches do not call it.
   std::function<void(std::span<const std::uint32_t> pixels)> finished;
+};
+
+// Sees each chunk of rays after each stage: comparison with the reference, debug views, ray logs.
+class StageObserver {
+ public:
+  virtual ~StageObserver() = default;
+  virtual void after(Stage stage, const Chunk& chunk) = 0;
 };
 
 struct Frame {

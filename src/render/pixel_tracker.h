@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/observer.h"
+#include "render/frame.h"
 
 namespace whit {
 
