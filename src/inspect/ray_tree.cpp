@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/display.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
+#include "reference/update_image.h"
 #include "render/embree_intersector.h"
 #include "render/frame.h"
 
@@ -271,31 +273,30 @@ void fillHits(const Scene& scene, RayTree& tree) {
 RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y) {
   RayTree tree;
   TreeObserver observer(tree);
-  StageObserver* const observers[] = {&observer};
   Film one = filmOfPixel(film, x, y);
-  renderer.observe(camera, one, observers);
+  tree.samples = renderer.observePixel(camera, one, observer);
   tree.pixel = one.image.pixels[0];
   for (const std::size_t primary : tree.primaries) sumRadiance(tree, primary);
   explainEnds(renderer, tree);
   return tree;
 }
 
-RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x,
-                           int y) {
+RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y,
+                           const std::vector<Vec2f>& samples) {
   RayTree tree;
+  tree.samples = samples;
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
   const CameraFrame frame = renderer.lookFrom(camera, film);
   reference::RayCounts counts;
-  RgbD sum;
-  const int samples = renderer.options().spp;
-  for (int s = 0; s < samples; ++s) {
+  RgbD mean;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
     intersector.beginSample();
-    const RgbD radiance = tracer.sample(frame, x, y, static_cast<std::size_t>(s), counts);
+    const RgbD radiance = tracer.sampled(frame, x, y, samples[s], s, counts);
     intersector.endSample(radiance);
-    sum += radiance;
+    reference::addSample(mean, radiance, static_cast<double>(s + 1));
   }
-  tree.pixel = Rgb(sum / samples);
+  tree.pixel = quantized(renderer.options().film, Rgb(mean));
   fillHits(renderer.scene(), tree);
   return tree;
 }

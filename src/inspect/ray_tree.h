@@ -57,18 +57,21 @@ struct RayNode {
 struct RayTree {
   std::vector<RayNode> nodes;
   std::vector<std::size_t> primaries;  // one a sample of the pixel
+  std::vector<Vec2f> samples;          // their places in the pixel
   Rgb pixel;                           // as the film has it
 };
 
 // By the pipeline, of a film of that size. The pixel is the mean, over the samples, of a primary
 // ray's weight times its radiance; radiance is a node's local one and then, child by child in
-// order, weight times theirs: the same sums in the same order, to the last bit.
+// order, weight times theirs: the same sums in the same order, to the last bit. With --adaptive on
+// these are the samples that the pixel's color in the picture is the mean of.
 RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
-// By the scalar reference. What a node's own lights add is not told apart: `local` and `emitted`
-// stay 0, and weights do not hold what is absorbed on the way, which is in the radiance.
-RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x,
-                           int y);
+// By the scalar reference, through the samples of a tree of that pixel. What a node's own lights
+// add is not told apart: `local` and `emitted` stay 0, and weights do not hold what is absorbed on
+// the way, which is in the radiance.
+RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y,
+                           const std::vector<Vec2f>& samples);
 
 // The factor by which a node's own radiance counts at the eye: the product of the weights along the
 // path. The mean over the samples is not part of it.

@@ -70,6 +70,13 @@ FrameStats AdaptiveSampler::render(const Frame& frame, const Scheduler::Watch& w
   return stats;
 }
 
+std::vector<Vec2f> AdaptiveSampler::samplesAt(int x, int y, std::vector<Vec2f> pattern) const {
+  const std::size_t i = first_.image.index(x, y);
+  if (edges_[i] == 0) return samplePattern(1);
+  if (contrasting_[i] == 0) pattern.resize(std::min<std::size_t>(pattern.size(), kProbeSamples));
+  return pattern;
+}
+
 void AdaptiveSampler::startOver(const Frame& frame) {
   const Image& film = frame.film->image;
   if (first_.image.window != scheduler_.window() || first_.image.width != film.width ||

@@ -24,6 +24,8 @@ class AdaptiveSampler {
 
   // `frame` has the pattern of all samples; the scheduler's window is tracedWindow().
   FrameStats render(const Frame& frame, const Scheduler::Watch& watch);
+  // The samples of `pattern` whose mean a pixel of the last film has.
+  std::vector<Vec2f> samplesAt(int x, int y, std::vector<Vec2f> pattern) const;
   std::size_t bytes() const;
 
  private:

@@ -212,4 +212,21 @@ FrameStats Renderer::observe(const Camera& camera, Film& film,
   return stats;
 }
 
+std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
+                                          StageObserver& observer) {
+  const Crop& pixel = film.image.window;
+  std::vector<Vec2f> samples = pattern();
+  if (adaptive()) {
+    render(camera, film);
+    samples = adaptive_.samplesAt(pixel.x0, pixel.y0, std::move(samples));
+  }
+  Frame frame = frameOf(camera, film, pixel, nullptr);
+  frame.constants.shadowCache = nullptr;
+  frame.samples = samples;
+  frame.endSample = samples.size();
+  StageObserver* const observers[] = {&observer};
+  scheduler_.observe(frame, observers);
+  return samples;
+}
+
 }  // namespace whit

@@ -59,6 +59,9 @@ class Renderer {
   FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers,
                      const FrameHooks* hooks = nullptr);
 
+  // Traces the samples that render() takes the mean of at the film's only pixel, and returns them.
+  std::vector<Vec2f> observePixel(const Camera& camera, Film& film, StageObserver& observer);
+
   // Renders the same image with the scalar reference, which takes its candidates from this
   // renderer's Embree scene.
   FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);

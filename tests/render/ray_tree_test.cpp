@@ -49,9 +49,40 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
     const RayTree tree = traceRayTree(renderer, camera, film, x, y);
     EXPECT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
     EXPECT_EQ(pixelOf(tree), film.image.at(x, y)) << x << "," << y;
-    EXPECT_EQ(traceReferenceTree(renderer, camera, film, x, y).pixel, reference.image.at(x, y))
+    EXPECT_EQ(traceReferenceTree(renderer, camera, film, x, y, tree.samples).pixel,
+              reference.image.at(x, y))
         << x << "," << y;
   }
+}
+
+// Pixels of one sample, of the probes, and of all samples.
+TEST_P(ShippedRayTree, TracesTheSamplesOfAdaptivePixels) {
+  const Scene scene = load(GetParam());
+  RenderOptions options;
+  options.size = ImageSize{60, 40};
+  options.spp = 9;
+  options.adaptive = true;
+  Renderer renderer(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  Film film = makeFilm(scene, options), reference = film;
+  renderer.render(camera, film);
+  renderer.renderReference(camera, reference);
+  std::map<std::size_t, int> pixels;
+  int otherReference = 0;
+  for (int y = 0; y < 40; y += 3) {
+    for (int x = 0; x < 60; x += 4) {
+      const RayTree tree = traceRayTree(renderer, camera, film, x, y);
+      ASSERT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
+      ASSERT_EQ(tree.primaries.size(), tree.samples.size());
+      ++pixels[tree.samples.size()];
+      otherReference += traceReferenceTree(renderer, camera, film, x, y, tree.samples).pixel !=
+                        reference.image.at(x, y);
+    }
+  }
+  for (const auto& [samples, count] : pixels) {
+    EXPECT_TRUE(samples == 1 || samples == 4 || samples == 9) << samples;
+  }
+  EXPECT_LE(otherReference, 2);  // where its probes decide otherwise
 }
 
 std::string nameOfScene(const testing::TestParamInfo<const char*>& info) {
@@ -98,7 +129,7 @@ TEST(RayTree, OfAMirror) {
   EXPECT_NEAR(double{tree.pixel.x}, 0.4, 1e-6);
   EXPECT_EQ(tree.nodes[0].endOf(RayKind::reflection), PathEnd::none);
 
-  const RayTree reference = traceReferenceTree(renderer, camera, film, 4, 4);
+  const RayTree reference = traceReferenceTree(renderer, camera, film, 4, 4, tree.samples);
   ASSERT_EQ(reference.nodes.size(), 2u);
   const std::vector<std::size_t> counterpart = counterparts(tree, reference);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -26,9 +26,8 @@ bool ExplainedRays::partsFirstAt(std::size_t node) const {
 
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x,
                           int y) {
-  ExplainedRays rays{traceRayTree(renderer, camera, film, x, y),
-                     traceReferenceTree(renderer, camera, film, x, y),
-                     {}};
+  ExplainedRays rays{traceRayTree(renderer, camera, film, x, y), {}, {}};
+  rays.reference = traceReferenceTree(renderer, camera, film, x, y, rays.packets.samples);
   rays.counterpart = counterparts(rays.packets, rays.reference);
   return rays;
 }
