@@ -94,7 +94,7 @@ void add(Digester& d, const Medium& medium) {
   add(d, ior), add(d, absorption), add(d, priority);
 }
 void add(Digester& d, const InstanceRecord& instance) {
-  const auto& [geometry, written, toWorld, mover, toMover, moves, firstItem] = instance;
+  const auto& [geometry, written, toWorld, mover, toMover, firstItem] = instance;
   add(d, geometry), add(d, toWorld);
 }
 

@@ -110,9 +110,8 @@ void Baker::findWhatMoves() {
     return std::any_of(motion.bent.begin(), motion.bent.end(),
                        [&](const BentVertices& b) { return b.geometry == i.geometry; });
   };
-  for (InstanceRecord& i : scene_.instances) {
-    i.moves = i.mover != kNoNode || isBent(i);
-    motion.ofGeometry |= i.moves;
+  for (const InstanceRecord& i : scene_.instances) {
+    motion.ofGeometry |= i.mover != kNoNode || isBent(i);
   }
   const auto& cameras = motion.given.cameras;
   const bool carried = std::any_of(cameras.begin(), cameras.end(),
@@ -172,7 +171,7 @@ void Baker::plan() {
     order_.instances.push_back(instance.rank);
     if (!inWorld) {
       scene_.instances.push_back(
-          {g, i, instance.toWorld, instance.mover, instance.toWorld, false, firstItemOf(i)});
+          {g, i, instance.toWorld, instance.mover, instance.toWorld, firstItemOf(i)});
     }
     if (!inWorld && !sources_[g].empty()) continue;
     for (Mesh& mesh : objects[instance.object].meshes) {

@@ -210,7 +210,7 @@ void PairFinder::search(Node a, Node b) {
   const bool isSame = a == b;
   if (work_ <= 0 || (isSame && a.isTriangle())) return;
   if (a.group && b.group) {
-    if (!search_.wanted(search_.space, *a.group, *b.group)) return;
+    if (!search_.wanted(*a.group, *b.group)) return;
     if (a.isTriangle() && b.isTriangle()) return compare(a, b);
     if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
       work_ -= kWorkOfTask;

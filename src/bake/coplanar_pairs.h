@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@ class BoxTree {
  public:
   static constexpr std::uint32_t kChildren = 8;
 
+  BoxTree() = default;
   BoxTree(const std::vector<Box>& items, int threads);
 
   bool empty() const { return items_.empty(); }
@@ -48,10 +48,6 @@ class FacetSpace {
   // instance do so in this space as well.
   FacetSpace(const Scene& scene, const BoxTree& tree, std::uint32_t geometry);
 
-  // True if something carries or bends the instance.
-  bool moves(std::uint32_t instance) const {
-    return instance != kNoInstance && scene_.instances[instance].moves;
-  }
   Facet facet(PlacedTriangleId id) const;
   // A box that holds everything that can touch the triangle.
   Box boxOf(PlacedTriangleId id) const;
@@ -84,7 +80,7 @@ struct PairSearch {
   const FacetSpace& space;
   std::vector<TriangleGroup> groups;  // without empty ones
   // True if a triangle of `a` may make a pair with one of `b`, which may be the same group.
-  bool (*wanted)(const FacetSpace& space, const TriangleGroup& a, const TriangleGroup& b);
+  bool (*wanted)(const TriangleGroup& a, const TriangleGroup& b);
   bool (*test)(const Facet& a, const Facet& b);  // of facets that lie in one plane
   // Not 0 for triangles without an instance that are left out, by their numbers in the scene;
   // empty: none.

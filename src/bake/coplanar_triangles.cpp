@@ -9,7 +9,6 @@
 
 #include "bake/coplanar_pairs.h"
 #include "bake/facet.h"
-#include "bake/scene_order.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -43,50 +42,38 @@ std::size_t hashOf(PlacedTriangleId id) {
 
 class CoplanarFinder {
  public:
-  enum class Among { all, still, moving };
+  CoplanarFinder(const Scene& scene, int threads);
 
-  CoplanarFinder(const Scene& scene, TriangleTrees known, int threads);
-
-  const TriangleTrees& trees() const { return trees_; }
   bool complete() const { return complete_; }
 
-  // Triangles that overlap others in their plane. For Among::moving at least one of the two moves.
-  Orders overlapping(Among which);
-  // The triangles that overlap others, and the ones of `touching` that touch one of these.
-  CoplanarTriangles find(const Orders& overlapping, Among touching);
+  // Triangles that overlap others in their plane.
+  Orders overlapping();
+  // The triangles that overlap others, and the ones that touch one of these.
+  CoplanarTriangles find(const Orders& overlapping);
 
  private:
-  bool isAmong(Among which, std::uint32_t instance) const {
-    return which == Among::all || world_.moves(instance) == (which == Among::moving);
-  }
-  std::vector<TriangleGroup> everything(bool withMoving) const;
+  std::vector<TriangleGroup> everything() const;
   std::vector<FacetPair> pairs(const PairSearch& search, int threads) {
     return findPairs(search, scene_.triangles.size(), threads, complete_);
   }
   std::vector<FacetPair> pairsOf(const Orders& list, int threads,
                                  bool (*test)(const Facet&, const Facet&), bool& complete) const;
-  void addWithinInstances(std::uint32_t geometry, Among which, Orders& all);
+  void addWithinInstances(std::uint32_t geometry, Orders& all);
   void findCovered(CoplanarTriangles& found) const;
 
   const Scene& scene_;
   int threads_;
-  TriangleTrees trees_;  // one a geometry
+  std::vector<BoxTree> trees_;  // one a geometry
   FacetSpace world_;
   std::vector<bool> leftOut_;  // one an instance
   bool complete_ = true;
 };
 
-// Makes the trees that are not known yet.
-TriangleTrees treesOf(const Scene& scene, TriangleTrees trees, int threads) {
-  trees.resize(scene.geometries.size());
-  std::vector<std::size_t> missing;
-  for (std::size_t g = 0; g < trees.size(); ++g) {
-    if (!trees[g]) missing.push_back(g);
-  }
-  parallelFor(missing.size() > 1 ? threads : 1, missing.size(), [&](std::size_t i, int) {
-    trees[missing[i]] = std::make_shared<const BoxTree>(
-        treeOf(scene, missing[i], missing.size() > 1 ? 1 : threads));
-  });
+std::vector<BoxTree> treesOf(const Scene& scene, int threads) {
+  const std::size_t count = scene.geometries.size();
+  std::vector<BoxTree> trees(count);
+  parallelFor(count > 1 ? threads : 1, count,
+              [&](std::size_t i, int) { trees[i] = treeOf(scene, i, count > 1 ? 1 : threads); });
   return trees;
 }
 
@@ -124,22 +111,22 @@ std::vector<bool> instancesInHeaps(const Scene& scene) {
   return leftOut;
 }
 
-CoplanarFinder::CoplanarFinder(const Scene& scene, TriangleTrees known, int threads)
+CoplanarFinder::CoplanarFinder(const Scene& scene, int threads)
     : scene_(scene),
       threads_(threads),
-      trees_(treesOf(scene, std::move(known), threads)),
+      trees_(treesOf(scene, threads)),
       world_(scene),
       leftOut_(instancesInHeaps(scene)) {}
 
-std::vector<TriangleGroup> CoplanarFinder::everything(bool withMoving) const {
+std::vector<TriangleGroup> CoplanarFinder::everything() const {
   std::vector<TriangleGroup> all;
-  if (!trees_[0]->empty()) {
-    all.push_back({trees_[0].get(), kNoInstance, scene_.geometries[0].firstTriangle, true});
+  if (!trees_[0].empty()) {
+    all.push_back({&trees_[0], kNoInstance, scene_.geometries[0].firstTriangle, true});
   }
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
     const std::uint32_t g = scene_.instances[i].geometry;
-    if (trees_[g]->empty() || leftOut_[i] || (!withMoving && world_.moves(i))) continue;
-    all.push_back({trees_[g].get(), i, scene_.geometries[g].firstTriangle});
+    if (trees_[g].empty() || leftOut_[i]) continue;
+    all.push_back({&trees_[g], i, scene_.geometries[g].firstTriangle});
   }
   return all;
 }
@@ -149,28 +136,24 @@ std::vector<FacetPair> CoplanarFinder::pairsOf(const Orders& list, int threads,
                                                bool (*test)(const Facet&, const Facet&),
                                                bool& complete) const {
   const BoxTree tree = treeOf(world_, list);
-  const auto all = [](const FacetSpace&, const TriangleGroup&, const TriangleGroup&) {
-    return true;
-  };
+  const auto all = [](const TriangleGroup&, const TriangleGroup&) { return true; };
   return findPairs({world_, {{&tree, kNoInstance, 0, true, &list}}, all, test},
                    scene_.triangles.size(), threads, complete);
 }
 
 // Adds triangles that overlap others of the same instance. One search in the space of the geometry
 // finds the candidates for all of its instances.
-void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Among which, Orders& all) {
+void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Orders& all) {
   std::vector<std::uint32_t> instances;
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
     const bool own = scene_.instances[i].geometry == geometry;
-    if (own && !leftOut_[i] && isAmong(which, i)) instances.push_back(i);
+    if (own && !leftOut_[i]) instances.push_back(i);
   }
-  if (trees_[geometry]->empty() || instances.empty()) return;
-  const FacetSpace object(scene_, *trees_[geometry], geometry);
-  const TriangleGroup group{trees_[geometry].get(), kNoInstance,
+  if (trees_[geometry].empty() || instances.empty()) return;
+  const FacetSpace object(scene_, trees_[geometry], geometry);
+  const TriangleGroup group{&trees_[geometry], kNoInstance,
                             scene_.geometries[geometry].firstTriangle};
-  const auto any = [](const FacetSpace&, const TriangleGroup&, const TriangleGroup&) {
-    return true;
-  };
+  const auto any = [](const TriangleGroup&, const TriangleGroup&) { return true; };
   Orders candidates;
   addBoth(pairs({object,
                  {group},
@@ -197,34 +180,29 @@ void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Among which, Ord
   if (std::find(complete.begin(), complete.end(), 0) != complete.end()) complete_ = false;
 }
 
-Orders CoplanarFinder::overlapping(Among which) {
-  const auto anyPlaces = [](const FacetSpace&, const TriangleGroup& a, const TriangleGroup& b) {
+Orders CoplanarFinder::overlapping() {
+  const auto anyPlaces = [](const TriangleGroup& a, const TriangleGroup& b) {
     return a.instance != b.instance || a.instance == kNoInstance;
   };
-  const auto oneMoves = [](const FacetSpace& space, const TriangleGroup& a,
-                           const TriangleGroup& b) {
-    return a.instance != b.instance && (space.moves(a.instance) || space.moves(b.instance));
-  };
   Orders found;
-  PairSearch search{world_, everything(which != Among::still), anyPlaces, facetsOverlap};
-  if (which == Among::moving) search.wanted = oneMoves;
+  PairSearch search{world_, everything(), anyPlaces, facetsOverlap};
   search.leftOut = tooNarrowToOverlap(scene_, world_, 0, threads_);
   addBoth(pairs(search, threads_), found);
   for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) {
-    addWithinInstances(g, which, found);
+    addWithinInstances(g, found);
   }
   sortUnique(found);
   return found;
 }
 
-CoplanarTriangles CoplanarFinder::find(const Orders& overlapping, Among touching) {
+CoplanarTriangles CoplanarFinder::find(const Orders& overlapping) {
   if (overlapping.empty()) return {};
-  const auto ofList = [](const FacetSpace&, const TriangleGroup& a, const TriangleGroup& b) {
+  const auto ofList = [](const TriangleGroup& a, const TriangleGroup& b) {
     return (a.list == nullptr) != (b.list == nullptr);
   };
   Orders all = overlapping;
   const BoxTree tree = treeOf(world_, overlapping);
-  PairSearch search{world_, everything(touching != Among::still), ofList, facetsTouch};
+  PairSearch search{world_, everything(), ofList, facetsTouch};
   search.groups.push_back({&tree, kNoInstance, 0, true, &overlapping});
   addBoth(pairs(search, threads_), all);
   sortUnique(all);
@@ -268,9 +246,7 @@ void CoplanarTriangles::forEachCellOf(const CoveredPart& part, std::size_t side,
 // would reach into several times as many: those that lie one on the other share one cell.
 void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
   constexpr double kMostSide = 64;
-  constexpr std::size_t kReach = 8;            // cells that a partner reaches into, in the mean
-  constexpr std::size_t kMostReached = 65536;  // cells of the mask, with heaps of partners in mind
-  constexpr std::uint32_t kFewPartners = 32;   // a fine mask is not worth its start
+  constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
@@ -284,18 +260,10 @@ void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> over
       std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
   while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
   slot.firstCell = cells_.size();
-  slot.maskSide = slot.count < kFewPartners ? 16 : 64;
-  while (slot.maskSide > 8 && reached(slot.maskSide) > kMostReached) slot.maskSide /= 2;
-  slot.firstWord = contested_.size();
-  contested_.resize(slot.firstWord + slot.maskSide * slot.maskSide / 64);
   std::vector<std::vector<std::size_t>> overlapping(slot.side * slot.side), touching = overlapping;
   for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
     auto& lists = overlaps[i] != 0 ? overlapping : touching;
     forEachCellOf(covered_[i], slot.side, [&](std::size_t cell) { lists[cell].push_back(i); });
-    if (overlaps[i] == 0) continue;
-    forEachCellOf(covered_[i], slot.maskSide, [&](std::size_t cell) {
-      contested_[slot.firstWord + cell / 64] |= std::uint64_t{1} << cell % 64;
-    });
   }
   for (std::size_t k = 0; k < overlapping.size(); ++k) {
     Cell cell{inCells_.size()};
@@ -364,41 +332,33 @@ std::uint64_t CoplanarTriangles::bytes() const {
   if (empty()) return 0;
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(ranks_[0]) + sizeof(CoveredPart)) +
-         cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t) +
-         contested_.size() * sizeof(contested_[0]);
+         cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t);
 }
 
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete) {
   complete = scene.firstSphere <= kMostSearched;
   if (!complete) return {};
-  CoplanarFinder finder(scene, {}, threads);
-  CoplanarTriangles found =
-      finder.find(finder.overlapping(CoplanarFinder::Among::all), CoplanarFinder::Among::all);
+  CoplanarFinder finder(scene, threads);
+  CoplanarTriangles found = finder.find(finder.overlapping());
   complete = finder.complete();
   return found;
 }
 
-void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrder& order,
-                             int threads) {
-  using Among = CoplanarFinder::Among;
-  if (scene.firstSphere > kMostSearched) return;
-  TriangleTrees rigid = still.trees;
-  for (const BentVertices& bent : scene.motion.bent) {
-    if (bent.geometry < rigid.size()) rigid[bent.geometry].reset();
+WrittenPlace SceneOrder::placeOf(const Scene& scene, PlacedTriangleId id) const {
+  const std::uint32_t number = triangles[id.triangle];
+  const auto meshOf = [&](std::uint32_t geometry) {
+    const std::vector<PlacedMesh>& all = meshes[geometry];
+    const auto startsBehind = [](std::uint32_t n, const PlacedMesh& m) {
+      return n < m.firstTriangle;
+    };
+    return *(std::upper_bound(all.begin(), all.end(), number, startsBehind) - 1);
+  };
+  if (id.instance == kNoInstance) {
+    const PlacedMesh mesh = meshOf(0);
+    return {mesh.rank, mesh.instance, number};
   }
-  CoplanarFinder finder(scene, std::move(rigid), threads);
-  std::vector<std::uint32_t> instances;
-  for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
-  if (!still.known || still.instances != instances) {
-    still = {true, std::move(instances), finder.overlapping(Among::still), false, finder.trees()};
-  }
-  Orders moving = finder.overlapping(Among::moving);
-  if (moving.empty() && still.all) return;
-  still.all = moving.empty();
-  moving.insert(moving.end(), still.triangles.begin(), still.triangles.end());
-  sortUnique(moving);
-  scene.coplanar = finder.find(moving, still.all ? Among::still : Among::all);
-  scene.coplanar.rankBy(scene, order);
+  const InstanceRecord& instance = scene.instances[id.instance];
+  return {instances[instance.written] + meshOf(instance.geometry).rank, instance.written, number};
 }
 
 }  // namespace whit

@@ -4,19 +4,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
-
-#include "bake/covered_part.h"
 
 namespace whit {
 
 class Scene;
-class BoxTree;
-struct SceneOrder;
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
 
@@ -34,6 +31,62 @@ inline std::uint64_t orderOf(PlacedTriangleId id) {
 inline PlacedTriangleId placedTriangle(std::uint64_t order) {
   return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
 }
+
+// The order of a scene as its author wrote it. Triangles are stored in another one: objects that
+// are used once belong to the world, other objects have geometries of their own, and the triangles
+// of one class follow each other. Of coplanar faces the later one in the scene is hit.
+
+// The place of a triangle in the order in which the author wrote the scene; less is earlier.
+struct WrittenPlace {
+  std::uint64_t rank = 0;      // Instance::rank + Mesh::rank
+  std::uint32_t instance = 0;  // in SceneDescription::instances
+  std::uint32_t triangle = 0;  // in what the instance places
+
+  bool operator<(const WrittenPlace& other) const {
+    return std::tie(rank, instance, triangle) <
+           std::tie(other.rank, other.instance, other.triangle);
+  }
+};
+
+// Filled while the scene is baked.
+struct SceneOrder {
+  // The triangles of a geometry from this number on, up to those of the next mesh.
+  struct PlacedMesh {
+    std::uint32_t firstTriangle = 0;
+    std::uint32_t instance = 0;  // of the world; others are placed by InstanceRecord::written
+    std::uint64_t rank = 0;      // likewise
+  };
+  std::vector<std::vector<PlacedMesh>> meshes;  // one list a geometry, in the order of numbers
+  std::vector<std::uint32_t> triangles;         // the number of each of Scene::triangles
+  std::vector<std::uint64_t> instances;         // the rank of each of the description
+
+  WrittenPlace placeOf(const Scene& scene, PlacedTriangleId id) const;
+};
+
+// In the weights of corners 1 and 2 of another triangle: what of it this one, in its plane, covers
+// at the most.
+struct CoveredPart {
+  float u0 = 0, u1 = 0, v0 = 0, v1 = 0;  // a box around it
+  // Along each of its edges: what lies outside of the edge has a * u + b * v + c < 0.
+  struct Edge {
+    float a = 0, b = 0, c = 0;
+  };
+  std::array<Edge, 3> edges;
+
+  bool holds(float u, float v) const {
+    if (u < u0 || u > u1 || v < v0 || v > v1) return false;
+    const auto isInside = [&](const Edge& e) { return e.a * u + e.b * v + e.c >= 0; };
+    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+  }
+  // Tests a square, given by its corner of the least weights. False only if the square holds no
+  // point of the part.
+  bool meets(float u, float v, float side) const {
+    const auto isInside = [&](const Edge& e) {
+      return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;
+    };
+    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+  }
+};
 
 class CoplanarTriangles {
  public:
@@ -58,7 +111,7 @@ class CoplanarTriangles {
   // False only if forEachPartnerAt() visits none. The scene must have coplanar triangles.
   bool anyAt(PlacedTriangleId id, double u, double v) const {
     const Slot& slot = slots_[slotOf(id)];
-    return slot.count != 0 && isContested(slot, u, v);
+    return slot.count != 0 && cells_[slot.firstCell + cellAt(u, v, slot.side)].count != 0;
   }
 
   // Numbers the coplanar triangles in the order of the scene file; all ranks are 0 before this.
@@ -76,7 +129,7 @@ class CoplanarTriangles {
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
     const Slot& slot = slots_[slotOf(id)];
-    if (slot.count == 0 || !isContested(slot, u, v)) return;
+    if (slot.count == 0) return;
     const Cell& cell = cells_[slot.firstCell + cellAt(u, v, slot.side)];
     const auto own = std::span(inCells_).subspan(cell.first, cell.count);
     const auto holds = [&](std::size_t i) {
@@ -101,8 +154,6 @@ class CoplanarTriangles {
     std::uint64_t first = 0;    // in partners_
     std::size_t firstCell = 0;  // in cells_
     std::size_t side = 1;       // the number of cells along each side of a square
-    std::size_t firstWord = 0;  // in contested_
-    std::size_t maskSide = 0;   // likewise, of a finer square
   };
   static std::size_t cellOf(double weight, std::size_t side) {
     const auto most = static_cast<double>(side);
@@ -110,10 +161,6 @@ class CoplanarTriangles {
   }
   static std::size_t cellAt(double u, double v, std::size_t side) {
     return cellOf(v, side) * side + cellOf(u, side);
-  }
-  bool isContested(const Slot& slot, double u, double v) const {
-    const std::size_t cell = cellAt(u, v, slot.maskSide);
-    return (contested_[slot.firstWord + cell / 64] >> cell % 64 & 1) != 0;
   }
   template <typename Visitor>
   static void forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit);
@@ -134,8 +181,6 @@ class CoplanarTriangles {
   };
   std::vector<Cell> cells_;
   std::vector<std::size_t> inCells_;  // places in partners_
-  // A bit for each cell of the finer squares: some overlapping partner reaches into it.
-  std::vector<std::uint64_t> contested_;
 };
 
 // Two placed triangles lie in one plane if the corners of each are no farther from the plane of the
@@ -151,23 +196,5 @@ class CoplanarTriangles {
 // each instanced object counted once, are not searched.
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
-
-// The geometries' trees, see bake/coplanar_pairs.h.
-using TriangleTrees = std::vector<std::shared_ptr<const BoxTree>>;
-
-// The coplanar triangles among all that stands still in a scene that moves, searched once.
-struct StillCoplanar {
-  bool known = false;
-  std::vector<std::uint32_t> instances;  // InstanceRecord::written of all instances at that time
-  std::vector<std::uint64_t> triangles;  // orderOf() of triangles that overlap others
-  bool all = false;     // no moving triangle overlapped another one at the last search
-  TriangleTrees trees;  // at that time
-};
-
-// Searches again after the scene has moved: scene.coplanar comes out as findCoplanarTriangles()
-// would find it, except that a moving triangle that only touches coplanar ones is no partner of
-// them unless some moving triangle overlaps another one in its plane.
-void updateCoplanarTriangles(Scene& scene, StillCoplanar& still, const SceneOrder& order,
-                             int threads);
 
 }  // namespace whit

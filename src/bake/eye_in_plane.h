@@ -2,7 +2,7 @@
 // next to 0 would put it.
 #pragma once
 
-#include "bake/world_corners.h"
+#include "bake/facet.h"
 
 namespace whit {
 

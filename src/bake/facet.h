@@ -1,10 +1,20 @@
-// A triangle where it stands, and when two of them lie in one plane.
+// A placed triangle, the test whether two of them lie in one plane, and the part that one covers of
+// the other.
 #pragma once
 
-#include "bake/world_corners.h"
+#include "bake/scene.h"
 #include "core/affine.h"
 
 namespace whit {
+
+using Corners = std::array<Vec3d, 3>;
+
+// Carried by the map, if there is one.
+Corners cornersOf(const TriangleRecord& triangle, const Affine* toWorld);
+
+// The corners of a triangle of the scene (an index into Scene::triangles), transformed by the
+// instance unless that is kNoInstance.
+Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance);
 
 // Upper bound on the error of a surface point, for each unit of the magnitudes that it is added up
 // from. Rays that start there are offset by no more (Surfel::offset).
@@ -31,5 +41,7 @@ bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);
 // True if facetsOverlap() is false for the facet and any other one.
 bool isTooNarrowToOverlap(const Facet& facet);
+// The part of `on` that `of`, in its plane, covers.
+CoveredPart coveredPart(const Facet& on, const Facet& of);
 
 }  // namespace whit

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bake/scene.h"
-#include "bake/scene_order.h"
 
 namespace whit {
 

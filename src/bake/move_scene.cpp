@@ -140,7 +140,18 @@ void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
   }
   Warnings expected;  // that some are flattened at times
   boundInstances(scene, motion.boxes, expected);
-  updateCoplanarTriangles(scene, motion.still, motion.order, usableThreads());
+  std::vector<std::uint32_t> instances;
+  for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
+  if (motion.isSearched && instances == motion.instancesAtStart) {
+    scene.coplanar = motion.coplanarAtStart;
+    return;
+  }
+  bool complete = true;
+  scene.coplanar = findCoplanarTriangles(scene, usableThreads(), complete);
+  scene.coplanar.rankBy(scene, motion.order);
+  if (std::exchange(motion.isSearched, true)) return;
+  motion.coplanarAtStart = scene.coplanar;
+  motion.instancesAtStart = std::move(instances);
 }
 
 }  // namespace whit

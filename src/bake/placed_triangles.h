@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bake/world_corners.h"
+#include "bake/facet.h"
 #include "scene/description.h"
 
 namespace whit {

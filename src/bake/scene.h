@@ -11,7 +11,6 @@
 
 #include "bake/coplanar_triangles.h"
 #include "bake/item_numbers.h"
-#include "bake/scene_order.h"
 #include "core/box.h"
 #include "core/effects.h"
 #include "core/huge_vector.h"
@@ -79,7 +78,6 @@ struct InstanceRecord {
   Affine toWorld;
   std::uint32_t mover = kNoNode;  // of the scene's rig
   Affine toMover;
-  bool moves = false;  // is carried by something, or bends
   std::uint32_t firstItem = 0;
 };
 
@@ -99,7 +97,10 @@ struct BakedMotion {
   std::vector<Box> boxes;                 // of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
-  StillCoplanar still;
+  // At 0 s: the coplanar triangles, and the numbers (InstanceRecord::written) of the instances.
+  bool isSearched = false;
+  CoplanarTriangles coplanarAtStart;
+  std::vector<std::uint32_t> instancesAtStart;
 
   bool ofLights() const { return !given.lights.empty(); }
   bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }

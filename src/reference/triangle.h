@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "bake/world_corners.h"
+#include "bake/facet.h"
 #include "reference/intersector.h"
 
 namespace whit::reference {
