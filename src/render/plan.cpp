@@ -49,7 +49,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
                             [](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::limitedDiffuse,
             std::any_of(scene.materials.begin(), scene.materials.end(),
-                        [](const Material& m) { return m.limitsDiffuse(); }))
+                        [e](const Material& m) { return m.limitsDiffuse(e); }))
       .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
