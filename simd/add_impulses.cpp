@@ -285,9 +285,9 @@ HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k
 }
 
 // The light that mirror and interface leave for the samples of a glossy lobe.
-HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes,
-                            const MaterialLanes& material, size_t i) {
+HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const FloatTag d;
+  const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const VF one = hn::Set(d, 1.0f);
   const V3 left = Sub3({one, one, one}, CoatReflectance(material, lanes.cosine));
   if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
@@ -355,10 +355,7 @@ void AddSamples(Chunk& c) noexcept {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     V3 covered{one, one, one};
-    if constexpr (kLobe.flag == kMaterialScatters) {
-      const MaterialLanes material(job.tables, lanes.material, lanes.live);
-      covered = LeftAboveLobe(job, lanes, material, i);
-    }
+    if constexpr (kLobe.flag == kMaterialScatters) covered = LeftAboveLobe(job, lanes, i);
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
     const Samples samples(job, lanes, i);
     const VF counts = hn::IfThenElse(samples.several, share, one);

@@ -152,39 +152,34 @@ LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot) {
   return {path, lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber)};
 }
 
-void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
-  const Material& material = scene.materials[surfel.material];
-  if (crossing.hidden || !material.scatters(effects)) return;
-  const double c = cosineOf(surfel);
-  Surfel alone = surfel;
-  alone.coverage = 1;
-  RgbD taken;
-  const int rays = glossyRays(surfel, points.sampling);
-  for (int i = 0; i < rays; ++i) {
-    const UnitPoint at =
-        pointOf(kGlossyLobe, points.path, points.sampling, static_cast<std::uint32_t>(i));
-    taken += glossyImpulse(alone, 0, at, choices).weight / rays;
-  }
-  surfel.belowLobe = RgbD(1.0) - taken;
-  if (effects.has(Effect::mirror)) surfel.aboveLobe = RgbD(1.0) - coatReflectance(material, c);
-  if (!crossing.dielectric) return;
-  surfel.aboveLobe *= 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
-}
-
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
   const Material& material = scene.materials[surfel.material];
-  shareWithLobe(scene, effects, crossing, choices, points, surfel);
-  if (crossing.hidden || !material.limitsDiffuse(effects)) return;
+  if (crossing.hidden) return;
   const double c = cosineOf(surfel);
-  RgbD taken = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
-  double passed = 1;
-  if (crossing.dielectric && material.hasTransmission()) {
-    taken += limited(RgbD(material.transmission), taken);
-    passed -= makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
+  const RgbD coat = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
+  const double passed =
+      crossing.dielectric
+          ? 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance
+          : 1;
+  if (material.scatters(effects)) {
+    Surfel alone = surfel;
+    alone.coverage = 1;
+    RgbD taken;
+    const int rays = glossyRays(surfel, points.sampling);
+    for (int i = 0; i < rays; ++i) {
+      const auto k = static_cast<std::uint32_t>(i);
+      const UnitPoint at = pointOf(kGlossyLobe, points.path, points.sampling, k);
+      taken += glossyImpulse(alone, 0, at, choices).weight / rays;
+    }
+    surfel.belowLobe = RgbD(1.0) - taken;
+    surfel.aboveLobe = (RgbD(1.0) - coat) * passed;
   }
-  surfel.diffuse = limited(surfel.diffuse, taken) * passed * surfel.belowLobe;
+  if (!material.limitsDiffuse(effects)) return;
+  const bool transmits = crossing.dielectric && material.hasTransmission();
+  const RgbD through = transmits ? limited(RgbD(material.transmission), coat) : RgbD();
+  surfel.diffuse =
+      limited(surfel.diffuse, coat + through) * (transmits ? passed : 1) * surfel.belowLobe;
 }
 
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
@@ -253,8 +248,10 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t stack = mediaOf(chunk, slot);
   const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material, surfel.entering,
                                        stack, alsoCrossedAt(chunk, slot));
-  shareWithLobe(world.scene, world.effects, crossing, chunk.options().shading,
-                lobePointsOf(chunk, slot), surfel);
+  const RgbD diffuse = surfel.diffuse;  // limited already
+  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
+               lobePointsOf(chunk, slot), surfel);
+  surfel.diffuse = diffuse;
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));

@@ -50,13 +50,8 @@ struct LobePoints {
 
 LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot);
 
-// Shares the light that meets a surfel of which the lobe is sampled: sets aboveLobe and belowLobe
-// (scene/material.h has the rule).
-void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
-
-// The same, and scales the diffuse color to the light that the other lobes leave, so that a surface
-// never sends out more light than it gets.
+// Shares the light that meets a surfel, so that it never sends out more than it gets: sets
+// aboveLobe and belowLobe and scales the diffuse color (scene/material.h has the rule).
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
 
