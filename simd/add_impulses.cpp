@@ -30,7 +30,8 @@ struct ImpulseJob {
   SurfelColumns surfels;
   RayColumns children;
   size_t n;
-  bool cones, coverage, streams, transmission;
+  LobeSampling glossySampling;
+  bool cones, coverage, glossy, streams, transmission;
 };
 
 HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
@@ -42,8 +43,10 @@ HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
           c.surfels,
           c.children,
           c.n,
+          lobeSampling(c.depth, c.options().glossy, c.sampleNumber),
           c.has(Feature::cones),
           c.has(Feature::coverage),
+          c.has(Feature::glossy),
           c.has(Feature::streams),
           c.has(Feature::transmission)};
 }
@@ -53,6 +56,7 @@ struct ImpulseLanes {
   MF live;        // the surfel has an impulse of the kind in question
   MF dielectric;  // and bounds a medium
   MF hidden;      // and is not there, because a higher priority fills its place
+  MF scatters;    // the surfel's glossy lobe is sampled
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
@@ -78,11 +82,12 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   ImpulseLanes lanes;
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
-  lanes.dielectric = lanes.hidden = hn::MaskFromVec(hn::Zero(d));
+  lanes.dielectric = lanes.hidden = lanes.scatters = hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
   if (hn::AllFalse(d, lanes.live)) return lanes;
+  if (job.glossy) lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
   if (kWanted == kMaterialTransmits || job.transmission) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
     lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
@@ -105,8 +110,8 @@ HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lane
 }
 
 // The mirror coat's reflectance.
-HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, const V3& mirror, VF cosine) {
-  return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), mirror);
+HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, VF cosine) {
+  return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), material.Mirror());
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not.
@@ -131,7 +136,7 @@ HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
-  VF largest;  // of the weight, and the material's share of it, for the cutoff
+  VF largest;  // of the weight, for the cutoff
   VF cone;
 };
 
@@ -215,8 +220,7 @@ void AddReflections(Chunk& c) noexcept {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    const auto [mirror, impulseShare] = material.Mirror();
-    V3 weight = CoatReflectance(material, mirror, lanes.cosine);
+    V3 weight = CoatReflectance(material, lanes.cosine);
     if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
       const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
@@ -232,39 +236,11 @@ void AddReflections(Chunk& c) noexcept {
                       weight,
                       MediaAt(job, i),
                       ChildStreamsAt(job, i, kMirroredBranch),
-                      hn::Mul(MaxComponent(weight), impulseShare),
+                      MaxComponent(weight),
                       ConesAt(job, i)};
     count += Append(job, child, lanes.live, i, count);
   }
   c.childCount = count;
-}
-
-// The scalar reference is limitDiffuse in src/reference/add_impulses.cpp.
-void LimitDiffuse(Chunk& c) noexcept {
-  const FloatTag d;
-  const ImpulseJob job = ImpulseJobOf(c);
-  const SurfelColumns& surfels = job.surfels;
-  const VF one = hn::Set(d, 1.0f);
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes = LoadImpulseLanes<kMaterialLimitsDiffuse>(job, i);
-    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
-    if (hn::AllFalse(d, lanes.live)) continue;
-    const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 taken = CoatReflectance(material, material.Mirror().mirror, lanes.cosine);
-    VF passed = one;
-    if (job.transmission) {
-      const V3 transmission = material.Transmission(), through = Limited(transmission, taken);
-      const MF transmits =
-          hn::And(lanes.dielectric, hn::Gt(MaxComponent(transmission), hn::Zero(d)));
-      taken = Select3(transmits, Add3(taken, through), taken);
-      const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
-      passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);
-    }
-    const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
-    const V3 limited = Scale3(Limited(diffuse, taken), passed);
-    Store3(Select3(lanes.live, limited, diffuse), surfels.diffuseR, surfels.diffuseG,
-           surfels.diffuseB, i);
-  }
 }
 
 // The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
@@ -308,6 +284,63 @@ HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k
   }
 }
 
+// The light that mirror and interface leave for the samples of a glossy lobe.
+HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const FloatTag d;
+  const MaterialLanes material(job.tables, lanes.material, lanes.live);
+  const VF one = hn::Set(d, 1.0f);
+  const V3 left = Sub3({one, one, one}, CoatReflectance(material, lanes.cosine));
+  if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
+  const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
+  return Scale3(left, hn::Sub(one, f));
+}
+
+// The light that the samples of the glossy lobes, the same that AddSamples() takes, leave for
+// transmission and diffuse color.
+HWY_INLINE V3 LeftBelowLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  V3 taken{zero, zero, zero};
+  if (hn::AllFalse(d, lanes.scatters)) return {one, one, one};
+  const GlossySamples samples(job, lanes, i);
+  const VU path = hn::Load(UintTag(), job.rays.path + i);
+  for (uint32_t k = 0; k < job.glossySampling.count; ++k) {
+    const LobeSample sample = samples.At(PointsOf<kGlossyLobe>(path, job.glossySampling, k));
+    const MF counts = hn::And(lanes.scatters, hn::Gt(sample.cosine, zero));
+    taken = Select3(counts, Add3(taken, sample.weight), taken);
+  }
+  const VF share = hn::Set(d, 1.0f / static_cast<float>(job.glossySampling.count));
+  return Sub3({one, one, one}, Scale3(taken, share));
+}
+
+// The scalar reference is limitDiffuse in src/reference/add_impulses.cpp.
+void LimitDiffuse(Chunk& c) noexcept {
+  const FloatTag d;
+  const ImpulseJob job = ImpulseJobOf(c);
+  const SurfelColumns& surfels = job.surfels;
+  const VF one = hn::Set(d, 1.0f);
+  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialLimitsDiffuse>(job, i);
+    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    if (hn::AllFalse(d, lanes.live)) continue;
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    V3 taken = CoatReflectance(material, lanes.cosine);
+    VF passed = one;
+    if (job.transmission) {
+      const V3 transmission = material.Transmission(), through = Limited(transmission, taken);
+      const MF transmits =
+          hn::And(lanes.dielectric, hn::Gt(MaxComponent(transmission), hn::Zero(d)));
+      taken = Select3(transmits, Add3(taken, through), taken);
+      const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
+      passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);
+    }
+    const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    const V3 limited = Mul3(Scale3(Limited(diffuse, taken), passed), LeftBelowLobe(job, lanes, i));
+    Store3(Select3(lanes.live, limited, diffuse), surfels.diffuseR, surfels.diffuseG,
+           surfels.diffuseB, i);
+  }
+}
+
 template <typename Samples>
 void AddSamples(Chunk& c) noexcept {
   constexpr const Lobe& kLobe = Samples::kLobe;
@@ -321,10 +354,11 @@ void AddSamples(Chunk& c) noexcept {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
-    const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    const VF impulseShare = material.Mirror().impulseShare;
+    V3 covered{one, one, one};
+    if constexpr (kLobe.flag == kMaterialScatters) covered = LeftAboveLobe(job, lanes, i);
+    if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
     const Samples samples(job, lanes, i);
-    const VF counts = hn::IfThenElse(samples.several, share, one), covered = CoverageAt(job, i);
+    const VF counts = hn::IfThenElse(samples.several, share, one);
     const V3 origin = ChildOrigin(job, lanes, i, 1.0f);
     const VU media = MediaAt(job, i);
     const VU path = hn::Load(du, job.rays.path + i);
@@ -333,7 +367,7 @@ void AddSamples(Chunk& c) noexcept {
       const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, samples.several);
       if (hn::AllFalse(d, sampled)) break;
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
-      if (job.coverage) sample.weight = Scale3(sample.weight, covered);
+      sample.weight = Mul3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
       const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(job, sample.cosine), live);
       const Child child{origin,
@@ -341,7 +375,7 @@ void AddSamples(Chunk& c) noexcept {
                         Scale3(sample.weight, counts),
                         media,
                         ChildStream(path, kLobe.firstBranch + k),
-                        hn::Mul(MaxComponent(sample.weight), impulseShare),
+                        MaxComponent(sample.weight),
                         cone};
       count += Append(job, child, live, i, count);
     }
@@ -360,11 +394,9 @@ void AddRefractions(Chunk& c) noexcept {
     if (hn::AllFalse(d, lanes.live)) continue;
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    const auto [mirror, ownShare] = material.Mirror();
-    const VF impulseShare = hn::IfThenElse(lanes.hidden, one, ownShare);
     const VF through = hn::Sub(one, interface.reflectance);
-    V3 transmittance =
-        Limited(material.Transmission(), CoatReflectance(material, mirror, lanes.cosine));
+    const V3 coat = CoatReflectance(material, lanes.cosine);
+    V3 transmittance = Mul3(Limited(material.Transmission(), coat), LeftBelowLobe(job, lanes, i));
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
@@ -389,7 +421,7 @@ void AddRefractions(Chunk& c) noexcept {
                       weight,
                       hn::Load(du, job.surfels.mediaBehind + i),
                       ChildStreamsAt(job, i, kRefractedBranch),
-                      hn::Mul(MaxComponent(weight), impulseShare),
+                      MaxComponent(weight),
                       ConesAt(job, i)};
     count += Append(job, child, lanes.live, i, count);
   }

@@ -38,10 +38,6 @@ struct CoverageLanes {
   VF coverage;
   VI coverageMap;
 };
-struct MirrorLanes {
-  V3 mirror;
-  VF impulseShare;
-};
 
 class MaterialLanes {
  public:
@@ -83,10 +79,9 @@ class MaterialLanes {
                                          offsetof(MaterialRecord, coverageMap)>();
     return {r.z, hn::BitCast(IntTag(), r.w)};
   }
-  HWY_INLINE MirrorLanes Mirror() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, mirror),
-                                         offsetof(MaterialRecord, impulseShare)>();
-    return {{r.x, r.y, r.z}, r.w};
+  HWY_INLINE V3 Mirror() const {
+    const V4 r = records_.template Load4<offsetof(MaterialRecord, mirror)>();
+    return {r.x, r.y, r.z};
   }
   HWY_INLINE V3 GrazingMinusMirror() const {
     const V4 r = records_.template Load4<offsetof(MaterialRecord, grazingMinusMirror)>();

@@ -135,7 +135,8 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     const double passed = 1 - interface.reflectance;
     if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
     if (passed > 0) {
-      const RgbD through = limited(RgbD(material.transmission), coat) * surfel.coverage;
+      const RgbD through =
+          limited(RgbD(material.transmission), coat) * surfel.belowLobe * surfel.coverage;
       result.refracted = {(through + RgbD(1 - surfel.coverage)) * passed,
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
@@ -146,18 +147,39 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   return result;
 }
 
+LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot) {
+  const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
+  return {path, lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber)};
+}
+
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                  const ShadingChoices& choices, Surfel& surfel) {
+                  const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
   const Material& material = scene.materials[surfel.material];
-  if (crossing.hidden || !material.limitsDiffuse()) return;
+  if (crossing.hidden) return;
   const double c = cosineOf(surfel);
-  RgbD taken = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
-  double passed = 1;
-  if (crossing.dielectric && material.hasTransmission()) {
-    taken += limited(RgbD(material.transmission), taken);
-    passed -= makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
+  const RgbD coat = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
+  const double passed =
+      crossing.dielectric
+          ? 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance
+          : 1;
+  if (material.scatters(effects)) {
+    Surfel alone = surfel;
+    alone.coverage = 1;
+    RgbD taken;
+    const int rays = glossyRays(surfel, points.sampling);
+    for (int i = 0; i < rays; ++i) {
+      const auto k = static_cast<std::uint32_t>(i);
+      const UnitPoint at = pointOf(kGlossyLobe, points.path, points.sampling, k);
+      taken += glossyImpulse(alone, 0, at, choices).weight / rays;
+    }
+    surfel.belowLobe = RgbD(1.0) - taken;
+    surfel.aboveLobe = (RgbD(1.0) - coat) * passed;
   }
-  surfel.diffuse = limited(surfel.diffuse, taken) * passed;
+  if (!material.limitsDiffuse(effects)) return;
+  const bool transmits = crossing.dielectric && material.hasTransmission();
+  const RgbD through = transmits ? limited(RgbD(material.transmission), coat) : RgbD();
+  surfel.diffuse =
+      limited(surfel.diffuse, coat + through) * (transmits ? passed : 1) * surfel.belowLobe;
 }
 
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
@@ -196,7 +218,9 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const Vec3d r =
       choices.bend ? lifted(mirrored, s.geometricNormal, std::min(0.9 * nl, 0.01)) : mirrored;
-  return {fresnel * (passes * s.coverage), {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
+  return {fresnel * (passes * s.coverage) * s.aboveLobe,
+          {rayOrigin(choices.offset, s, 1), r, s.cone},
+          stack};
 }
 
 Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
@@ -220,7 +244,14 @@ double growthOfSurvivors(const RenderOptions& options, double contribution) {
 RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t slot = chunk.children.parent[child];
   const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
-  const Surfel surfel = surfelOf(chunk, slot);
+  Surfel surfel = surfelOf(chunk, slot);
+  const std::uint32_t stack = mediaOf(chunk, slot);
+  const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material, surfel.entering,
+                                       stack, alsoCrossedAt(chunk, slot));
+  const RgbD diffuse = surfel.diffuse;  // limited already
+  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
+               lobePointsOf(chunk, slot), surfel);
+  surfel.diffuse = diffuse;
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));
@@ -229,18 +260,12 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
     twin = *sample;
     row.path = chunk.children.path[child];
   } else {
-    const std::uint32_t stack = mediaOf(chunk, slot);
-    const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material,
-                                         surfel.entering, stack, alsoCrossedAt(chunk, slot));
     twin.impulse =
         findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading)
             .of(kind);
   }
   const Impulse& impulse = twin.impulse;
-  const Material& material = world.scene.materials[surfel.material];
-  const double share = isHidden(chunk, slot) ? 1 : double{material.impulseShare(world.effects)};
-  const double contribution =
-      double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight) * share;
+  const double contribution = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight);
   const double grows = growthOfSurvivors(chunk.options(), contribution);
   put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
   put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);

@@ -42,10 +42,18 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
                       const Crossing& crossing, MediaStack stack,
                       const ShadingChoices& choices = {});
 
-// Scales the diffuse color to the light that mirror, Fresnel's law and transmission leave, so that
-// a surface never sends out more light than it gets (scene/material.h).
+// Points of the unit square that the samples of a surfel's glossy lobe are drawn at.
+struct LobePoints {
+  std::uint32_t path = 0;
+  LobeSampling sampling = {};
+};
+
+LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot);
+
+// Shares the light that meets a surfel, so that it never sends out more than it gets: sets
+// aboveLobe and belowLobe and scales the diffuse color (scene/material.h has the rule).
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                  const ShadingChoices& choices, Surfel& surfel);
+                  const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
 
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
 // below: shading normals would send some through to the wrong side (hard case H32). Less than the
@@ -66,9 +74,9 @@ Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at);
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling);
 
 // The ray mirrored by the visible normal at `at`, with the weight F G2 / G1 (height-correlated
-// Smith masking, as in glossyLobe): its mean over the unit square is what the lobe reflects. Weight
-// 0 for rays that end in the surface: what several bounces between its facets would rescue is lost.
-// `stack` is that of the incoming ray.
+// Smith masking, as in glossyLobe) times what lies above leaves: its mean over the unit square is
+// what the lobe reflects. Weight 0 for rays that end in the surface: what several bounces between
+// its facets would rescue is lost. `stack` is that of the incoming ray.
 Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                       const ShadingChoices& choices = {});
 

@@ -418,7 +418,8 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const std::uint32_t media = mediaOf(chunk, slot);
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
-  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading, s);
+  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
+               lobePointsOf(chunk, slot), s);
   const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);

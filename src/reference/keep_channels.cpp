@@ -28,7 +28,7 @@ Vec2f uvAt(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
 
 ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
                                std::size_t sample) const {
-  const Ray ray = primaryRay(camera, x, y, at, sample).ray;
+  const auto [ray, path] = primaryRay(camera, x, y, at, sample);
   const std::optional<Settled> met = nearest(ray, 0);
   ChannelValues values;
   if (!met) return values;
@@ -39,7 +39,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   limitDiffuse(
       scene_, effects_,
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed),
-      options_.shading, surfel);
+      options_.shading, {path.number, lobeSampling(0, options_.glossy, path.sample)}, surfel);
   values.distance = static_cast<float>(hit.t);
   values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
   values.position = Vec3f(surfel.position);

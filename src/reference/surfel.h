@@ -20,11 +20,13 @@ struct Surfel {
   double retreat = 0;     // on the viewer's side, how far along `view` as well
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
-  RgbD diffuse, specular;  // textures and vertex colors applied
-  RgbD emission{1, 1, 1};  // what they multiply the material's by
-  double alpha = 1;        // width of the glossy lobe (GGX), roughness squared
-  double coverage = 1;     // the share of the surface that is there
-  RayCone cone;            // of rays that go on from here
+  RgbD diffuse, specular;   // textures and vertex colors applied
+  RgbD emission{1, 1, 1};   // what they multiply the material's by
+  double alpha = 1;         // width of the glossy lobe (GGX), roughness squared
+  double coverage = 1;      // the share of the surface that is there
+  RgbD aboveLobe{1, 1, 1};  // what mirror and interface leave for the samples of the lobe
+  RgbD belowLobe{1, 1, 1};  // what these leave for transmission and diffuse color
+  RayCone cone;             // of rays that go on from here
 };
 
 }  // namespace whit::reference

@@ -50,7 +50,8 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   Surfel surfel = surfelAt(ray, *met, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
-  limitDiffuse(scene_, effects_, crossing, options_.shading, surfel);
+  const LobePoints points{path.number, lobeSampling(depth, options_.glossy, path.sample)};
+  limitDiffuse(scene_, effects_, crossing, options_.shading, points, surfel);
 
   const double left = throughput * maxComponent(arrives);
   RgbD radiance;
@@ -66,15 +67,12 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (depth < options_.depth) {
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
-    const float kept =
-        crossing.hidden ? 1 : scene_.materials[surfel.material].impulseShare(effects_);
-    const double counted = left * double{kept};
     for (const RayKind kind : kImpulseKinds) {
-      RgbD sum = follow(children.of(kind), kind, depth + 1, counted, counts,
-                        childOf(path, branchOf(kind)));
+      RgbD sum =
+          follow(children.of(kind), kind, depth + 1, left, counts, childOf(path, branchOf(kind)));
       for (const SampledLobe& sampled : kSampledLobes) {
         if (sampled.lobe.kind != kind || crossing.hidden) continue;
-        sum += radianceByLobe(sampled, surfel, depth, counted, media, counts, path);
+        sum += radianceByLobe(sampled, surfel, depth, left, media, counts, path);
       }
       radiance += sum;
     }

@@ -25,7 +25,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
-  if (m.limitsDiffuse()) flags |= kMaterialLimitsDiffuse;
+  if (m.limitsDiffuse(effects)) flags |= kMaterialLimitsDiffuse;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   for (const Lobe& lobe : kLobes) {
@@ -64,7 +64,6 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
     copy3(m.mirror, r.mirror);
     copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
   }
-  r.impulseShare = m.impulseShare(effects);
   copy3(m.transmission, r.transmission);
   return r;
 }

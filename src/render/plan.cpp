@@ -47,9 +47,6 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
             e.has(Effect::glossy) && e.has(Effect::textures) &&
                 std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) { return m.variesRoughness(); }))
-      .with(Feature::limitedDiffuse,
-            std::any_of(scene.materials.begin(), scene.materials.end(),
-                        [](const Material& m) { return m.limitsDiffuse(); }))
       .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
@@ -154,7 +151,8 @@ class Planner {
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
-    if (plan_.features.has(Feature::limitedDiffuse)) {
+    if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                    [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {
       plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse));
       plan_.perQueue.back().wants = kMaterialLimitsDiffuse;
     }

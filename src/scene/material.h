@@ -22,6 +22,12 @@
 // so that they never make light: the mirror comes first, and what it leaves is all that passes. The
 // diffuse color gets the rest: with t the part of the transmission that passes, it is multiplied by
 //   (1 - F) * min(1, (1 - m - t) / largest channel of the diffuse color).
+// A glossy lobe that rays sample (--glossy) lies between the mirror and the others: its samples
+// count (1 - F) * (1 - m), and transmission and diffuse color count 1 - G besides (glTF 2.0
+// specification, appendix B: mix(diffuse, specular, F)). G is the mean weight of the very samples
+// that are taken, whose expected value is the lobe's albedo towards the viewer; so the sum is at
+// most 1 at every angle and for every number of samples, and 1 where nothing absorbs. A lobe that
+// is not sampled shows lights only and leaves the diffuse color as it is.
 #pragma once
 
 #include <algorithm>
@@ -100,11 +106,15 @@ struct Material {
   bool diffuses(EffectSet effects) const {
     return effects.has(Effect::indirect) && hasDiffuseReflection();
   }
-  // Mirror or transmission may leave less light than the diffuse color asks for.
-  bool limitsDiffuse() const {
+  // In frames with these effects the lobe is sampled, and takes light from what lies below it.
+  bool scatters(EffectSet effects) const {
+    return effects.has(Effect::glossyReflection) && hasGlossyReflection();
+  }
+  // Mirror, lobe or transmission may leave less light than the diffuse color asks for.
+  bool limitsDiffuse(EffectSet effects) const {
     const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
     const float color = maxComponent(diffuse);
-    return color > 0 && (hasTransmission() || (coat > 0 && coat + color > 1));
+    return color > 0 && (hasTransmission() || scatters(effects) || (coat > 0 && coat + color > 1));
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
@@ -131,29 +141,7 @@ struct Material {
   }
   // Default of castsShadow.
   bool blocksLight() const { return !hasTransmission() && coverage >= 0.5f; }
-  // --cutoff multiplies the weights of impulses that start here by this: 1, or less for materials
-  // whose weights add up to more than 1 in the mean over directions. So the paths of a pixel count
-  // for about 1 together, and a cutoff c leaves about 1/c of them, whatever the materials and the
-  // depth; times the number of samples where a lobe is sampled several times.
-  float impulseShare(EffectSet effects) const;
 };
-
-// Schlick's reflectance, averaged over directions by their cosine to the normal: the mean of
-// (1 - cos)^5 is 1/21.
-inline float meanReflectance(const Rgb& normal, const Rgb& grazing) {
-  return maxComponent(normal * (20.0f / 21) + grazing * (1.0f / 21));
-}
-
-inline float Material::impulseShare(EffectSet effects) const {
-  // Light that is not mirrored is refracted.
-  const float both = hasTransmission() ? 1.0f : meanReflectance(mirror, mirrorGrazing);
-  const bool reflectsByLobe = effects.has(Effect::glossyReflection) && hasGlossyReflection();
-  const Rgb grazing(std::min(1.0f, 25 * maxComponent(specular)));
-  const float lobe = reflectsByLobe ? meanReflectance(specular, grazing) : 0.0f;
-  const float left = std::max(0.0f, 1 - both);  // by the rule above
-  const float scattered = diffuses(effects) ? std::min(maxComponent(diffuse), left) : 0.0f;
-  return 1 / std::max(1.0f, both + lobe + scattered);
-}
 
 inline constexpr float kMinRoughness = 0.03f;
 // A lobe of no more than this alpha reflects the scene by a single impulse.

@@ -18,7 +18,6 @@ namespace whit {
   X(sky, "a sky that is not black")                                       \
   X(glossy, "glossy lobes")                                               \
   X(roughnessMaps, "roughness by a map")                                  \
-  X(limitedDiffuse, "diffuse colors that mirror or transmission limit")   \
   X(coverage, "surfaces that are there in part")                          \
   X(streams, "random numbers along paths")                                \
   X(transmission, "media along rays")                                     \

@@ -24,7 +24,7 @@ struct alignas(64) MaterialRecord {
   std::int32_t emissionMap;
   // impulses
   float mirror[3];
-  float impulseShare;
+  float spare0;
   float grazingMinusMirror[3];
   float spare1;
   float transmission[3];
@@ -47,7 +47,7 @@ inline constexpr std::uint32_t kMaterialVariesRoughness = 1024, kMaterialIsPartl
 inline constexpr std::uint32_t kMaterialMapped = 4096;
 // Under --indirect its diffuse color reflects the scene, in place of ambient light.
 inline constexpr std::uint32_t kMaterialDiffuses = 8192;
-// Material::limitsDiffuse().
+// Material::limitsDiffuse() in such frames.
 inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
 
 // Texels are kept in tiles of kTexelTile a side, a cache line each. A tile holds the kTexelCells x

@@ -32,7 +32,8 @@ struct Tracer::Surface {
   Vec plane, normal;  // unit: of the face, and interpolated
   Vec lift;           // from a triangle to the surface that its vertex normals stand for
   bool smooth = false, entering = false;
-  Material material;  // textures and vertex colors applied
+  Material material;          // textures and vertex colors applied
+  Color belowLobe = gray(1);  // of the light, what samples of the glossy lobe leave
 };
 
 int Tracer::pointsASide(const Branch& branch) {
@@ -222,6 +223,17 @@ Color Tracer::diffuseLeft(const Surface& surface, const Media& before, const Med
   return underCoat(material.diffuse, coat + through) * (1 - interface);
 }
 
+// Mirror and interface come before the glossy lobe.
+Color Tracer::aboveLobe(const Surface& surface, const Media& before, const Media& behind) const {
+  const Material& material = surface.material;
+  const double cosine = std::clamp(dot(surface.toViewer, surface.normal), 0.0, 1.0);
+  const Color left = gray(1) - schlick(material.mirror, material.mirrorGrazing, cosine);
+  if (!material.passesLight()) return left;
+  const double n1 = before.current().ior, n2 = behind.current().ior;
+  return left * (1 - (options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine)
+                                              : fresnel(n1, n2, cosine)));
+}
+
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
   if (branch.weight < kNegligible) return {};
   const Color absorption = branch.media.current().absorption;
@@ -247,14 +259,26 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     there.media = behind;
     return trace({surface.position, ray.direction}, there, random) * left;
   }
-  surface.material.diffuse = diffuseLeft(surface, branch.media, behind);
+  const Sight taken = lobeWeight(surface, there, random);
+  surface.belowLobe = gray(1) - taken.radiance;
+  surface.material.diffuse = diffuseLeft(surface, branch.media, behind) * surface.belowLobe;
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission +
                    surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
+  // What whit takes from the diffuse color varies with its samples, and together with what these
+  // bring: the square of a sum is at most twice the sum of the squares.
+  const auto grows = [](double left) { return 1 / std::max(left, 0.01); };
+  const Color below = surface.belowLobe;
+  Sight varies = taken * (seen.radiance * Color{grows(below.x), grows(below.y), grows(below.z)});
+  varies.radiance = {};
+  varies.variance = varies.variance * gray(2);
+  seen += varies;
   Sight on;
   if (there.depth < options_.depth) {
     on = impulses(surface, there, behind, random);
-    seen += glossyReflection(surface, there, random);
+    Sight sampled = glossyReflection(surface, there, random);
+    sampled.variance = sampled.variance * gray(2);
+    seen += sampled * aboveLobe(surface, branch.media, behind);
   }
   seen = seen * gray(surface.material.coverage) + on;
   seen = seen * left;
@@ -359,7 +383,8 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
     reflectance += (gray(1) - coat) * interface * there + gray(interface) * (1 - there);
     if (interface < 1) {
       const Vec on = refracted(direction, surface.normal, n1, n2);
-      const Color through = underCoat(material.transmission, coat) * there + gray(1 - there);
+      const Color through =
+          underCoat(material.transmission, coat) * surface.belowLobe * there + gray(1 - there);
       const Color passed = through * (1 - interface);
       sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
@@ -370,6 +395,27 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
     sum += follow(surface, branch, {back, reflectance, branch.media, height}, random);
   }
   return sum;
+}
+
+// The mean weight of the samples of the glossy lobe: its albedo towards the viewer.
+Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& random) const {
+  const Material& material = surface.material;
+  const double nv = dot(surface.normal, surface.toViewer);
+  if (options_.glossy == 0 || !material.reflectsGlossily() || nv < kSkimming) return {};
+  if (material.roughness * material.roughness <= kSmooth) {
+    return {.radiance = lobeReflectance(material, nv)};
+  }
+  Integral integral;
+  forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
+    const Vec facet = facetSeen(material, surface.normal, surface.toViewer, u, v);
+    const Vec toLight = mirrored(-surface.toViewer, facet);
+    const double nh = dot(surface.normal, facet), nl = dot(surface.normal, toLight);
+    if (!(dot(surface.toViewer, facet) > 0) || !(nl > 0)) return integral.addNothing();
+    const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
+    const Color lobe = glossyLobe(material, surface.normal, surface.toViewer, toLight);
+    integral.add({.radiance = gray(1)}, lobe * (nl / density), 1);
+  });
+  return integral.mean(branch.depth == 0 ? options_.glossy : 1);
 }
 
 // By the facets that are seen, as whit samples them; what they reflect has the density

@@ -51,6 +51,8 @@ class Tracer {
                         Random& random) const;
   bool lit(const Surface& surface, const Arrival& arrival) const;
   Color diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const;
+  Color aboveLobe(const Surface& surface, const Media& before, const Media& behind) const;
+  Sight lobeWeight(const Surface& surface, const Branch& branch, Random& random) const;
   Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
                  Random& random) const;
   Sight follow(const Surface& surface, const Branch& branch, const Impulse& impulse,

@@ -9,37 +9,9 @@
 namespace whit::test {
 namespace {
 
-TEST(ImpulseShare, IsOneWhereTheWeightsAddUpToNoMore) {
-  Material m;
-  EXPECT_EQ(m.impulseShare({}), 1.0f) << "diffuse";
-  m.mirror = m.mirrorGrazing = Rgb(0.9f);
-  EXPECT_EQ(m.impulseShare({}), 1.0f) << "mirror";
-  m.transmission = Rgb(1.0f);
-  EXPECT_EQ(m.impulseShare({}), 1.0f) << "a mirror coat on glass takes its share from the glass";
-  m.mirror = m.mirrorGrazing = Rgb(0);
-  EXPECT_EQ(m.impulseShare({}), 1.0f) << "glass: Fresnel's shares add up to 1";
-}
-
-// A lobe that no ray samples takes nothing, and one that is strong at grazing incidence only takes
-// little: in a closed room each surface would lose that share of the light at every bounce.
-TEST(ImpulseShare, CountsLobesThatAreSampledByTheirMean) {
-  Material m = diffuseMaterial(0.9f);
-  m.specular = Rgb(0.04f);
-  const EffectSet indirect = EffectSet().with(Effect::indirect);
-  EXPECT_EQ(m.impulseShare(indirect), 1.0f);
-  EXPECT_EQ(m.impulseShare(indirect.with(Effect::glossyReflection)), 1.0f);
-  m.mirrorGrazing = Rgb(1.0f);
-  m.specular = Rgb(0);
-  EXPECT_EQ(m.impulseShare(indirect), 1.0f);
-  m.mirror = Rgb(0.5f);
-  EXPECT_EQ(m.impulseShare(indirect), 1.0f) << "the diffuse color gets what the mirror leaves";
-  m.specular = Rgb(0.9f);
-  EXPECT_LT(m.impulseShare(indirect.with(Effect::glossyReflection)), 0.8f) << "lobe and color";
-}
-
 // A closed room that emits 1 - a and reflects a has the radiance 1 everywhere, to what the depth
 // cuts off. The default cutoff must not take more, though the material has a lobe for lights.
-TEST(ImpulseShare, ClosedRoomsKeepTheirLight) {
+TEST(Cutoff, ClosedRoomsKeepTheirLight) {
   for (const float albedo : {0.5f, 0.8f, 0.9f}) {
     SceneBuilder builder;
     Material wall = diffuseMaterial(albedo);
@@ -101,7 +73,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
 
 // Twenty faces that reflect 0.9 and pass the rest on. Without a cutoff, impulses would double at
 // every one of them: up to 2^16 a pixel at this depth, and 2^64 at the default one.
-TEST(ImpulseShare, RaysOfCoatedGlassAreBounded) {
+TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   SceneBuilder builder;
   Material coated = diffuseMaterial(0);
   coated.transmission = Rgb(1.0f);

@@ -96,9 +96,7 @@ void Probe::hit(std::size_t i, std::uint32_t triangle, float t, float u, float v
   hits_->v[i] = v;
 }
 
-void Probe::run(const simd::Kernel& kernel) {
-  kernel.find()(chunk_);
-}
+void Probe::run(const simd::Kernel& kernel) { kernel.find()(chunk_); }
 
 void Probe::interpolate() {
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);

@@ -24,8 +24,8 @@ struct GltfMeans {
 inline constexpr float kGltfSmoothRoughness = 0.25f;
 
 // The Material, without its maps:
-// - diffuse is the base color of what is neither metal nor transmission. It is not reduced by what
-//   the surface reflects specularly.
+// - diffuse is the base color of what is neither metal nor transmission. Mirror and sampled lobes
+//   reduce it by what they reflect (scene/material.h).
 // - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
 //   color of metal, texel by texel, as are strength and color of KHR_materials_specular, and the
 //   roughness.
