@@ -90,7 +90,7 @@ mutations() {
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
     'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
   plant shadow-ray-too-long simd/light-inl.h \
-    'return hn::Set(d, kShadowReach)' 'return hn::Set(d, kShadowReach + 0x1p-10f)'
+    'infinity() : kShadowReach)' 'infinity() : kShadowReach + 0x1p-10f)'
   plant light-without-radius simd/light-inl.h \
     'hn::Max(distanceSquared, radiusSquared_)' \
     'distanceSquared'
@@ -130,7 +130,7 @@ mutations() {
   plant bad-rays-traced simd/packets-inl.h \
     'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
-    'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene, *accel_)'
+    'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'
   plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
   plant sphere-in-floats simd/meet_sphere.cpp \

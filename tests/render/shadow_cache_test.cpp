@@ -16,6 +16,7 @@
 #include "render/shipped_scene.h"
 #include "shadow_cache/caster.h"
 #include "simd/kernels.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
@@ -231,6 +232,64 @@ TEST(ShadowCache, H87_farReceiversFarCastersAndLightsInside) {
     const float scale = seed % 2 == 0 ? 1 : 0x1p-9f;
     expectRight(soup.finish({3, 2, 4}, {0, 0.5f, 0}, seed % 2 == 0 ? moved : Vec3f{}, scale),
                 soupOptions());
+  }
+}
+
+// A scene of one of ten kinds.
+Scene randomScene(unsigned kind, unsigned seed) {
+  Soup soup(1000 * kind + seed);
+  const Vec3f light = soup.inside(1.5f) + Vec3f{0, 3, 0};
+  const auto triangle = [&](const Vec3f& a, float size) {
+    soup.add(a, a + soup.inside(size), a + soup.inside(size));
+  };
+  const auto above = [&] { return soup.inside(2) + Vec3f{0, 2.1f, 0}; };
+  if (kind != 7) soup.addFloor(0, 3);
+  for (int i = 0; kind == 0 && i < 40; ++i) triangle(above(), 1);
+  for (int i = 0; kind == 1 && i < 30; ++i) {  // needles that point at the light
+    const Vec3f a = above(), thin = soup.inside(std::exp2(soup.uniform(-20, -4)));
+    soup.add(a, a + (light - a) * soup.uniform(0.1f, 0.9f), a + thin);
+  }
+  for (int i = 0; kind == 2 && i < 300; ++i) triangle(above(), std::exp2(soup.uniform(-12, -6)));
+  if (kind == 3) {  // masks, of which one half of the triangles has holes
+    Material& gray = soup.description.materials[0];
+    gray.alphaMap = 0;
+    soup.description.textures = {makeTexture(
+        TexelFormat::data, 2, 1, {encodeDataTexel(1, 1, 1, 1), encodeDataTexel(0, 0, 0, 0)})};
+    for (int i = 0; i < 30; ++i) triangle(above(), 1);
+    for (std::size_t i = 0; i < soup.mesh.positions.size(); ++i) {
+      soup.mesh.uvs.push_back({i < 6 ? 0.25f : soup.uniform(0, 1), 0.5f});
+    }
+  }
+  for (int i = 0; (kind == 4 || kind == 8) && i < 20; ++i) {  // coplanar sheets, and stacks of them
+    const float height = kind == 4 ? 1 : 1 + static_cast<float>(i) * 0x1p-20f;
+    soup.addSquare({soup.uniform(-2, 1), height, soup.uniform(-2, 1)}, {0, 0, 1}, {1, 0, 0});
+  }
+  for (int i = 0; kind == 5 && i < 30; ++i) triangle(above(), 1);
+  for (int i = 0; kind == 6 && i < 30; ++i) {  // planes through the light
+    const Vec3f a = above(), b = a + soup.inside(1);
+    soup.add(a, b, a + (light - b) * soup.uniform(-0.4f, 0.4f) + (b - a) * soup.uniform(0, 1));
+  }
+  for (unsigned i = 0; kind == 7 && i < 2 + seed % 8; ++i) triangle(soup.inside(2), 4);
+  if (kind == 9) {  // huge tilted ground and small casters
+    for (int i = 0; i < 3; ++i) {
+      const float size = std::pow(10.0f, soup.uniform(1, 4));
+      triangle(soup.inside(size / 2), size);
+    }
+    for (int i = 0; i < 20; ++i) triangle(above(), std::exp2(soup.uniform(-6, 0)));
+  }
+  soup.light(light);
+  if (seed % 3 == 0) soup.light(normalized(soup.inside(1) + Vec3f{0, 1.2f, 0}), true);
+  return soup.finish({2, 4, 3}, {0, 0.5f, 0}, kind == 5 ? Vec3f{1e5f, -1e5f, 3e4f} : Vec3f{});
+}
+
+TEST(ShadowCache, H88_randomScenesOfTenKinds) {
+  RenderOptions options = soupOptions();
+  options.size = ImageSize{32, 24};
+  for (unsigned kind = 0; kind < 10; ++kind) {
+    for (unsigned seed = 0; seed < 30; ++seed) {
+      SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
+      expectRight(randomScene(kind, seed), options);
+    }
   }
 }
 
