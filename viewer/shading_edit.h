@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/app/open_scene.h"
-#include "io/scene/json_text.h"
+#include "io/json_reader.h"
 
 namespace whit::view {
 

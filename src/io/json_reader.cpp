@@ -4,14 +4,22 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <unordered_set>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "io/read_file.h"
 
 namespace whit {
 namespace {
 
 std::string inQuotes(const std::string& text) { return "\"" + text + "\""; }
+
+// A pointer may be as long as a file's longest key.
+std::string placeInJson(const std::string& file, const std::string& pointer) {
+  constexpr std::size_t kShown = 300;
+  return file + "#" + (pointer.size() > kShown ? pointer.substr(0, kShown) + "..." : pointer);
+}
 
 std::string printed(double x) {
   char buffer[32];
@@ -31,29 +39,151 @@ std::string rangeText(double low, double high) {
   return "a number from " + printed(low) + " to " + printed(high);
 }
 
+using Event = Json::parse_event_t;
+
+// Refuses texts that the parser itself would accept: repeated keys, deep nesting, too many members.
+class Watcher {
+ public:
+  explicit Watcher(std::string file) : file_(std::move(file)) {}
+
+  bool operator()(int, Event event, Json& parsed) {
+    switch (event) {
+      case Event::object_start:
+      case Event::array_start:
+        push(event == Event::array_start);
+        break;
+      case Event::object_end:
+      case Event::array_end:
+        levels_.pop_back();
+        valueEnds();
+        break;
+      case Event::key:
+        key(parsed.get<std::string>());
+        break;
+      case Event::value:
+        valueEnds();
+        break;
+    }
+    return true;
+  }
+
+  // The value that is being parsed, as file#/pointer.
+  std::string where() const {
+    std::string pointer;
+    for (const Level& level : levels_) {
+      pointer += '/' + (level.isArray ? std::to_string(level.index) : escapePointer(level.key));
+    }
+    return placeInJson(file_, pointer);
+  }
+
+ private:
+  struct Level {
+    bool isArray = false;
+    std::size_t index = 0;  // arrays
+    std::string key;        // objects
+    std::unordered_set<std::string> keys;
+  };
+
+  void push(bool isArray) {
+    if (levels_.size() >= kJsonDepthLimit) {
+      throwBadScene(where(), "nested deeper than " + std::to_string(kJsonDepthLimit) + " levels");
+    }
+    levels_.emplace_back();
+    levels_.back().isArray = isArray;
+  }
+  void valueEnds() {
+    if (!levels_.empty()) ++levels_.back().index;
+  }
+  void key(const std::string& name) {
+    Level& level = levels_.back();
+    level.key = name;
+    if (!level.keys.insert(name).second) throwBadScene(where(), "this key is given twice");
+    if (level.keys.size() > kJsonMembersLimit) {
+      throwBadScene(where(), "more than " + std::to_string(kJsonMembersLimit) + " members");
+    }
+  }
+
+  std::string file_;
+  std::vector<Level> levels_;
+};
+
+std::string placeOfByte(const std::string& text, const std::string& file, std::size_t byte) {
+  const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const std::size_t lineStart = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+  const std::size_t column = lineStart == std::string::npos ? end + 1 : end - lineStart;
+  return file + ":" + std::to_string(line + 1) + ":" + std::to_string(column);
+}
+
+// Without the library's own "[json.exception...] parse error at line ...: ", and only the end of
+// the text that it quotes.
+std::string reason(std::string message) {
+  constexpr std::string_view kQuoted = "last read: '";
+  constexpr std::size_t kShown = 60;
+  const std::size_t column = message.find(", column ");
+  const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
+  if (colon != std::string::npos) message.erase(0, colon + 2);
+  const std::size_t quote = message.find(kQuoted);
+  if (quote == std::string::npos || message.size() - quote < 2 * kShown) return message;
+  const std::size_t first = quote + kQuoted.size();
+  return message.replace(first, message.size() - first - kShown, "...");
+}
+
 }  // namespace
 
-void JsonValue::fail(const std::string& expected) const {
-  throwBadScene(where(), "expected " + expected + ", found " + found());
+Json parseJson(const std::string& text, const std::string& file) {
+  Watcher watcher(file);
+  const auto watch = [&](int depth, Event event, Json& parsed) {
+    return watcher(depth, event, parsed);
+  };
+  try {
+    return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
+  } catch (const Json::parse_error& error) {
+    throwBadScene(placeOfByte(text, file, error.byte), reason(error.what()));
+  } catch (const Json::out_of_range&) {  // thrown by the parser for such a number alone
+    throwBadScene(watcher.where(), "expected a number that a double can hold");
+  }
+}
+
+std::string escapePointer(const std::string& token) {
+  std::string result;
+  for (const char c : token) {
+    if (c == '~') {
+      result += "~0";
+    } else if (c == '/') {
+      result += "~1";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string JsonValue::where() const { return placeInJson(document_->file, pointer_); }
+
+void JsonValue::fail(const std::string& expected, std::string found) const {
+  if (found.empty()) found = this->found();
+  throwBadScene(where(), "expected " + expected + ", found " + found);
 }
 
 std::string JsonValue::found() const {
-  constexpr std::size_t kShown = 60;
+  if (!exists()) return "nothing";
   if (isObject() || isArray()) {
     return std::string(isObject() ? "an object" : "a list") + " of " +
            std::to_string(value_->size());
   }
-  std::string text = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > kShown) text = text.substr(0, kShown) + "...";
-  return text;
+  return excerpt(value_->dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-JsonValue JsonValue::child(const Json& value, const std::string& token) const {
-  return {*document_, value, pointer_ + "/" + escapePointer(token)};
+JsonValue JsonValue::child(const Json* value, const std::string& token) const {
+  JsonValue result = *this;
+  result.value_ = value;
+  result.pointer_ += "/" + escapePointer(token);
+  return result;
 }
 
 bool JsonValue::isNumber() const {
-  return value_->is_number() || (isText() && text().starts_with("$"));
+  return exists() && (value_->is_number() || (isText() && text().starts_with("$")));
 }
 
 // "$name", "$name*0.5", "$name/2".
@@ -99,7 +229,7 @@ int JsonValue::integer(int low, int high) const {
 }
 
 bool JsonValue::flag() const {
-  if (!value_->is_boolean()) fail("true or false");
+  if (!exists() || !value_->is_boolean()) fail("true or false");
   return value_->get<bool>();
 }
 
@@ -136,7 +266,7 @@ std::vector<JsonValue> JsonValue::elements() const {
   std::vector<JsonValue> result;
   result.reserve(value_->size());
   for (std::size_t i = 0; i < value_->size(); ++i) {
-    result.push_back(child((*value_)[i], std::to_string(i)));
+    result.push_back(child(&(*value_)[i], std::to_string(i)));
   }
   return result;
 }
@@ -149,8 +279,74 @@ std::vector<JsonValue> JsonValue::elements(std::size_t count, const std::string&
 std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
   if (!isObject()) fail("an object");
   std::vector<std::pair<std::string, JsonValue>> result;
-  for (const auto& [key, value] : value_->items()) result.emplace_back(key, child(value, key));
+  for (const auto& [key, value] : value_->items()) result.emplace_back(key, child(&value, key));
   return result;
+}
+
+JsonValue JsonValue::operator[](const std::string& name) const {
+  if (exists() && !isObject()) fail("an object");
+  const Json* value = nullptr;
+  if (exists() && value_->contains(name)) value = &(*value_)[name];
+  return child(value, name);
+}
+
+JsonValue JsonValue::need(const std::string& name) const {
+  JsonValue member = (*this)[name];
+  if (!member.exists()) throwBadScene(where(), "expected a member " + inQuotes(name));
+  return member;
+}
+
+std::size_t JsonValue::size() const {
+  if (exists() && !isArray()) fail("a list");
+  return exists() ? value_->size() : 0;
+}
+
+JsonValue JsonValue::operator[](std::size_t i) const {
+  return child(i < size() ? &(*value_)[i] : nullptr, std::to_string(i));
+}
+
+double JsonValue::numberOr(double fallback) const {
+  if (!exists()) return fallback;
+  if (!value_->is_number()) fail("a number");
+  return value_->get<double>();
+}
+
+std::optional<std::uint64_t> JsonValue::whole() const {
+  if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
+  const double number = value_->is_number() ? value_->get<double>() : -1;
+  const bool fits = number >= 0 && number <= static_cast<double>(kLargestJsonWhole) &&
+                    number == std::floor(number);
+  return fits ? std::optional(static_cast<std::uint64_t>(number)) : std::nullopt;
+}
+
+std::uint64_t JsonValue::wholeOr(std::uint64_t fallback, std::uint64_t limit) const {
+  if (!exists()) return fallback;
+  const std::optional<std::uint64_t> number = whole();
+  if (!number || *number > limit) fail("a whole number from 0 to " + std::to_string(limit));
+  return *number;
+}
+
+std::vector<double> JsonValue::numbers() const {
+  std::vector<double> all(size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = (*this)[i].numberOr(0);
+  return all;
+}
+
+std::vector<double> JsonValue::numbers(std::size_t count) const {
+  if (!exists()) return {};
+  if (!isArray() || size() != count) fail(std::to_string(count) + " numbers");
+  return numbers();
+}
+
+std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
+  if (!exists()) return std::nullopt;
+  const std::size_t size = list.size();
+  const std::string expected =
+      "an index into " + list.pointer_.substr(list.pointer_.rfind('/') + 1);
+  if (size == 0) fail(expected + ", which has no elements");
+  const std::optional<std::uint64_t> number = whole();
+  if (!number || *number >= size) fail(expected + ", from 0 to " + std::to_string(size - 1));
+  return static_cast<std::size_t>(*number);
 }
 
 JsonObject::JsonObject(const JsonValue& value) : value_(value) {
@@ -161,7 +357,7 @@ std::optional<JsonValue> JsonObject::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   const auto member = value_.value_->find(key);
   if (member == value_.value_->end()) return std::nullopt;
-  return value_.child(*member, key);
+  return value_.child(&*member, key);
 }
 
 JsonValue JsonObject::need(const std::string& key) {

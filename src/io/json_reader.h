@@ -1,20 +1,38 @@
-// Reading a parsed JSON file: every value knows its place in the file, every object knows which of
-// its keys were asked for, so that errors name the place and misspelt keys do not go unnoticed.
+// Parses and reads JSON files. Every value knows its place in the file, so that errors name it, and
+// a JsonObject knows which of its keys were read, so that misspelt keys do not go unnoticed.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/nearest_name.h"
 #include "core/vec3.h"
-#include "io/scene/json_text.h"
 #include "scene/members.h"
 
 namespace whit {
+
+using Json = nlohmann::ordered_json;  // members keep the file's order
+
+inline constexpr int kJsonDepthLimit = 64;
+inline constexpr std::size_t kJsonMembersLimit = 4096;  // members are looked up one by one
+inline constexpr std::uint64_t kJsonBytesLimit = 16u << 20;
+// Whole numbers up to this are exact in JSON.
+inline constexpr std::uint64_t kLargestJsonWhole = std::uint64_t{1} << 53;
+
+// Comments are allowed. Throws badScene with "file:line:column" for a syntax error, with
+// "file#/pointer" for a key that is given twice, nesting deeper than kJsonDepthLimit or a number
+// beyond double.
+Json parseJson(const std::string& text, const std::string& file);
+
+// `token` as a part of a JSON pointer (RFC 6901, section 3).
+std::string escapePointer(const std::string& token);
 
 // The data that all values of one file share. Numbers may be written "$name", "$name*0.5" or
 // "$name/2", with a parameter's name.
@@ -24,6 +42,8 @@ struct JsonDocument {  // NOLINT(bugprone-exception-escape): moving Json does no
   std::map<std::string, double> parameters;
 };
 
+// A member or element that the file does not have is a value that does not exist. It has no members
+// and no elements; the functions with "Or" return their fallback for it, all others fail.
 class JsonValue {
  public:
   explicit JsonValue(const JsonDocument& document) : JsonValue(document, document.root, "") {}
@@ -31,13 +51,15 @@ class JsonValue {
       : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
 
   const std::string& pointer() const { return pointer_; }  // into the file, RFC 6901
-  std::string where() const { return document_->file + "#" + pointer_; }
-  [[noreturn]] void fail(const std::string& expected) const;
+  std::string where() const;                               // for errors: "file#/json/pointer"
+  // Without `found`, the error says what the value is.
+  [[noreturn]] void fail(const std::string& expected, std::string found = "") const;
 
-  bool isObject() const { return value_->is_object(); }
-  bool isArray() const { return value_->is_array(); }
-  bool isNull() const { return value_->is_null(); }
-  bool isText() const { return value_->is_string(); }
+  bool exists() const { return value_ != nullptr; }
+  bool isObject() const { return exists() && value_->is_object(); }
+  bool isArray() const { return exists() && value_->is_array(); }
+  bool isNull() const { return exists() && value_->is_null(); }
+  bool isText() const { return exists() && value_->is_string(); }
   bool isNumber() const;  // a number, or a string that stands for one
 
   // Each of these fails unless the value is of that kind and in the (closed) range.
@@ -54,14 +76,30 @@ class JsonValue {
   // Members in the file's order.
   std::vector<std::pair<std::string, JsonValue>> members() const;
 
+  JsonValue operator[](const std::string& name) const;
+  JsonValue operator[](std::size_t i) const;
+  JsonValue need(const std::string& name) const;  // fails where the member is missing
+  std::size_t size() const;                       // of a list
+  double numberOr(double fallback) const;
+  // Accepts 1e0 and 1.0 as well as 1.
+  std::uint64_t wholeOr(std::uint64_t fallback, std::uint64_t limit = kLargestJsonWhole) const;
+  bool flagOr(bool fallback) const { return exists() ? flag() : fallback; }
+  std::string textOr(const char* fallback) const { return exists() ? text() : fallback; }
+  // Empty where the list does not exist.
+  std::vector<double> numbers() const;
+  std::vector<double> numbers(std::size_t count) const;
+  // The value as an index into `list`; none where it does not exist.
+  std::optional<std::size_t> indexInto(const JsonValue& list) const;
+
  private:
   friend class JsonObject;
-  JsonValue child(const Json& value, const std::string& token) const;
+  JsonValue child(const Json* value, const std::string& token) const;
+  std::optional<std::uint64_t> whole() const;
   double expression(const std::string& text) const;
   std::string found() const;
 
   const JsonDocument* document_;
-  const Json* value_;
+  const Json* value_;  // null where it does not exist
   std::string pointer_;
 };
 

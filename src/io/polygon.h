@@ -1,8 +1,9 @@
-// Polygons in space, cut into triangles.
+// Polygons in space, and strips and fans of triangles, as triangles.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/vec3.h"
@@ -19,5 +20,21 @@ inline constexpr std::size_t kEarCornerLimit = 512;
 // polygon) and a fan was made instead.
 bool triangulate(const std::vector<Vec3d>& corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
+
+using CornerTriple = std::array<std::uint32_t, 3>;
+
+// Strips and fans join their parts by triangles that have a corner twice: nothing is to be seen of
+// those.
+inline void addJoined(const CornerTriple& corners, std::vector<CornerTriple>& to) {
+  const auto& [a, b, c] = corners;
+  if (a != b && b != c && c != a) to.push_back(corners);
+}
+
+// Every other triangle the other way round, so that all face the same side.
+inline void addStrip(std::span<const std::uint32_t> corners, std::vector<CornerTriple>& to) {
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    addJoined({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]}, to);
+  }
+}
 
 }  // namespace whit

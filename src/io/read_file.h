@@ -16,6 +16,12 @@ std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxByt
 // Reads at most `bytes` bytes of the file.
 std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);
 
+// The beginning of a text that an error quotes.
+inline std::string excerpt(const std::string& text) {
+  constexpr std::size_t kShown = 60;
+  return text.size() > kShown ? text.substr(0, kShown) + "..." : text;
+}
+
 inline std::span<const std::uint8_t> asBytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "io/scene/json_text.h"
+#include "io/json_reader.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
 

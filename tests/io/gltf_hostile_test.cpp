@@ -36,20 +36,20 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "#/accessors/0: expected at most 3 elements, as many as fit into buffer view 0, found "
        "9007199254740992"},
       {"\"count\":3", "\"count\":-1",
-       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992"},
+       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992, found -1"},
       {"\"count\":3", "\"count\":1e300",
-       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992"},
+       "#/accessors/0/count: expected a whole number from 0 to 9007199254740992, found 1e+300"},
       {"\"count\":3", "\"byteOffset\":1,\"count\":3",
        "#/accessors/0: expected at most 2 elements, as many as fit into buffer view 0, found 3"},
       {"\"count\":3", "\"byteOffset\":9007199254740992,\"count\":3",
        "#/accessors/0: expected at most 0 elements, as many as fit into buffer view 0, found 3"},
       {"{\"bufferView\":0,", "{\"bufferView\":7,",
-       "#/accessors/0/bufferView: expected an index into bufferViews, from 0 to 1"},
+       "#/accessors/0/bufferView: expected an index into bufferViews, from 0 to 1, found 7"},
       {"\"componentType\":5126", "\"componentType\":5124",
-       "#/accessors/0/componentType: expected 5120 to 5123, 5125 or 5126"},
-      {"\"VEC3\"", "\"VEC2\"", "#/accessors/0/type: expected VEC3"},
+       "#/accessors/0/componentType: expected 5120 to 5123, 5125 or 5126, found 5124"},
+      {"\"VEC3\"", "\"VEC2\"", "#/accessors/0/type: expected VEC3, found \"VEC2\""},
       {"5123,\"type\":\"SCALAR\"", "5122,\"type\":\"SCALAR\"",
-       "#/accessors/1/componentType: expected 5121, 5123 or 5125"},
+       "#/accessors/1/componentType: expected 5121, 5123 or 5125, found 5122"},
       {"\"byteLength\":36}", "\"byteLength\":360}",
        "#/bufferViews/0: expected a range within the buffer's 42 bytes, found 360 from byte 0"},
       {"\"byteOffset\":36", "\"byteOffset\":9007199254740992",
@@ -57,22 +57,26 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "9007199254740992"},
       {"\"byteLength\":36}", "\"byteLength\":36,\"byteStride\":8}",
        "#/bufferViews/0/byteStride: expected at least the 12 bytes of an element of "
-       "m.gltf#/accessors/0"},
+       "m.gltf#/accessors/0, found 8"},
       {"\"byteLength\":42", "\"byteLength\":43",
        "#/buffers/0/byteLength: expected 43 bytes of data, found 42"},
       {"\"material\":0", "\"material\":1",
-       "#/meshes/0/primitives/0/material: expected an index into materials, from 0 to 0"},
+       "#/meshes/0/primitives/0/material: expected an index into materials, from 0 to 0, found 1"},
       {"\"POSITION\":0", "\"POSITION\":\"0\"",
        "#/meshes/0/primitives/0/attributes/POSITION: expected an index into accessors, from 0 to "
-       "1"},
-      {"\"POSITION\":0", "\"POSITION\":0,\"NORMAL\":1", "#/accessors/1/type: expected VEC3"},
-      {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1,2]}", "#/nodes/0/scale: expected 3 numbers"},
-      {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1]}", "#/nodes/0/matrix: expected 16 numbers"},
+       "1, found \"0\""},
+      {"\"POSITION\":0", "\"POSITION\":0,\"NORMAL\":1",
+       "#/accessors/1/type: expected VEC3, found \"SCALAR\""},
+      {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1,2]}",
+       "#/nodes/0/scale: expected 3 numbers, found a list of 2"},
+      {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1]}",
+       "#/nodes/0/matrix: expected 16 numbers, found a list of 1"},
       {"[1,1,1,1]", "[1,1,1]",
-       "#/materials/0/pbrMetallicRoughness/baseColorFactor: expected 4 numbers"},
-      {"{\"mesh\":0}", "{\"mesh\":0},7", "#/nodes/1: expected an object"},
-      {"\"scene\":0", "\"scene\":3", "#/scene: expected an index into scenes, from 0 to 0"},
-      {"\"nodes\":[0]", "\"nodes\":0", "#/scenes/0/nodes: expected a list"},
+       "#/materials/0/pbrMetallicRoughness/baseColorFactor: expected 4 numbers, found a list of 3"},
+      {"{\"mesh\":0}", "{\"mesh\":0},7", "#/nodes/1: expected an object, found 7"},
+      {"\"scene\":0", "\"scene\":3",
+       "#/scene: expected an index into scenes, from 0 to 0, found 3"},
+      {"\"nodes\":[0]", "\"nodes\":0", "#/scenes/0/nodes: expected a list, found 0"},
       {"\"scene\":0", "\"scene\":0,\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
        "#/extensionsRequired/0: the file cannot be shown without KHR_draco_mesh_compression, which "
        "is not supported"},
@@ -101,10 +105,12 @@ TEST_F(GltfHostile, ListsMayBeMissing) {
   const std::string text = b.json(
       "\"textures\":[{\"source\":0}],\"materials\":["
       "{\"normalTexture\":{\"index\":0}}]");
-  EXPECT_EQ(errorOfText(text),
-            "3 m.gltf#/textures/0/source: expected an index into images, which has no elements");
-  EXPECT_EQ(errorOfText(b.json("\"nodes\":[{\"mesh\":0}]")),
-            "3 m.gltf#/nodes/0/mesh: expected an index into meshes, which has no elements");
+  EXPECT_EQ(
+      errorOfText(text),
+      "3 m.gltf#/textures/0/source: expected an index into images, which has no elements, found 0");
+  EXPECT_EQ(
+      errorOfText(b.json("\"nodes\":[{\"mesh\":0}]")),
+      "3 m.gltf#/nodes/0/mesh: expected an index into meshes, which has no elements, found 0");
 }
 
 TEST_F(GltfHostile, NodesThatAreNoTree) {
@@ -113,13 +119,13 @@ TEST_F(GltfHostile, NodesThatAreNoTree) {
                        ",\"scenes\":[{\"nodes\":" + scene + "}]}");
   };
   EXPECT_EQ(error("[{\"children\":[0]}]", "[0]"),
-            "3 m.gltf#/nodes/0: expected a tree: every node has a parent");
+            "3 m.gltf#/nodes/0: expected a tree, found a parent of every node");
   EXPECT_EQ(error("[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "[0]"),
-            "3 m.gltf#/nodes/2/children: expected a tree: node 1 has two parents");
+            "3 m.gltf#/nodes/2/children: expected a tree, found node 1 with two parents");
   EXPECT_EQ(error("[{},{\"children\":[2]},{\"children\":[1]}]", "[1]"),
-            "3 m.gltf#/nodes/1: expected a tree: this node is reached twice");
+            "3 m.gltf#/nodes/1: expected a tree, found a second way to this node");
   EXPECT_EQ(error("[{}]", "[0,0]"),
-            "3 m.gltf#/nodes/0: expected a tree: this node is reached twice");
+            "3 m.gltf#/nodes/0: expected a tree, found a second way to this node");
   std::string chain;
   for (int i = 1; i <= 400; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
   EXPECT_EQ(error("[" + chain + "{}]", "[0]"), "3 m.gltf#/nodes/257: nested deeper than 256 nodes");
@@ -146,7 +152,7 @@ TEST_F(GltfHostile, SparseIndicesOutOfRange) {
       "3 m.gltf#/accessors/0/sparse/indices: expected at most 1 elements, as many as fit into "
       "buffer view 0, found 2");
   EXPECT_EQ(errorOfText(file(1, 3000000000)),
-            "3 m.gltf#/accessors/0: expected a buffer view for 3000000000 elements");
+            "3 m.gltf#/accessors/0: expected a buffer view for 3000000000 elements, found none");
 }
 
 TEST_F(GltfHostile, BrokenContainers) {

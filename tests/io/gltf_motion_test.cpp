@@ -148,11 +148,12 @@ TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
     return errorOf([&] { at(0, text); });
   };
   EXPECT_EQ(errorAt({0, 0}, {0, 0, 0, 1, 0, 0}),
-            place + "input: expected times that increase: number 1 does not");
+            place + "input: expected times that increase, found a number 1 that does not");
   EXPECT_EQ(errorAt({0, kNone}, {0, 0, 0, 1, 0, 0}),
-            place + "input: expected times that increase: number 1 does not");
+            place + "input: expected times that increase, found a number 1 that does not");
   EXPECT_EQ(errorAt({0, 1}, {0, 0, 0}), place + "output: expected 6 numbers for 2 times, found 3");
-  EXPECT_EQ(errorAt({0, 1}, {0, 0, 0, kNone, 0, 0}), place + "output: expected finite numbers");
+  EXPECT_EQ(errorAt({0, 1}, {0, 0, 0, kNone, 0, 0}),
+            place + "output: expected finite numbers, found one that is not");
 }
 
 TEST_F(GltfMotion, BrokenChannelsAreRefused) {
@@ -164,12 +165,13 @@ TEST_F(GltfMotion, BrokenChannelsAreRefused) {
   };
   const std::string place = "3 m.gltf#/animations/0/";
   EXPECT_EQ(errorWith("\"sampler\":0", "\"sampler\":1"),
-            place + "channels/0/sampler: expected an index into samplers, from 0 to 0");
+            place + "channels/0/sampler: expected an index into samplers, from 0 to 0, found 1");
   EXPECT_EQ(errorWith("\"input\":0", "\"input\":\"x\""),
-            place + "samplers/0/input: expected an index into accessors, from 0 to 2");
+            place + "samplers/0/input: expected an index into accessors, from 0 to 2, found \"x\"");
   EXPECT_EQ(errorWith("\"output\":1", "\"output\":1,\"interpolation\":\"CUBICSPLINE\""),
             place + "samplers/0/output: expected 18 numbers for 2 times, found 6");
-  EXPECT_EQ(errorWith("\"SCALAR\"", "\"LIST\""), "3 m.gltf#/accessors/0/type: expected SCALAR");
+  EXPECT_EQ(errorWith("\"SCALAR\"", "\"LIST\""),
+            "3 m.gltf#/accessors/0/type: expected SCALAR, found \"LIST\"");
   // Channels of KHR_animation_pointer are left out, with or without their pointer.
   EXPECT_EQ(errorWith("\"node\":0,\"path\":\"translation\"",
                       "\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{}}"),
@@ -328,11 +330,12 @@ TEST_F(GltfSkin, BrokenSkinsAreRefused) {
   };
   const Case cases[] = {
       {"\"joints\":[1,2]", "\"joints\":[1,7]",
-       "#/skins/0/joints/1: expected an index into nodes, from 0 to 2"},
-      {"\"joints\":[1,2]", "\"joints\":[]", "#/skins/0/joints: expected at least one joint"},
-      {"\"joints\":[1,2]", "\"joints\":5", "#/skins/0/joints: expected a list"},
+       "#/skins/0/joints/1: expected an index into nodes, from 0 to 2, found 7"},
+      {"\"joints\":[1,2]", "\"joints\":[]",
+       "#/skins/0/joints: expected at least one joint, found a list of 0"},
+      {"\"joints\":[1,2]", "\"joints\":5", "#/skins/0/joints: expected a list, found 5"},
       {"\"inverseBindMatrices\":3", "\"inverseBindMatrices\":0",
-       "#/accessors/0/type: expected MAT4"},
+       "#/accessors/0/type: expected MAT4, found \"VEC3\""},
       {"\"joints\":[1,2]", "\"joints\":[1,2,1]",
        "#/skins/0/inverseBindMatrices: expected a matrix for each of 3 joints, found 2"},
   };

@@ -15,11 +15,12 @@ TEST_F(GltfOdd, WholeNumbersMayBeSpelledWithExponents) {
   text = replaced(text, "\"mesh\":0", "\"mesh\":0.0");
   text = replaced(text, "\"nodes\":[0]", "\"nodes\":[0e5]");
   EXPECT_EQ(triangleCount(loadText(text)), 1u);
-  EXPECT_EQ(errorOfText(replaced(text, "0.3e1", "0.35e1")),
-            "3 m.gltf#/accessors/0/count: expected a whole number from 0 to 9007199254740992");
+  EXPECT_EQ(
+      errorOfText(replaced(text, "0.3e1", "0.35e1")),
+      "3 m.gltf#/accessors/0/count: expected a whole number from 0 to 9007199254740992, found 3.5");
   EXPECT_EQ(errorOfText(replaced(text, "1e0", "2e0")),
             "3 m.gltf#/meshes/0/primitives/0/indices: expected an index into accessors, from 0 to "
-            "1");
+            "1, found 2.0");
 }
 
 TEST_F(GltfOdd, IndicesWithoutAViewAreZerosButForSparseOnes) {
@@ -98,7 +99,7 @@ TEST_F(GltfOdd, TheFirstVersionIsNamed) {
             "3 m.gltf#/asset" + said);
   EXPECT_EQ(errorOfText("{\"meshes\":{\"m\":{\"primitives\":[]}}}"), "3 m.gltf#/asset" + said);
   EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"meshes\":{}}"),
-            "3 m.gltf#/meshes: expected a list");
+            "3 m.gltf#/meshes: expected a list, found an object of 0");
   EXPECT_EQ(errorOf([&] {
               load(save("m.glb", std::string("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20)));
             }),

@@ -79,8 +79,8 @@ std::uint32_t indexAt(const std::uint8_t* from, std::uint64_t type) {
   return loadAs<std::uint32_t>(from);
 }
 
-std::uint64_t bytesPerComponent(const GltfValue& componentType) {
-  switch (componentType.whole(0)) {
+std::uint64_t bytesPerComponent(const JsonValue& componentType) {
+  switch (componentType.wholeOr(0)) {
     case kByte:
     case kUnsignedByte:
       return 1;
@@ -95,8 +95,8 @@ std::uint64_t bytesPerComponent(const GltfValue& componentType) {
   }
 }
 
-std::uint64_t indexTypeOf(const GltfValue& componentType) {
-  const std::uint64_t type = componentType.whole(0);
+std::uint64_t indexTypeOf(const JsonValue& componentType) {
+  const std::uint64_t type = componentType.wholeOr(0);
   if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt) {
     componentType.fail("5121, 5123 or 5125");
   }
@@ -111,11 +111,11 @@ struct Run {
 };
 
 // Elements of the buffer view that `source`, an accessor or a part of a sparse one, refers to.
-Run elementsWithin(const GltfDocument& document, const GltfValue& source, bool strided,
+Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool strided,
                    std::uint64_t elementBytes, std::uint64_t count) {
   const GltfBufferView view = document.view(source.need("bufferView"));
   const std::uint64_t stride = strided && view.stride > 0 ? view.stride : elementBytes;
-  const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].whole(0);
+  const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].wholeOr(0);
   if (stride < elementBytes) {
     document.list("bufferViews")[view.index]["byteStride"].fail(
         "at least the " + std::to_string(elementBytes) + " bytes of an element of " +
@@ -125,27 +125,28 @@ Run elementsWithin(const GltfDocument& document, const GltfValue& source, bool s
   const std::uint64_t fit = first ? (size - offset - elementBytes) / stride + 1 : 0;
   if (count > fit) {
     source.fail("at most " + std::to_string(fit) + " elements, as many as fit into buffer view " +
-                std::to_string(view.index) + ", found " + std::to_string(count));
+                    std::to_string(view.index),
+                std::to_string(count));
   }
   return {count > 0 ? view.bytes.data() + offset : nullptr, stride};
 }
 
 class AccessorReader {
  public:
-  AccessorReader(const GltfDocument& document, const GltfValue& accessor, std::string_view type,
+  AccessorReader(const GltfDocument& document, const JsonValue& accessor, std::string_view type,
                  std::string_view expected)
       : document_(document),
         accessor_(accessor),
         components_(componentsIn(type)),
         size_(bytesPerComponent(accessor.need("componentType"))),
-        count_(accessor.need("count").whole(0)),
-        componentType_(accessor["componentType"].whole(0)),
-        normalized_(accessor["normalized"].flag()) {
-    if (accessor.need("type").text() != type) accessor["type"].fail(std::string(expected));
+        count_(accessor.need("count").wholeOr(0)),
+        componentType_(accessor["componentType"].wholeOr(0)),
+        normalized_(accessor["normalized"].flagOr(false)) {
+    if (accessor.need("type").textOr("") != type) accessor["type"].fail(std::string(expected));
     if (accessor["bufferView"].exists()) {
       dense_ = elementsWithin(document, accessor, true, size_ * components_, count_);
     } else if (count_ > kZeroElementLimit) {
-      accessor.fail("a buffer view for " + std::to_string(count_) + " elements");
+      accessor.fail("a buffer view for " + std::to_string(count_) + " elements", "none");
     }
   }
 
@@ -175,9 +176,9 @@ class AccessorReader {
  private:
   template <typename Set>
   void readSparse(const Set& set) const {
-    const GltfValue sparse = accessor_["sparse"], indices = sparse.need("indices");
+    const JsonValue sparse = accessor_["sparse"], indices = sparse.need("indices");
     const std::uint64_t count =
-        sparse.need("count").whole(0, std::numeric_limits<std::int32_t>::max());
+        sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
     const std::uint64_t type = indexTypeOf(indices.need("componentType"));
     const Run which = elementsWithin(document_, indices, false,
                                      bytesPerComponent(indices["componentType"]), count);
@@ -186,52 +187,52 @@ class AccessorReader {
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint32_t index = indexAt(which.at(i), type);
       if (index >= count_) {
-        indices.fail("indices below the accessor's count of " + std::to_string(count_) +
-                     ", found " + std::to_string(index));
+        indices.fail("indices below the accessor's count of " + std::to_string(count_),
+                     std::to_string(index));
       }
       set(index, values.at(i));
     }
   }
 
   const GltfDocument& document_;
-  GltfValue accessor_;
+  JsonValue accessor_;
   std::size_t components_;
   std::uint64_t size_, count_, componentType_;
   bool normalized_;
   Run dense_;
 };
 
-AccessorReader readerOf(const GltfDocument& document, const GltfValue& reference,
+AccessorReader readerOf(const GltfDocument& document, const JsonValue& reference,
                         std::string_view type) {
   return {document, accessorOf(document, reference), type, type};
 }
 
 }  // namespace
 
-GltfValue accessorOf(const GltfDocument& document, const GltfValue& reference) {
-  const GltfValue accessors = document.list("accessors");
-  const std::optional<std::size_t> index = reference.index(accessors);
+JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference) {
+  const JsonValue accessors = document.list("accessors");
+  const std::optional<std::size_t> index = reference.indexInto(accessors);
   if (!index) reference.fail("an accessor");
   return accessors[*index];
 }
 
-std::vector<Vec3f> readVectors(const GltfDocument& document, const GltfValue& reference) {
+std::vector<Vec3f> readVectors(const GltfDocument& document, const JsonValue& reference) {
   const AccessorReader reader = readerOf(document, reference, "VEC3");
   return reader.read<Vec3f>(1, [&](Vec3f* to, const std::uint8_t* from) {
     *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};
   });
 }
 
-std::vector<Vec2f> readUvs(const GltfDocument& document, const GltfValue& reference) {
+std::vector<Vec2f> readUvs(const GltfDocument& document, const JsonValue& reference) {
   const AccessorReader reader = readerOf(document, reference, "VEC2");
   return reader.read<Vec2f>(1, [&](Vec2f* to, const std::uint8_t* from) {
     *to = {reader.at(from, 0), reader.at(from, 1)};
   });
 }
 
-GltfColors readColors(const GltfDocument& document, const GltfValue& reference) {
-  const GltfValue accessor = accessorOf(document, reference);
-  const bool alpha = accessor["type"].text() == "VEC4";
+GltfColors readColors(const GltfDocument& document, const JsonValue& reference) {
+  const JsonValue accessor = accessorOf(document, reference);
+  const bool alpha = accessor["type"].textOr("") == "VEC4";
   const AccessorReader reader(document, accessor, alpha ? "VEC4" : "VEC3", "VEC3 or VEC4");
   GltfColors result;
   result.colors = reader.read<Rgb>(1, [&](Rgb* to, const std::uint8_t* from) {
@@ -241,7 +242,7 @@ GltfColors readColors(const GltfDocument& document, const GltfValue& reference) 
   return result;
 }
 
-std::vector<float> readTuples(const GltfDocument& document, const GltfValue& reference,
+std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
                               std::string_view type) {
   const AccessorReader reader = readerOf(document, reference, type);
   return reader.read<float>(reader.components(), [&](float* to, const std::uint8_t* from) {
@@ -249,7 +250,7 @@ std::vector<float> readTuples(const GltfDocument& document, const GltfValue& ref
   });
 }
 
-std::vector<std::uint32_t> readIndices(const GltfDocument& document, const GltfValue& reference) {
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference) {
   const AccessorReader reader = readerOf(document, reference, "SCALAR");
   const std::uint64_t type = indexTypeOf(accessorOf(document, reference)["componentType"]);
   return reader.read<std::uint32_t>(

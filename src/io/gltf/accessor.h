@@ -15,20 +15,20 @@ namespace whit {
 // stride, sparse or not, is read. Each function throws badScene "file#/accessors/i" where the
 // accessor is of another type (VEC3, VEC2, SCALAR; indices: unsigned) or reaches beyond its buffer
 // view, and limit where its elements do not fit into memory.
-std::vector<Vec3f> readVectors(const GltfDocument& document, const GltfValue& reference);
-std::vector<Vec2f> readUvs(const GltfDocument& document, const GltfValue& reference);
+std::vector<Vec3f> readVectors(const GltfDocument& document, const JsonValue& reference);
+std::vector<Vec2f> readUvs(const GltfDocument& document, const JsonValue& reference);
 // VEC3 or VEC4.
 struct GltfColors {
   std::vector<Rgb> colors;
   bool translucent = false;  // some alpha is below 1
 };
-GltfColors readColors(const GltfDocument& document, const GltfValue& reference);
+GltfColors readColors(const GltfDocument& document, const JsonValue& reference);
 // The components of all elements, one after the other; `type` is SCALAR, VEC3, VEC4 or MAT4 (column
 // by column).
-std::vector<float> readTuples(const GltfDocument& document, const GltfValue& reference,
+std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
                               std::string_view type);
-std::vector<std::uint32_t> readIndices(const GltfDocument& document, const GltfValue& reference);
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference);
 // The accessor itself.
-GltfValue accessorOf(const GltfDocument& document, const GltfValue& reference);
+JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference);
 
 }  // namespace whit

@@ -2,18 +2,85 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "core/error.h"
+#include "io/json_reader.h"
 #include "io/read_file.h"
-#include "io/scene/json_text.h"
-#include "io/uri.h"
 
 namespace whit {
 
 namespace {
+
+constexpr std::string_view kScheme = "data:";
+
+int hexValue(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+// Below 0: no digit.
+int base64Value(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+std::string base64Decoded(std::string_view digits, const std::string& where) {
+  while (digits.ends_with('=')) digits.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(digits.size() / 4 * 3 + 2);
+  std::uint32_t held = 0;
+  int bits = 0;
+  for (const char c : digits) {
+    const int value = base64Value(c);
+    if (value < 0) {
+      throwBadScene(where, "expected base64, found a letter that is none of its digits");
+    }
+    held = held << 6 | static_cast<std::uint32_t>(value);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(held >> bits & 255u);
+  }
+  if (bits == 6) throwBadScene(where, "expected base64, which ends within a byte");
+  return bytes;
+}
+
+// RFC 3986, section 2.1.
+std::string percentDecoded(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool code = uri[i] == '%' && i + 2 < uri.size() && hexValue(uri[i + 1]) >= 0 &&
+                      hexValue(uri[i + 2]) >= 0;
+    text += code ? static_cast<char>(16 * hexValue(uri[i + 1]) + hexValue(uri[i + 2])) : uri[i];
+    if (code) i += 2;
+  }
+  return text;
+}
+
+// Data URIs: RFC 2397.
+bool isDataUri(const std::string& uri) {
+  return uri.size() >= kScheme.size() &&
+         std::equal(kScheme.begin(), kScheme.end(), uri.begin(), [](char a, char b) {
+           return a == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+// Decodes a data URI of any type (base64: RFC 4648, padded or not).
+std::string dataOfUri(const std::string& uri, const std::string& where) {
+  constexpr std::string_view kBase64 = ";base64";
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
+  const std::string_view head = std::string_view(uri).substr(0, comma);
+  const std::string data = percentDecoded(std::string_view(uri).substr(comma + 1));
+  return head.ends_with(kBase64) ? base64Decoded(data, where) : data;
+}
 
 // The container: JSON text, or JSON and a binary chunk in a .glb file. glTF 2.0 specification,
 // section 4 (GLB).
@@ -122,9 +189,9 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
                            MemoryBudget& budget, Warnings& warnings)
     : name_(path.string()), budget_(budget), warnings_(warnings) {
   GltfFile file = readGltfFile(path, budget);
-  json_ = std::make_shared<const Json>(std::move(file.json));
+  json_ = std::make_unique<const JsonDocument>(JsonDocument{name_, std::move(file.json), {}});
   checkExtensions();
-  for (const auto& [name, list] : json_->items()) {
+  for (const auto& [name, list] : json_->root.items()) {
     if (list.is_array()) budget_.charge(this->list(name).size(), kBytesPerElement, name_);
   }
   buffers_.resize(list("buffers").size());
@@ -135,88 +202,88 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
   readImages(path.parent_path(), rules);
 }
 
-GltfBufferView GltfDocument::view(const GltfValue& reference) const {
-  const std::optional<std::size_t> index = reference.index(list("bufferViews"));
+GltfBufferView GltfDocument::view(const JsonValue& reference) const {
+  const std::optional<std::size_t> index = reference.indexInto(list("bufferViews"));
   if (!index) reference.fail("a buffer view");
-  const GltfValue view = list("bufferViews")[*index];
-  const GltfValue buffers = list("buffers");
-  const std::size_t number = view.need("buffer").index(buffers).value_or(0);
+  const JsonValue view = list("bufferViews")[*index];
+  const JsonValue buffers = list("buffers");
+  const std::size_t number = view.need("buffer").indexInto(buffers).value_or(0);
   const Buffer& buffer = buffers_[number];
   if (!buffer.hasData) buffers[number].need("uri");
-  const std::uint64_t size = buffer.bytes.size(), offset = view["byteOffset"].whole(0);
-  const std::uint64_t length = view.need("byteLength").whole(0);
+  const std::uint64_t size = buffer.bytes.size(), offset = view["byteOffset"].wholeOr(0);
+  const std::uint64_t length = view.need("byteLength").wholeOr(0);
   if (offset > size || length > size - offset) {
-    view.fail("a range within the buffer's " + std::to_string(size) + " bytes, found " +
+    view.fail("a range within the buffer's " + std::to_string(size) + " bytes",
               std::to_string(length) + " from byte " + std::to_string(offset));
   }
-  const std::uint64_t stride = view["byteStride"].whole(0, 252);
+  const std::uint64_t stride = view["byteStride"].wholeOr(0, 252);
   if (stride % 4 != 0) view["byteStride"].fail("a multiple of 4");
   return {asBytes(buffer.bytes).subspan(offset, length), *index, stride};
 }
 
 void GltfDocument::checkExtensions() const {
-  const GltfValue version = root().need("asset").need("version");
-  if (!version.text().starts_with("2.")) {
-    version.fail("2.0, found \"" + version.text() + "\"");
+  const JsonValue version = root().need("asset").need("version");
+  if (!version.textOr("").starts_with("2.")) {
+    version.fail("2.0");
   }
-  const GltfValue required = list("extensionsRequired"), used = list("extensionsUsed");
+  const JsonValue required = list("extensionsRequired"), used = list("extensionsUsed");
   for (std::size_t i = 0; i < required.size(); ++i) {
-    const std::string extension = required[i].text();
+    const std::string extension = required[i].textOr("");
     if (isSupported(extension)) continue;
     throwBadScene(required[i].where(),
                   "the file cannot be shown without " + extension + ", which is not supported");
   }
   std::size_t reported = 0;
   for (std::size_t i = 0; i < used.size(); ++i) {
-    const std::string extension = used[i].text();
+    const std::string extension = used[i].textOr("");
     if (isSupported(extension) || ++reported > kReportedExtensions) continue;
     warnings_.add("extension ignored: " + extension.substr(0, kReportedLetters), name_);
   }
 }
 
-std::string GltfDocument::decodeUri(const GltfValue& uri) const {
-  const std::string text = uri.text();
+std::string GltfDocument::decodeUri(const JsonValue& uri) const {
+  const std::string text = uri.textOr("");
   budget_.charge(text.size(), 2, uri.where());
   return dataOfUri(text, uri.where());
 }
 
 void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRules& rules) {
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
-    const GltfValue buffer = list("buffers")[i], uri = buffer["uri"];
-    const std::uint64_t length = buffer.need("byteLength").whole(0);
+    const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
+    const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     auto& [bytes, hasData] = buffers_[i];
     if (uri.exists()) {
       hasData = true;
-      if (isDataUri(uri.text())) {
+      if (isDataUri(uri.textOr(""))) {
         bytes = decodeUri(uri);
       } else {
-        bytes = readFile(rules.resolve(percentDecoded(uri.text()), folder, uri.where()),
+        bytes = readFile(rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()),
                          budget_.left() / 2);
         budget_.charge(bytes.size(), 1, uri.where());
       }
     }
     if (hasData && bytes.size() < length) {
-      buffer["byteLength"].fail(std::to_string(length) + " bytes of data, found " +
+      buffer["byteLength"].fail(std::to_string(length) + " bytes of data",
                                 std::to_string(bytes.size()));
     }
   }
 }
 
 void GltfDocument::readImages(const std::filesystem::path& folder, const PathRules& rules) {
-  const GltfValue images = list("images");
+  const JsonValue images = list("images");
   images_.resize(images.size());
   for (std::size_t i = 0; i < images_.size(); ++i) {
     GltfImageSource& image = images_[i];
     image.where = images[i].where();
-    const GltfValue uri = images[i]["uri"], view = images[i]["bufferView"];
+    const JsonValue uri = images[i]["uri"], view = images[i]["bufferView"];
     if (!uri.exists()) {
       if (!view.exists()) images[i].fail("a member \"uri\" or \"bufferView\"");
       image.bytes = this->view(view).bytes;
-    } else if (isDataUri(uri.text())) {
+    } else if (isDataUri(uri.textOr(""))) {
       image.own = decodeUri(uri);
       image.bytes = asBytes(image.own);
     } else {
-      image.path = rules.resolve(percentDecoded(uri.text()), folder, uri.where()).string();
+      image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
     }
   }
 }

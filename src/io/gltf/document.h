@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/warnings.h"
-#include "io/gltf/value.h"
+#include "io/json_reader.h"
 #include "io/memory_budget.h"
 #include "io/paths.h"
 
@@ -45,12 +45,12 @@ class GltfDocument {
   GltfDocument& operator=(const GltfDocument&) = delete;
 
   const std::string& name() const { return name_; }
-  GltfValue root() const { return {name_, *json_}; }
+  JsonValue root() const { return JsonValue(*json_); }
   // A list of the root object, "nodes" for example.
-  GltfValue list(std::string_view name) const { return root()[name]; }
+  JsonValue list(const std::string& name) const { return root()[name]; }
   // The buffer view whose index is `reference`. Throws badScene where it does not exist or reaches
   // beyond its buffer.
-  GltfBufferView view(const GltfValue& reference) const;
+  GltfBufferView view(const JsonValue& reference) const;
   const std::vector<GltfImageSource>& images() const { return images_; }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
@@ -59,7 +59,7 @@ class GltfDocument {
   void checkExtensions() const;
   void readBuffers(const std::filesystem::path& folder, const PathRules& rules);
   void readImages(const std::filesystem::path& folder, const PathRules& rules);
-  std::string decodeUri(const GltfValue& uri) const;
+  std::string decodeUri(const JsonValue& uri) const;
 
   struct Buffer {
     std::string bytes;
@@ -69,7 +69,7 @@ class GltfDocument {
   std::string name_;
   MemoryBudget& budget_;
   Warnings& warnings_;
-  std::shared_ptr<const nlohmann::ordered_json> json_;
+  std::unique_ptr<const JsonDocument> json_;
   std::vector<Buffer> buffers_;
   std::vector<GltfImageSource> images_;
 };

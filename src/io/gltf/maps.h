@@ -1,4 +1,4 @@
-// The textures that glTF's images become.
+// Textures made from glTF's images: reflectance, holes, normals, emission.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 
 #include "io/gltf/document.h"
 #include "io/gltf/material.h"
-#include "io/gltf/shading.h"
 #include "io/texture_loader.h"
 
 namespace whit {

@@ -1,14 +1,34 @@
-// glTF's materials. glTF 2.0 specification, section 3.9; KHR_materials_*.
+// glTF's materials, as the file has them and as a Material of this renderer. glTF 2.0
+// specification, sections 3.8 and 3.9 and appendix B; KHR_materials_*, KHR_texture_transform.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/vec3.h"
 #include "io/gltf/document.h"
-#include "io/gltf/texture.h"
+#include "scene/material.h"
+#include "scene/texture.h"
 
 namespace whit {
+
+// Which set of coordinates a texture is looked up with, and the affine map to apply to it: in the
+// format's own sense, v pointing down.
+struct GltfUvMap {
+  std::size_t set = 0;
+  double uu = 1, uv = 0, u0 = 0;  // u' = uu u + uv v + u0
+  double vu = 0, vv = 1, v0 = 0;
+  bool operator==(const GltfUvMap&) const = default;
+};
+
+struct GltfTexture {
+  std::optional<std::size_t> image;
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  GltfUvMap uv;
+  bool exists() const { return image.has_value(); }
+};
 
 // A material as the file has it.
 struct GltfMaterial {
@@ -61,5 +81,41 @@ struct GltfMaterial {
 // One for each material, and the format's default last. What cannot be represented is counted in
 // the document's warnings.
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document);
+
+// The means of maps that the factors of a Material depend on.
+struct GltfMeans {
+  Rgb base{1, 1, 1};
+  float metallic = 1, roughness = 1, transmission = 1;
+  bool roughnessByMap = false;  // its texels differ and are multiplied with the factor
+  float specular = 1;           // its strength
+  Rgb specularColor{1, 1, 1};
+  float clearcoat = 1, clearcoatRoughness = 1;
+  float alpha = 1;          // of a texture that blends and is the same everywhere
+  bool alphaByMap = false;  // its texels differ and are multiplied with the factor
+};
+
+// Below this a surface reflects the scene by a single impulse.
+inline constexpr float kGltfSmoothRoughness = 0.25f;
+
+// The Material, without its maps:
+// - diffuse is the base color of what is neither metal nor transmission. Mirror and
+//   sampled lobes reduce it by what they reflect (scene/material.h).
+// - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
+//   color of metal, texel by texel, as are strength and color of KHR_materials_specular, and the
+//   roughness.
+// - Surfaces that are smooth on average also mirror the scene, from the mean of that to f90 at
+//   grazing incidence. Rough ones reflect it in samples of the lobe, unless they bound a volume.
+// - transmission bounds a dielectric of this ior (exact Fresnel reflectance), tinted by the base
+//   color at each crossing, with the absorption of its volume; surfaces must be closed. It is
+//   clear whatever the roughness, and a map of it counts by its mean.
+// - blending lets 1 - alpha straight through, texel by texel; what blends is a sheet, whatever it
+//   transmits besides.
+// - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
+// - unlit colors are emitted, and nothing else is.
+// - single-sided surfaces are passed from behind by all rays but those of shadows, unless they
+//   bound a volume.
+// - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
+//   no mirror; of unlit materials the emission.
+Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 
 }  // namespace whit

@@ -1,15 +1,131 @@
 #include "io/gltf/mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
 #include "io/gltf/accessor.h"
-#include "io/gltf/triangle_strip.h"
+#include "io/polygon.h"
 
 namespace whit {
 namespace {
+
+void checkLength(std::size_t found, std::size_t expected, const JsonValue& attribute) {
+  if (found == expected) return;
+  attribute.fail("as many as positions, " + std::to_string(expected), std::to_string(found));
+}
+
+class DeformationReader {
+ public:
+  DeformationReader(const GltfDocument& document, const JsonValue& primitive,
+                    const GltfDeformation& given, const Mesh& mesh)
+      : document_(document), primitive_(primitive), given_(given), where_(primitive.where()) {
+    document_.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
+                              where_);
+    result_.positions = mesh.positions;
+    result_.normals = mesh.normals;
+    result_.weights = given.weights;
+    result_.movingWeights = given.movingWeights;
+  }
+
+  Deformation read() {
+    readTargets();
+    if (given_.skeleton) readSkin();
+    return std::move(result_);
+  }
+
+ private:
+  void warn(const char* what) const { document_.warnings().add(what, where_); }
+
+  // Reads the targets that have a weight at some time.
+  void readTargets() {
+    const JsonValue targets = primitive_["targets"];
+    result_.targets.resize(targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const bool weighs = i < given_.weights.size() && given_.weights[i] != 0;
+      if (!weighs && !given_.movingWeights) continue;
+      result_.targets[i] = {vectors(targets[i]["POSITION"], result_.positions.size()),
+                            vectors(targets[i]["NORMAL"], result_.normals.size())};
+    }
+  }
+
+  std::vector<Vec3f> vectors(const JsonValue& attribute, std::size_t expected) const {
+    if (!attribute.exists() || expected == 0) return {};
+    std::vector<Vec3f> moved = readVectors(document_, attribute);
+    checkLength(moved.size(), expected, attribute);
+    return moved;
+  }
+
+  void readSkin() {
+    const std::size_t count = result_.positions.size();
+    std::vector<std::vector<float>> joints, weights;
+    for (int set = 0;; ++set) {
+      const JsonValue attributes = primitive_["attributes"];
+      const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
+      const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
+      if (!j.exists() || !w.exists()) break;
+      joints.push_back(readTuples(document_, j, "VEC4"));
+      weights.push_back(readTuples(document_, w, "VEC4"));
+      checkLength(joints.back().size() / 4, count, j);
+      checkLength(weights.back().size() / 4, count, w);
+    }
+    if (joints.empty())
+      return warn("skinned mesh without joints and weights shown as it was modelled");
+    result_.skeleton = given_.skeleton;
+    result_.joints = given_.joints;
+    document_.budget().charge(count, sizeof(std::uint32_t) + 4 * joints.size() * sizeof(Influence),
+                              where_);
+    result_.firstInfluence.push_back(0);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t set = 0; set < joints.size(); ++set) {
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) hold(joints[set][k], weights[set][k]);
+      }
+      closeVertex();
+    }
+  }
+
+  void hold(float joint, double weight) {
+    if (!(weight > 0)) return;
+    if (joint >= 0 && joint < static_cast<float>(result_.joints.size())) {
+      result_.influences.push_back({static_cast<std::uint32_t>(joint), weight});
+    } else {
+      warn("joint that the skin does not have left out");
+    }
+  }
+
+  void closeVertex() {
+    std::vector<Influence>& all = result_.influences;
+    double sum = 0;
+    for (std::size_t i = result_.firstInfluence.back(); i < all.size(); ++i) sum += all[i].weight;
+    if (!(sum > 0) || !std::isfinite(sum)) {
+      warn("vertex that no joint holds left where it was modelled");
+      all.resize(result_.firstInfluence.back());
+    }
+    result_.firstInfluence.push_back(static_cast<std::uint32_t>(all.size()));
+  }
+
+  const GltfDocument& document_;
+  JsonValue primitive_;
+  const GltfDeformation& given_;
+  std::string where_;
+  Deformation result_;
+};
+
+// Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
+void deform(const GltfDocument& document, const JsonValue& primitive,
+            const GltfDeformation& deformation, Mesh& mesh) {
+  Deformation own = DeformationReader(document, primitive, deformation, mesh).read();
+  DeformedVertices start = deformVertices(own, poseAt(own, 0));
+  mesh.positions = std::move(start.positions);
+  mesh.normals = std::move(start.normals);
+  if (start.mirrored) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
+}
 
 // Values of a primitive's mode; smaller ones are points and lines.
 constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
@@ -17,21 +133,22 @@ constexpr char kDraco[] = "KHR_draco_mesh_compression";
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const GltfDocument& document, const GltfValue& primitive,
+  PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
                   const std::vector<GltfMaterial>& materials, const GltfDeformation& deformation)
       : document_(document),
         primitive_(primitive),
         attributes_(primitive.need("attributes")),
         deformation_(deformation),
-        mode_(primitive["mode"].whole(kTriangles, kTriangleFan)),
-        material_(
-            primitive["material"].index(document.list("materials")).value_or(materials.size() - 1)),
+        mode_(primitive["mode"].wholeOr(kTriangles, kTriangleFan)),
+        material_(primitive["material"]
+                      .indexInto(document.list("materials"))
+                      .value_or(materials.size() - 1)),
         coordinates_(materials[material_].coordinates()),
         opaque_(materials[material_].alphaMode == GltfMaterial::Alpha::opaque) {}
 
   // Returns false where nothing is to be seen.
   bool read(Mesh& mesh) {
-    const GltfValue position = attributes_["POSITION"];
+    const JsonValue position = attributes_["POSITION"];
     if (mode_ < kTriangles || !position.exists()) {
       warn(mode_ < kTriangles ? "points or lines left out"
                               : "primitive without positions left out");
@@ -53,41 +170,35 @@ class PrimitiveReader {
   void warn(const char* what) { document_.warnings().add(what, primitive_.where()); }
 
   // A fallback that is not compressed is read as if there were no extension.
-  void refuseDraco(const GltfValue& position) const {
+  void refuseDraco(const JsonValue& position) const {
     const bool stored = accessorOf(document_, position)["bufferView"].exists();
     if (stored || !primitive_["extensions"][kDraco].exists()) return;
     throwBadScene(primitive_.where(),
                   std::string("compressed by ") + kDraco + ", which is not supported");
   }
 
-  static void checkLength(std::size_t found, const Mesh& mesh, const GltfValue& attribute) {
-    if (found == mesh.positions.size()) return;
-    attribute.fail("as many as positions, " + std::to_string(mesh.positions.size()) + ", found " +
-                   std::to_string(found));
-  }
-
   void readNormals(Mesh& mesh) const {
-    const GltfValue normal = attributes_["NORMAL"];
+    const JsonValue normal = attributes_["NORMAL"];
     if (!normal.exists()) return;
     mesh.normals = readVectors(document_, normal);
-    checkLength(mesh.normals.size(), mesh, normal);
+    checkLength(mesh.normals.size(), mesh.positions.size(), normal);
   }
 
   void readVertexColors(Mesh& mesh) {
-    const GltfValue color = attributes_["COLOR_0"];
+    const JsonValue color = attributes_["COLOR_0"];
     if (!color.exists()) return;
     GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
-    checkLength(mesh.colors.size(), mesh, color);
+    checkLength(mesh.colors.size(), mesh.positions.size(), color);
     if (read.translucent && !opaque_) warn("alpha of vertex colors left out");
   }
 
   // Empty where the primitive does not have this set.
   std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
-    const GltfValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
+    const JsonValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
     if (!coordinates.exists()) return {};
     std::vector<Vec2f> uvs = readUvs(document_, coordinates);
-    checkLength(uvs.size(), mesh, coordinates);
+    checkLength(uvs.size(), mesh.positions.size(), coordinates);
     for (Vec2f& at : uvs) {
       const double u = at.x, v = at.y;
       at.x = static_cast<float>(uv.uu * u + uv.uv * v + uv.u0);
@@ -106,7 +217,7 @@ class PrimitiveReader {
   }
 
   std::vector<std::uint32_t> corners(std::size_t vertices) {
-    const GltfValue indices = primitive_["indices"];
+    const JsonValue indices = primitive_["indices"];
     if (indices.exists()) return readIndices(document_, indices);
     if (vertices > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(primitive_.where() + ": more than 2^32 - 1 vertices");
@@ -136,7 +247,7 @@ class PrimitiveReader {
   }
 
   const GltfDocument& document_;
-  GltfValue primitive_, attributes_;
+  JsonValue primitive_, attributes_;
   const GltfDeformation& deformation_;
   std::uint64_t mode_;
   std::size_t material_;
@@ -146,14 +257,19 @@ class PrimitiveReader {
 
 }  // namespace
 
+bool GltfDeformation::none() const {
+  return !skeleton && !movingWeights &&
+         std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; });
+}
+
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t index,
                                const std::vector<GltfMaterial>& materials,
                                const GltfDeformation& deformation) {
-  const GltfValue source = document.list("meshes")[index], primitives = source.need("primitives");
+  const JsonValue source = document.list("meshes")[index], primitives = source.need("primitives");
   std::vector<Mesh> meshes;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     Mesh mesh;
-    mesh.name = source["name"].text();
+    mesh.name = source["name"].textOr("");
     PrimitiveReader reader(document, primitives[i], materials, deformation);
     if (reader.read(mesh)) {
       meshes.push_back(std::move(mesh));

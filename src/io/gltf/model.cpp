@@ -12,7 +12,6 @@
 #include "io/gltf/material.h"
 #include "io/gltf/mesh.h"
 #include "io/gltf/nodes.h"
-#include "io/gltf/shading.h"
 #include "io/model.h"
 #include "scene/members.h"
 
@@ -85,7 +84,7 @@ GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
     : document_(path, rules, budget, warnings),
       sources_(readGltfMaterials(document_)),
       maps_(document_),
-      stage_(readGltfNodes(document_, readGltfTracks(document_, instant), instant.movable)) {
+      stage_(readGltfNodes(document_, instant)) {
   for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
 }
 
@@ -112,7 +111,7 @@ TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const Giv
 
 std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                                  const std::vector<std::uint32_t>& materials) const {
-  const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].text());
+  const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].textOr(""));
   addParts(readGltfMesh(document_, placed.mesh, sources_, placed.deformation), materials,
            document_.name(), document_.budget(), layout.body(body));
   return body;
@@ -120,9 +119,9 @@ std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layo
 
 // The node's, or its mesh's.
 std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
-  std::string node = document_.list("nodes")[placed.node]["name"].text();
+  std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
   if (!node.empty()) return node;
-  std::string mesh = document_.list("meshes")[placed.mesh]["name"].text();
+  std::string mesh = document_.list("meshes")[placed.mesh]["name"].textOr("");
   return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
 }
 

@@ -8,17 +8,170 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/options.h"
 #include "io/gltf/accessor.h"
 #include "io/scene/distinct_names.h"
 #include "scene/description.h"
+#include "scene/track.h"
 
 namespace whit {
 namespace {
+
+// Animated properties of a node. Properties without a track keep the value of the node itself.
+struct GltfTracks {
+  std::optional<Track> translation, rotation, scale;  // 3, 4 (x, y, z, w) and 3 components
+  std::optional<Track> weights;                       // of its mesh's morph targets
+
+  bool place() const { return translation || rotation || scale; }
+};
+
+struct Target {
+  std::string_view path, type;
+  std::size_t components;  // of a key; 0: as many as the mesh has morph targets
+  std::optional<Track> GltfTracks::*track;
+};
+constexpr Target kTargets[] = {
+    {"translation", "VEC3", 3, &GltfTracks::translation},
+    {"rotation", "VEC4", 4, &GltfTracks::rotation},
+    {"scale", "VEC3", 3, &GltfTracks::scale},
+    {"weights", "SCALAR", 0, &GltfTracks::weights},
+};
+
+const Target* targetOf(std::string_view path) {
+  const auto found = std::find_if(std::begin(kTargets), std::end(kTargets),
+                                  [&](const Target& target) { return target.path == path; });
+  return found == std::end(kTargets) ? nullptr : found;
+}
+
+Track::Interpolation interpolationOf(const JsonValue& sampler) {
+  const std::string name = sampler["interpolation"].textOr("");
+  if (name == "STEP") return Track::Interpolation::step;
+  return name == "CUBICSPLINE" ? Track::Interpolation::cubic : Track::Interpolation::linear;
+}
+
+class AnimationReader {
+ public:
+  AnimationReader(const GltfDocument& document, const JsonValue& animation)
+      : document_(document), animation_(animation), nodes_(document.list("nodes")) {}
+
+  // Time of the last key of all samplers in use.
+  double seconds() const {
+    double last = 0;
+    forEachChannel([&](std::size_t, const Target&, const JsonValue& sampler) {
+      const JsonValue most = accessorOf(document_, sampler.need("input"))["max"];
+      if (most.size() > 0) last = std::max(last, most[0].numberOr(0));
+    });
+    return last;
+  }
+
+  std::size_t movedNodes() const {
+    std::set<std::size_t> moved;
+    forEachChannel([&](std::size_t node, const Target&, const JsonValue&) { moved.insert(node); });
+    return moved.size();
+  }
+
+  void read(std::vector<GltfTracks>& tracks) const {
+    forEachChannel([&](std::size_t node, const Target& target, const JsonValue& sampler) {
+      Track track = readTrack(target, node, sampler);
+      if (track.components > 0) tracks[node].*target.track = std::move(track);
+    });
+  }
+
+ private:
+  // Skips channels without a node and those that move what only an extension can move.
+  template <typename Use>
+  void forEachChannel(const Use& use) const {
+    const JsonValue channels = animation_["channels"], samplers = animation_["samplers"];
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const JsonValue target = channels[i].need("target");
+      const auto node = target["node"].indexInto(nodes_);
+      const Target* known = targetOf(target.need("path").textOr(""));
+      if (!node || !known) continue;
+      use(*node, *known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
+    }
+  }
+
+  std::size_t morphTargets(std::size_t node) const {
+    const JsonValue meshes = document_.list("meshes");
+    const auto mesh = nodes_[node]["mesh"].indexInto(meshes);
+    return mesh ? meshes[*mesh]["primitives"][std::size_t{0}]["targets"].size() : 0;
+  }
+
+  Track readTrack(const Target& target, std::size_t node, const JsonValue& sampler) const {
+    Track track;
+    track.interpolation = interpolationOf(sampler);
+    track.rotation = target.path == "rotation";
+    track.components = target.components > 0 ? target.components : morphTargets(node);
+    if (track.components == 0) return track;
+    track.times = readTimes(sampler.need("input"));
+    const JsonValue output = sampler.need("output");
+    const std::vector<float> values = readTuples(document_, output, target.type);
+    const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
+    const std::size_t expected = track.times.size() * track.components * each;
+    if (values.size() != expected) {
+      output.fail(std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) +
+                      " times",
+                  std::to_string(values.size()));
+    }
+    if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); })) {
+      output.fail("finite numbers", "one that is not");
+    }
+    track.values.assign(values.begin(), values.end());
+    return track;
+  }
+
+  std::vector<double> readTimes(const JsonValue& input) const {
+    const std::vector<float> times = readTuples(document_, input, "SCALAR");
+    if (times.empty()) input.fail("at least one time", "none");
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+      input.fail("times that increase", "a number " + std::to_string(i) + " that does not");
+    }
+    return {times.begin(), times.end()};
+  }
+
+  const GltfDocument& document_;
+  JsonValue animation_, nodes_;
+};
+
+}  // namespace
+
+std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
+  const JsonValue animations = document.list("animations");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    const std::string name = animations[i]["name"].textOr("");
+    names.push_back(name.empty() ? "animation " + std::to_string(i) : name);
+  }
+  names = distinctNames(names);
+  std::vector<Animation> all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const AnimationReader reader(document, animations[i]);
+    all.push_back({names[i], reader.seconds(), reader.movedNodes()});
+  }
+  return all;
+}
+
+namespace {
+
+std::vector<GltfTracks> readTracks(const GltfDocument& document, const Instant& instant) {
+  std::vector<GltfTracks> tracks(document.list("nodes").size());
+  if (!instant.moves()) return tracks;
+  const std::vector<Animation> all = listGltfAnimations(document);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!instant.animation.empty() && all[i].name != instant.animation) continue;
+    AnimationReader(document, document.list("animations")[i]).read(tracks);
+    break;
+  }
+  return tracks;
+}
 
 constexpr double kLargestHeight = 1e9;  // of an orthographic camera's view
 constexpr char kLights[] = "KHR_lights_punctual";
@@ -127,18 +280,18 @@ class SkinReader {
   }
 
  private:
-  std::vector<Deformation::Joint> jointsOf(const GltfValue& skin) {
-    const GltfValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
-    const GltfValue nodes = document_.list("nodes");
+  std::vector<Deformation::Joint> jointsOf(const JsonValue& skin) {
+    const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
+    const JsonValue nodes = document_.list("nodes");
     std::vector<Deformation::Joint> all;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      all.push_back({place(joints[i].index(nodes).value_or(0)), Affine()});
+      all.push_back({place(joints[i].indexInto(nodes).value_or(0)), Affine()});
     }
     if (all.empty()) joints.fail("at least one joint");
     if (!inverse.exists()) return all;
     const std::vector<float> numbers = readTuples(document_, inverse, "MAT4");
     if (numbers.size() < 16 * all.size()) {
-      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints, found " +
+      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
                    std::to_string(numbers.size() / 16));
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -200,12 +353,12 @@ class TreeReader {
   void checkTree() {
     parents_.assign(nodes_.size(), kTopmost);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const GltfValue children = nodes_[i]["children"];
+      const JsonValue children = nodes_[i]["children"];
       for (std::size_t k = 0; k < children.size(); ++k) {
-        std::size_t& parent = parents_[children[k].index(nodes_).value_or(0)];
+        std::size_t& parent = parents_[children[k].indexInto(nodes_).value_or(0)];
         if (parent != kTopmost) {
-          children.fail("a tree: node " + std::to_string(*children[k].index(nodes_)) +
-                        " has two parents");
+          children.fail("a tree", "node " + std::to_string(*children[k].indexInto(nodes_)) +
+                                      " with two parents");
         }
         parent = i;
       }
@@ -214,27 +367,27 @@ class TreeReader {
       if (parents_[i] == kTopmost) topmost_.push_back(i);
     }
     if (topmost_.empty() && !parents_.empty()) {
-      nodes_[std::size_t{0}].fail("a tree: every node has a parent");
+      nodes_[std::size_t{0}].fail("a tree", "a parent of every node");
     }
   }
 
   std::vector<std::size_t> roots() const {
-    const GltfValue scenes = document_.list("scenes");
+    const JsonValue scenes = document_.list("scenes");
     if (scenes.size() == 0) {
-      document_.root()["scene"].index(scenes);
+      document_.root()["scene"].indexInto(scenes);
       return topmost_;
     }
-    const std::size_t scene = document_.root()["scene"].index(scenes).value_or(0);
-    const GltfValue nodes = scenes[scene]["nodes"];
+    const std::size_t scene = document_.root()["scene"].indexInto(scenes).value_or(0);
+    const JsonValue nodes = scenes[scene]["nodes"];
     std::vector<std::size_t> all(nodes.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = nodes[i].index(nodes_).value_or(0);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = nodes[i].indexInto(nodes_).value_or(0);
     return all;
   }
 
   void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, int depth) {
-    const GltfValue node = nodes_[index];
+    const JsonValue node = nodes_[index];
     if (depth > kGltfDepthLimit) failTooDeep(document_, index);
-    if (seen_[index]) node.fail("a tree: this node is reached twice");
+    if (seen_[index]) node.fail("a tree", "a second way to this node");
     seen_[index] = true;
     RigNode own = nodeOf(index);
     const Affine map = own.motion ? Affine() : toMover * own.toParent;
@@ -247,9 +400,9 @@ class TreeReader {
     if (node["mesh"].exists()) placeMesh(index, map, mover);
     if (node["camera"].exists()) addCamera(node, map, mover);
     if (node["extensions"][kLights].exists()) addLight(node, map, mover);
-    const GltfValue children = node["children"];
+    const JsonValue children = node["children"];
     for (std::size_t k = 0; k < children.size(); ++k) {
-      visit(*children[k].index(nodes_), map, mover, depth + 1);
+      visit(*children[k].indexInto(nodes_), map, mover, depth + 1);
     }
   }
 
@@ -276,7 +429,7 @@ class TreeReader {
   }
 
   NodePlace placeOf(std::size_t index) {
-    const GltfValue node = nodes_[index];
+    const JsonValue node = nodes_[index];
     Quaternion rotation{0, 0, 0, 1};
     const std::vector<double> turn = node["rotation"].numbers(4);
     std::copy(turn.begin(), turn.end(), rotation.begin());
@@ -293,8 +446,8 @@ class TreeReader {
   }
 
   void placeMesh(std::size_t index, const Affine& map, std::uint32_t mover) {
-    const GltfValue copies = nodes_[index]["extensions"]["EXT_mesh_gpu_instancing"];
-    const std::size_t mesh = *nodes_[index]["mesh"].index(document_.list("meshes"));
+    const JsonValue copies = nodes_[index]["extensions"]["EXT_mesh_gpu_instancing"];
+    const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
     const GltfDeformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
       return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
@@ -313,9 +466,9 @@ class TreeReader {
   }
 
   GltfDeformation deformationOf(std::size_t index, std::size_t mesh) {
-    const GltfValue node = nodes_[index];
+    const JsonValue node = nodes_[index];
     GltfDeformation deformation;
-    if (const auto skin = node["skin"].index(document_.list("skins"))) {
+    if (const auto skin = node["skin"].indexInto(document_.list("skins"))) {
       deformation = skins_.read(*skin);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
                                 node.where());
@@ -329,9 +482,9 @@ class TreeReader {
   }
 
   // EXT_mesh_gpu_instancing: the places of the copies within the node.
-  std::vector<Affine> readCopies(const GltfValue& attributes, std::size_t index) {
-    const GltfValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
-    const GltfValue scale = attributes["SCALE"];
+  std::vector<Affine> readCopies(const JsonValue& attributes, std::size_t index) {
+    const JsonValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
+    const JsonValue scale = attributes["SCALE"];
     std::vector<Vec3f> translations, scales;
     std::vector<float> rotations;
     if (translation.exists()) translations = readVectors(document_, translation);
@@ -340,7 +493,8 @@ class TreeReader {
     const std::size_t turns = rotations.size() / 4;
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
     for (const std::size_t size : {translations.size(), turns, scales.size()}) {
-      if (size != 0 && size != count) attributes.fail("attributes of equal lengths");
+      if (size != 0 && size != count)
+        attributes.fail("attributes of equal lengths", std::to_string(size));
     }
     document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance),
                               attributes.where());
@@ -355,23 +509,23 @@ class TreeReader {
     return copies;
   }
 
-  void addCamera(const GltfValue& node, const Affine& map, std::uint32_t mover) {
-    const GltfValue cameras = document_.list("cameras");
-    const GltfValue source = cameras[*node["camera"].index(cameras)];
-    const std::string type = source.need("type").text();
+  void addCamera(const JsonValue& node, const Affine& map, std::uint32_t mover) {
+    const JsonValue cameras = document_.list("cameras");
+    const JsonValue source = cameras[*node["camera"].indexInto(cameras)];
+    const std::string type = source.need("type").textOr("");
     Camera camera;
     double aspect = 0;
     bool shows = false;
     if (type == "perspective") {
-      const GltfValue perspective = source.need(type);
-      const double fov = perspective.need("yfov").number(0) * 180 / std::numbers::pi;
+      const JsonValue perspective = source.need(type);
+      const double fov = perspective.need("yfov").numberOr(0) * 180 / std::numbers::pi;
       shows = fov > 0 && fov < 180;
       camera.fov = static_cast<float>(std::clamp(fov, kLeastFov, kLargestFov));
-      aspect = perspective["aspectRatio"].number(0);
+      aspect = perspective["aspectRatio"].numberOr(0);
     } else if (type == "orthographic") {
-      const GltfValue orthographic = source.need(type);
-      const double xmag = std::abs(orthographic.need("xmag").number(0));
-      const double ymag = std::abs(orthographic.need("ymag").number(0));
+      const JsonValue orthographic = source.need(type);
+      const double xmag = std::abs(orthographic.need("xmag").numberOr(0));
+      const double ymag = std::abs(orthographic.need("ymag").numberOr(0));
       shows = ymag > 0 && ymag < kLargestHeight;
       camera.orthographicHeight = static_cast<float>(2 * ymag);
       aspect = xmag / ymag;
@@ -381,8 +535,8 @@ class TreeReader {
                                node.where());
       return;
     }
-    camera.name = node["name"].text();
-    if (camera.name.empty()) camera.name = source["name"].text();
+    camera.name = node["name"].textOr("");
+    if (camera.name.empty()) camera.name = source["name"].textOr("");
     if (camera.name.empty()) camera.name = "camera";
     camera.eye = Vec3f(map.p);
     // Far enough for the direction to survive the rounding of eye and at.
@@ -393,15 +547,15 @@ class TreeReader {
     stage_.cameraMovers.push_back(mover);
   }
 
-  void addLight(const GltfValue& node, const Affine& map, std::uint32_t mover) {
-    const GltfValue lights = document_.root()["extensions"][kLights]["lights"];
-    const GltfValue number = node["extensions"][kLights].need("light");
-    const GltfValue source = lights[number.index(lights).value_or(0)];
+  void addLight(const JsonValue& node, const Affine& map, std::uint32_t mover) {
+    const JsonValue lights = document_.root()["extensions"][kLights]["lights"];
+    const JsonValue number = node["extensions"][kLights].need("light");
+    const JsonValue source = lights[number.indexInto(lights).value_or(0)];
     const auto repaired = [&](const char* what) { document_.warnings().add(what, node.where()); };
     Light light;
-    light.name = source["name"].text();
-    if (light.name.empty()) light.name = node["name"].text();
-    const std::string type = source.need("type").text();
+    light.name = source["name"].textOr("");
+    if (light.name.empty()) light.name = node["name"].textOr("");
+    const std::string type = source.need("type").textOr("");
     if (type == "spot") {
       light.kind = Light::Kind::spot;
       if (!setCone(source.need("spot"), light)) repaired("spot light's cone repaired");
@@ -410,13 +564,13 @@ class TreeReader {
     } else if (type != "point") {
       return repaired("light of an unknown type left out");
     }
-    if (source["range"].number(0) > 0 && light.kind != Light::Kind::directional) {
+    if (source["range"].numberOr(0) > 0 && light.kind != Light::Kind::directional) {
       repaired("light's range left out, it shines on");
     }
     const Vec3d color = tripleOr(source["color"].numbers(3), Vec3d(1.0));
     light.position = Vec3f(map.p);
     light.direction = Vec3f(-normalized(map.z));
-    light.intensity = Rgb(color * (source["intensity"].number(1) / kLumensPerWatt));
+    light.intensity = Rgb(color * (source["intensity"].numberOr(1) / kLumensPerWatt));
     stage_.lights.push_back(light);
     stage_.lightMovers.push_back(mover);
   }
@@ -431,10 +585,10 @@ class TreeReader {
 
   // Returns whether 0 <= inner <= outer and half a degree <= outer <= a right angle. Equal angles,
   // a sharp edge, are accepted: the extension forbids them, but writers produce them.
-  static bool setCone(const GltfValue& spot, Light& light) {
+  static bool setCone(const JsonValue& spot, Light& light) {
     constexpr double kRightAngle = std::numbers::pi / 2, kLeastOuter = std::numbers::pi / 360;
-    const double outerAngle = spot["outerConeAngle"].number(std::numbers::pi / 4);
-    const double innerAngle = spot["innerConeAngle"].number(0);
+    const double outerAngle = spot["outerConeAngle"].numberOr(std::numbers::pi / 4);
+    const double innerAngle = spot["innerConeAngle"].numberOr(0);
     const double outer = std::clamp(outerAngle, kLeastOuter, kRightAngle);
     const double inner = std::clamp(innerAngle, 0.0, outer);
     light.outerConeAngle = static_cast<float>(outer * 180 / std::numbers::pi);
@@ -445,7 +599,7 @@ class TreeReader {
   }
 
   const GltfDocument& document_;
-  GltfValue nodes_;
+  JsonValue nodes_;
   const std::vector<GltfTracks>& tracks_;
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
@@ -457,9 +611,8 @@ class TreeReader {
 
 }  // namespace
 
-GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
-                        const std::set<std::string>& movable) {
-  return TreeReader(document, tracks, movable).read();
+GltfStage readGltfNodes(const GltfDocument& document, const Instant& instant) {
+  return TreeReader(document, readTracks(document, instant), instant.movable).read();
 }
 
 }  // namespace whit

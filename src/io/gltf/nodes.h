@@ -1,17 +1,16 @@
-// The node tree of a glTF document: what stands where. glTF 2.0 specification, section 3.5;
-// KHR_lights_punctual, EXT_mesh_gpu_instancing.
+// The node tree of a glTF document and its animations: where meshes, cameras and lights are. glTF
+// 2.0 specification, sections 3.5 and 3.11; KHR_lights_punctual, EXT_mesh_gpu_instancing.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "core/affine.h"
-#include "io/gltf/animation.h"
-#include "io/gltf/deformation.h"
 #include "io/gltf/document.h"
+#include "io/gltf/mesh.h"
+#include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/light.h"
 #include "scene/rig.h"
@@ -45,14 +44,16 @@ struct GltfStage {
   std::vector<std::uint32_t> lightMovers;
 };
 
+// The names are distinct.
+std::vector<Animation> listGltfAnimations(const GltfDocument& document);
+
 // Places the nodes of the default scene, else of the first one, else all nodes. Nodes that flatten
-// space are left out with what they hold; the ranges of lights are left out; rotations are
-// normalized; skins that cannot be read are not applied: each is counted in the document's
-// warnings. Cameras have names of their own. `tracks`, one a node, go before what nodes say
-// themselves; nodes that are `movable`
-// ("/nodes/i") move always. Throws badScene "file#/nodes/i" where the nodes are no tree or deeper
-// than kGltfDepthLimit.
-GltfStage readGltfNodes(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
-                        const std::set<std::string>& movable);
+// space are left out with their content; the ranges of lights are left out; rotations are
+// normalized: each is counted in the document's warnings. Cameras have distinct names. The tracks
+// of the animation that `instant` plays replace the properties of their nodes; the nodes
+// `instant.movable` ("/nodes/i") always move. Throws badScene "file#/nodes/i" where the nodes are
+// no tree or deeper than kGltfDepthLimit, and "file#/animations/i/..." where the animation is
+// broken.
+GltfStage readGltfNodes(const GltfDocument& document, const Instant& instant);
 
 }  // namespace whit

@@ -19,7 +19,6 @@
 
 #include "core/error.h"
 #include "core/srgb.h"
-#include "io/gltf/triangle_strip.h"
 #include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/vec3.h"
-#include "io/scene/json_text.h"
+#include "io/json_reader.h"
 #include "scene/members.h"
 
 namespace whit {
