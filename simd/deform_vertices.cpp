@@ -19,9 +19,9 @@ inline constexpr size_t kVertices = 8;
 struct DeformKernels {
   // Adds what a target moves, `count` components, times its weight.
   void (*addTarget)(const float* moved, double weight, size_t count, double* to);
-  // Vertices by their joints. `normals` may be null. Returns how many are turned inside out.
-  size_t (*skin)(const Deformation& deformation, const Affine* joints, size_t count,
-                 double* positions, double* normals);
+  // Vertices by their joints, and their sides. `normals` may be null.
+  void (*skin)(const Deformation& deformation, const Affine* joints, size_t count,
+               double* positions, double* normals, double* sides);
   // To unit length, or zero where there is no direction.
   void (*normalize)(size_t count, double* normals);
 };
@@ -94,8 +94,9 @@ HWY_INLINE void Blend(const Affine* joints, const Influence* begin, const Influe
   maps.held[vertex] = 1;
 }
 
-// Affine::point and Affine::normal. Returns how many maps turn their vertices inside out.
-HWY_INLINE size_t Apply(const Maps& maps, size_t i, double* positions, double* normals) {
+// Affine::point and Affine::normal, and the sign of the determinant.
+HWY_INLINE void Apply(const Maps& maps, size_t i, double* positions, double* normals,
+                      double* sides) {
   const Doubles d;
   const VD zero = hn::Zero(d);
   const auto held = hn::Ne(hn::Load(d, maps.held + i), zero);
@@ -108,20 +109,18 @@ HWY_INLINE size_t Apply(const Maps& maps, size_t i, double* positions, double* n
   Stored(kept(Add3(Combined(x, y, z, position), maps.Column(3, i)), position), positions);
   const D3 yz = Cross3(y, z);
   const auto mirrored = hn::And(held, hn::Lt(Dot3(x, yz), zero));
-  if (normals) {
-    const VD sign = hn::IfThenElse(mirrored, hn::Set(d, -1.0), hn::Set(d, 1.0));
-    const D3 normal = Loaded(normals);
-    const D3 moved = Scale3(Combined(yz, Cross3(z, x), Cross3(x, y), normal), sign);
-    Stored(kept(moved, normal), normals);
-  }
-  return hn::CountTrue(d, mirrored);
+  const VD sign = hn::IfThenElse(mirrored, hn::Set(d, -1.0), hn::Set(d, 1.0));
+  hn::StoreU(sign, d, sides);
+  if (!normals) return;
+  const D3 normal = Loaded(normals);
+  const D3 moved = Scale3(Combined(yz, Cross3(z, x), Cross3(x, y), normal), sign);
+  Stored(kept(moved, normal), normals);
 }
 
-size_t Skin(const Deformation& deformation, const Affine* joints, size_t count, double* positions,
-            double* normals) {
+void Skin(const Deformation& deformation, const Affine* joints, size_t count, double* positions,
+          double* normals, double* sides) {
   const size_t lanes = hn::Lanes(Doubles());
   const Influence* all = deformation.influences.data();
-  size_t mirrored = 0;
   for (size_t first = 0; first < count; first += kVertices) {
     Maps maps = {};
     for (size_t k = 0; k < kVertices && first + k < count; ++k) {
@@ -131,10 +130,9 @@ size_t Skin(const Deformation& deformation, const Affine* joints, size_t count, 
     }
     for (size_t i = 0; i < kVertices; i += lanes) {
       const size_t at = 3 * (first + i);
-      mirrored += Apply(maps, i, positions + at, normals ? normals + at : nullptr);
+      Apply(maps, i, positions + at, normals ? normals + at : nullptr, sides + first + i);
     }
   }
-  return mirrored;
 }
 
 // Squares of lengths. Scaled by a power of two first, as whit::normalized does, a vector within
@@ -209,10 +207,10 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
   }
   DeformedVertices bent;
   if (deformation.hasSkin()) {
-    const std::size_t mirrored =
-        kernels.skin(deformation, pose.joints.data(), count, positions.data(),
-                     withNormals == count ? normals.data() : nullptr);
-    bent.mirrored = 2 * mirrored > count;
+    bent.sides.resize(count + kVertices);
+    kernels.skin(deformation, pose.joints.data(), count, positions.data(),
+                 withNormals == count ? normals.data() : nullptr, bent.sides.data());
+    bent.sides.resize(count);
   }
   kernels.normalize(withNormals, normals.data());
   bent.positions = rounded(positions, count);

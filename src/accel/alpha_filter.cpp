@@ -35,14 +35,18 @@ MaskedGeometry::MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::u
                                std::uint32_t end) {
   masks.reserve(scene.materials.size());
   for (const Material& material : scene.materials) masks.push_back(maskOf(material, maps));
-  triangles.reserve(end - first);
-  for (std::uint32_t i = first; i < end; ++i) {
-    const TriangleRecord& t = scene.triangles[i];
-    MaskedTriangle& masked = triangles.emplace_back();
-    std::copy(std::begin(t.uv), std::end(t.uv), masked.uv);
-    masked.mask = t.material;
-    anyMask = anyMask || masks[t.material].map != nullptr;
-    anySingleSided = anySingleSided || !masks[t.material].doubleSided;
+  triangles.resize(end - first);
+  update(scene.triangles.data() + first);
+  for (const MaskedTriangle& t : triangles) {
+    anyMask = anyMask || masks[t.mask].map != nullptr;
+    anySingleSided = anySingleSided || !masks[t.mask].doubleSided;
+  }
+}
+
+void MaskedGeometry::update(const TriangleRecord* records) {
+  for (MaskedTriangle& masked : triangles) {
+    std::copy(std::begin(records->uv), std::end(records->uv), masked.uv);
+    masked.mask = records++->material;
   }
 }
 

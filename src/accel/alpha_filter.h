@@ -51,6 +51,8 @@ struct MaskedGeometry {
   // Takes the triangles of scene.triangles from `first` to before `end`. `maps` must outlive it;
   // where they are empty there are no masks.
   MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first, std::uint32_t end);
+  // After moveScene(): a skin may have turned triangles over. `records` begin with the first.
+  void update(const TriangleRecord* records);
 
   std::vector<MaskedTriangle> triangles;
   std::vector<Mask> masks;  // one a material of the scene

@@ -246,6 +246,11 @@ void EmbreeScene::bendMeshes(const Scene& scene) {
     for (unsigned c = 0; c < kTriangleClasses; ++c) {
       if (source.classBegin[c] == source.classBegin[c + 1]) continue;
       RTCGeometry geometry = rtcGetGeometry(own, c);
+      if ((c & kMaskedBit) != 0) {
+        static_cast<MaskedGeometry*>(rtcGetGeometryUserData(geometry))
+            ->update(scene.triangles.data() + source.firstTriangle + source.classBegin[c]);
+      }
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(geometry);
     }

@@ -52,23 +52,42 @@ void setNormals(const std::vector<Vec3f>& normals, const std::array<std::uint32_
   }
 }
 
-void bend(Scene& scene, const BentVertices& bent, double seconds, DeformVertices deformVertices) {
+template <std::size_t kCount>
+void swapLastCorners(float (&values)[kCount]) {
+  std::swap_ranges(values + kCount / 3, values + 2 * kCount / 3, values + 2 * kCount / 3);
+}
+
+// All but positions and normals, which bend() sets.
+void turnOver(std::uint32_t triangle, std::array<std::uint32_t, 3>& corners, Scene& scene) {
+  std::swap(corners[1], corners[2]);
+  swapLastCorners(scene.triangles[triangle].uv);
+  if (!scene.secondUvs.empty()) swapLastCorners(scene.secondUvs[triangle].uv);
+  if (!scene.colors.empty()) swapLastCorners(scene.colors[triangle].color);
+}
+
+void bend(Scene& scene, BentVertices& bent, double seconds, DeformVertices deformVertices) {
   Geometry& geometry = scene.geometries[bent.geometry];
-  const DeformedVertices vertices =
-      deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
+  DeformedVertices vertices = deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
+  if (bent.sides.empty()) bent.sides = vertices.sides;
   std::copy(vertices.positions.begin(), vertices.positions.end(),
             geometry.position.begin() + bent.firstVertex);
   const std::size_t count = vertices.positions.size();
   for (std::size_t i = 0; i < geometry.index.size(); ++i) {
-    const auto& corners = geometry.index[i];
+    auto& corners = geometry.index[i];
     if (corners[0] < bent.firstVertex || corners[0] - bent.firstVertex >= count) continue;
-    TriangleRecord& record = scene.triangles[geometry.firstTriangle + i];
+    const auto number = static_cast<std::uint32_t>(geometry.firstTriangle + i);
+    std::array<std::uint32_t, 3> places = corners;
+    for (std::uint32_t& place : places) place -= bent.firstVertex;
+    if (turnsOver(bent.sides, places) != turnsOver(vertices.sides, places)) {
+      turnOver(number, corners, scene);
+      std::swap(places[1], places[2]);
+    }
+    TriangleRecord& record = scene.triangles[number];
     setCorners(geometry, corners, record);
     if (scene.normals.empty()) continue;
-    const auto place = [&](std::size_t k) { return corners[k] - bent.firstVertex; };
-    setNormals(vertices.normals, {place(0), place(1), place(2)}, record,
-               scene.normals[geometry.firstTriangle + i]);
+    setNormals(vertices.normals, places, record, scene.normals[number]);
   }
+  bent.sides = std::move(vertices.sides);
 }
 
 Box boxOf(const Scene& scene, const Geometry& geometry) {
@@ -130,7 +149,7 @@ void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
   const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
   moveView(scene, poses, seconds);
   if (!motion.ofGeometry) return;
-  for (const BentVertices& bent : motion.bent) {
+  for (BentVertices& bent : motion.bent) {
     bend(scene, bent, seconds, deformVertices);
     motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
   }

@@ -85,6 +85,8 @@ struct InstanceRecord {
 struct BentVertices {
   std::uint32_t geometry = 0, firstVertex = 0;
   std::shared_ptr<const Deformation> deformation;
+  // DeformedVertices::sides by which the triangles are turned now; empty: those of the start.
+  std::vector<double> sides = {};
 };
 
 // Input of moveScene().

@@ -53,6 +53,10 @@ bool Deformation::moves() const {
                                   [](const RigNode& node) { return node.motion != nullptr; });
 }
 
+bool turnsOver(const std::vector<double>& sides, const std::array<std::uint32_t, 3>& corners) {
+  return !sides.empty() && sides[corners[0]] + sides[corners[1]] + sides[corners[2]] < 0;
+}
+
 DeformationPose poseAt(const Deformation& deformation, double seconds) {
   DeformationPose pose;
   pose.weights = deformation.movingWeights ? valueAt(*deformation.movingWeights, seconds)
@@ -70,8 +74,8 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
     add(deformation.targets[i].normals, pose.weights[i], normals);
   }
   DeformedVertices bent;
-  std::size_t mirrored = 0;
   if (deformation.hasSkin()) {
+    bent.sides.assign(positions.size(), 1);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Influence* const all = deformation.influences.data();
       const std::uint32_t begin = deformation.firstInfluence[i];
@@ -80,10 +84,9 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
       const Affine map = blended(pose.joints, all + begin, all + end);
       positions[i] = map.point(positions[i]);
       if (i < normals.size()) normals[i] = map.normal(normals[i]);
-      mirrored += map.determinant() < 0 ? 1 : 0;
+      if (map.determinant() < 0) bent.sides[i] = -1;
     }
   }
-  bent.mirrored = 2 * mirrored > positions.size();
   bent.positions.reserve(positions.size());
   for (const Vec3d& position : positions) bent.positions.emplace_back(position);
   bent.normals.reserve(normals.size());

@@ -2,6 +2,7 @@
 // Thalmann 1988; glTF 2.0 specification, sections 3.7.2.2 and 3.7.3).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,8 +50,12 @@ struct Deformation {
 
 struct DeformedVertices {
   std::vector<Vec3f> positions, normals;  // rounded once; normals of unit length, or zero
-  bool mirrored = false;                  // the skin turns more than half of them inside out
+  // -1 for each vertex that the skin mirrors, 1 for the others; empty without a skin.
+  std::vector<double> sides;
 };
+// True if a skin mirrors more than one corner of a triangle. Its corners then run the other way
+// round, and corners 1 and 2 change places.
+bool turnsOver(const std::vector<double>& sides, const std::array<std::uint32_t, 3>& corners);
 
 // Weights and joint transforms at one time.
 struct DeformationPose {

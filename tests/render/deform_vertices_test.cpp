@@ -71,7 +71,7 @@ void expectTwins(const Deformation& deformation, const DeformationPose& pose) {
   const DeformedVertices bent = simd::deformVertices(deformation, pose);
   EXPECT_EQ(bent.positions, twin.positions);
   EXPECT_EQ(bent.normals, twin.normals);
-  EXPECT_EQ(bent.mirrored, twin.mirrored);
+  EXPECT_EQ(bent.sides, twin.sides);
 }
 
 class DeformKernels : public testing::TestWithParam<std::string> {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "render/film.h"
 #include "shipped_scene.h"
 #include "simd/deform_vertices.h"
+#include "verify/scene_builder.h"
 
 namespace whit {
 namespace {
@@ -169,6 +171,110 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
     int white = 0;
     for (const Rgb& pixel : pictureOf(renderer, scene, options).pixels) white += pixel.y > 0.5f;
     EXPECT_EQ(white, 16 * 16) << seconds;  // two by two units
+  }
+}
+
+// From 1 s on it mirrors at x = 0.
+class Mirroring : public Motion {
+ public:
+  Affine at(double seconds) const override {
+    return Affine::scaling({seconds < 1 ? 1.0 : -1.0, 1, 1});
+  }
+};
+
+// A vault along y: heights and normals depend on x alone, and x and -x are alike.
+void addVault(float shift, Mesh& mesh) {
+  constexpr int kColumns = 8;
+  for (int i = 0; i <= kColumns; ++i) {
+    const float x = static_cast<float>(i) / (kColumns / 2) - 1;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const float y : {-1.0f, 1.0f}) {
+      mesh.positions.push_back({x + shift, y, 0.5f - 0.5f * x * x});
+      mesh.normals.emplace_back(normalized(Vec3d{double{x}, 0, 1}));
+    }
+    if (i == kColumns) break;
+    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.triangles.push_back({first, first + 3, first + 1});
+  }
+}
+
+// Joint 0, which mirrors, holds the vertices up to x = 1, and joint 1, which stands still, the
+// others. A morph target bends all of them.
+std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
+  Deformation d;
+  d.positions = mesh.positions;
+  d.normals = mesh.normals;
+  d.targets.resize(1);
+  for (const Vec3f& p : mesh.positions) d.targets[0].positions.push_back({0, 0, 0.1f * p.x * p.x});
+  d.weights = {0.5};
+  d.skeleton = std::make_shared<const Rig>(
+      Rig{{kNoNode, Affine(), std::make_shared<const Mirroring>()}, {}});
+  d.joints = {{0, Affine()}, {1, Affine()}};
+  d.firstInfluence = {0};
+  for (const Vec3f& p : mesh.positions) {
+    d.influences.push_back({p.x > 1 ? 1u : 0u, 1});
+    d.firstInfluence.push_back(static_cast<std::uint32_t>(d.influences.size()));
+  }
+  return std::make_shared<const Deformation>(std::move(d));
+}
+
+enum class Mirrors { skin, partOfASkin, node };
+
+Scene mirroredVault(Mirrors what, bool doubleSided) {
+  test::SceneBuilder builder;
+  Material material = test::diffuseMaterial(0.8f);
+  material.doubleSided = doubleSided;
+  Mesh mesh;
+  mesh.materials = {builder.add(material)};
+  addVault(0, mesh);
+  if (what == Mirrors::partOfASkin) addVault(3, mesh);
+  if (what != Mirrors::node) mesh.deformation = mirroredSkin(mesh);
+  Object object;
+  object.meshes = {mesh};
+  builder.place(std::move(object), {Affine()});
+  builder.description.motion.rig = {{kNoNode, Affine(), std::make_shared<const Mirroring>()}};
+  if (what == Mirrors::node) builder.description.instances[0].mover = 0;
+  builder.description.lights = {test::lightAt({0, 2, 5}, 60)};
+  builder.description.cameras = {{.eye = {1.03f, 0, 9}, .at = {1.03f, 0, 0}, .fov = 40}};
+  return builder.build();
+}
+
+// A symmetrical surface looks as before when it is mirrored, in packets and in the reference.
+void expectAlikeMirrored(Scene scene) {
+  const RenderOptions options = smallOptions();
+  Renderer renderer(scene, options);
+  const auto pictures = [&] {
+    Film packets = makeFilm(scene, options), reference = packets;
+    renderer.render(chooseCamera(scene, options), packets);
+    renderer.renderReference(chooseCamera(scene, options), reference);
+    return std::array<Image, 2>{packets.image, reference.image};
+  };
+  const auto before = pictures();
+  moveScene(scene, 2, simd::deformVertices);
+  renderer.sceneMoved();
+  const auto after = pictures();
+  for (std::size_t mode = 0; mode < 2; ++mode) {
+    int lit = 0, other = 0;
+    for (std::size_t i = 0; i < before[mode].pixels.size(); ++i) {
+      const float a = before[mode].pixels[i].x, b = after[mode].pixels[i].x;
+      lit += a > 0.1f;
+      other += std::abs(a - b) > 1e-5f;
+    }
+    EXPECT_GT(lit, 200) << mode;
+    EXPECT_LE(other, lit / 100) << mode;  // on edges, which lie otherwise in the last bits
+  }
+  moveScene(scene, 0, simd::deformVertices);
+  renderer.sceneMoved();
+  EXPECT_EQ(firstDifference(pictures()[0], before[0]), "");
+}
+
+TEST(MovingScene, MirroredSurfacesAreShadedAsBefore) {
+  for (const Mirrors what : {Mirrors::skin, Mirrors::partOfASkin, Mirrors::node}) {
+    for (const bool doubleSided : {true, false}) {
+      SCOPED_TRACE(std::to_string(static_cast<int>(what)) +
+                   (doubleSided ? " from both sides" : ""));
+      expectAlikeMirrored(mirroredVault(what, doubleSided));
+    }
   }
 }
 

@@ -121,8 +121,8 @@ void deform(const GltfDocument& document, const JsonValue& primitive,
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
-  if (start.mirrored) {
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  for (auto& triangle : mesh.triangles) {
+    if (turnsOver(start.sides, triangle)) std::swap(triangle[1], triangle[2]);
   }
   if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
 }
