@@ -9,12 +9,13 @@ namespace whit {
 namespace {
 
 // The box of an instance is that of its object, moved: exact unless it is turned.
-void addInstance(const InstanceRecord& instance, const std::vector<Box>& boxes, Box& all) {
+void addInstance(const Scene& scene, const InstanceRecord& instance, const std::vector<Box>& boxes,
+                 Box& all) {
   const Box& own = boxes[instance.geometry];
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d world = instance.toWorld.point(Vec3d(own.corner(corner)));
     if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
-      throwBadScene("instance of geometry " + std::to_string(instance.geometry),
+      throwBadScene(scene.name + ": instance of geometry " + std::to_string(instance.geometry),
                     "expected coordinates up to 1.844e18 after its transform");
     }
     all.add(Vec3f(world));
@@ -24,7 +25,7 @@ void addInstance(const InstanceRecord& instance, const std::vector<Box>& boxes, 
 // The largest coordinate of everything that rays start from: surfaces and eyes.
 float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   Box all = boxes[0];
-  for (const InstanceRecord& instance : scene.instances) addInstance(instance, boxes, all);
+  for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, all);
   float farthest = 0;
   const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
   if (!all.empty()) add(all.lower), add(all.upper);
@@ -45,7 +46,7 @@ void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warni
   });
   warnings.add("instance too small or too flat to be traced left out", scene.name, lost);
   Box box = boxes[0];
-  for (const InstanceRecord& instance : scene.instances) addInstance(instance, boxes, box);
+  for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, box);
   countInstanced(scene);
   if (scene.instancedTriangles + scene.instancedSpheres == 0) return;
   scene.lower = box.lower;

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "io/read_file.h"
 
 namespace whit {
 namespace fs = std::filesystem;
@@ -94,8 +95,10 @@ bool PathRules::inside(const fs::path& path) const {
 fs::path PathRules::resolve(std::string text, const fs::path& folder, const std::string& where,
                             bool backslashes) const {
   if (text.empty()) throwBadScene(where, "expected the path of a file, found an empty string");
-  if (text.find('\0') != std::string::npos || text.find("://") != std::string::npos) {
-    throwBadScene(where, "expected the path of a file on this machine");
+  const bool nul = text.find('\0') != std::string::npos;
+  if (nul || text.find("://") != std::string::npos) {
+    throwBadScene(where, "expected the path of a file on this machine, found " +
+                             (nul ? "a NUL byte" : excerpt(text)));
   }
   if (backslashes) std::replace(text.begin(), text.end(), '\\', '/');
   fs::path path;

@@ -81,7 +81,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "#/extensionsRequired/0: the file cannot be shown without KHR_draco_mesh_compression, which "
        "is not supported"},
       {"data:application/octet-stream;base64,", "http://example.org/",
-       "#/buffers/0/uri: expected the path of a file on this machine"},
+       "#/buffers/0/uri: expected the path of a file on this machine, found "
+       "http://example.org/AAAA"},
       {"data:application/octet-stream;base64,AAA", "../", nullptr},
   };
   const std::string whole = wholeText();

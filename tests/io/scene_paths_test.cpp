@@ -75,9 +75,11 @@ TEST_F(ScenePaths, TheDataFolderIsAllowed) {
 
 TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {
   EXPECT_EQ(errorOfModel("http://host/in.obj"),
-            "3 s.json#/scene/0/model: expected the path of a file on this machine");
-  EXPECT_EQ(errorOfModel("a\\u0000.obj"),
-            "3 s.json#/scene/0/model: expected the path of a file on this machine");
+            "3 s.json#/scene/0/model: expected the path of a file on this machine, found "
+            "http://host/in.obj");
+  EXPECT_EQ(
+      errorOfModel("a\\u0000.obj"),
+      "3 s.json#/scene/0/model: expected the path of a file on this machine, found a NUL byte");
   EXPECT_EQ(errorOfModel(""),
             "3 s.json#/scene/0/model: expected the path of a file, found an empty string");
 }
