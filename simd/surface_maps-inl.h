@@ -296,7 +296,8 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
 // Queues maps again that the material looks up by the second texture coordinates, in scenes that
 // have them. The function is not inlined and starts from the hits, so that other frames do not pay
 // for it.
-HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
+inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot,
+                                       BlockTextures& block) {
   const FloatTag d;
   const ShadingTables& tables = job.tables;
   const auto [valid, triangle] = LoadHits(job.hits, i);
