@@ -17,7 +17,7 @@ namespace {
 // takes from the others is the weight of the very samples that it gives.
 constexpr float kRoundingsOfAPath = 1e-4f;
 
-constexpr int kColumns = 25, kRows = 20, kPixelsASide = 3;
+constexpr int kBallsAcross = 25, kBallsDown = 20, kPixelsASide = 3;
 
 // A ball of each material in a grid of them, seen in parallel from afar. Each is farther away than
 // the one before, so that they hardly reflect one another.
@@ -25,9 +25,10 @@ Scene balls(const std::vector<Material>& materials) {
   SceneBuilder builder;
   builder.sky(1);
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto column = static_cast<double>(i % kColumns), row = static_cast<double>(i / kColumns);
+    const auto column = static_cast<double>(i % kBallsAcross),
+               row = static_cast<double>(i / kBallsAcross);
     Mesh ball;
-    const Vec3d center{column - (kColumns - 1) / 2.0, row - (kRows - 1) / 2.0,
+    const Vec3d center{column - (kBallsAcross - 1) / 2.0, row - (kBallsDown - 1) / 2.0,
                        -8 * static_cast<double>(i)};
     ball.spheres = {Affine::translation(center) * Affine::scaling(Vec3d(0.49))};
     ball.materials = {builder.add(materials[i])};
@@ -36,14 +37,14 @@ Scene balls(const std::vector<Material>& materials) {
   Camera camera;
   camera.eye = {0, 0, 50};
   camera.at = {0, 0, 0};
-  camera.orthographicHeight = kRows;
+  camera.orthographicHeight = kBallsDown;
   builder.description.cameras = {camera};
   return builder.build();
 }
 
 RenderOptions furnace() {
   RenderOptions o = smallOptions();
-  o.size = ImageSize{kColumns * kPixelsASide, kRows * kPixelsASide};
+  o.size = ImageSize{kBallsAcross * kPixelsASide, kBallsDown * kPixelsASide};
   o.depth = 4;
   o.cutoff = 0;
   o.glossy = 3;
@@ -77,7 +78,7 @@ Rgb color(Numbers& numbers) {
 TEST(WhiteFurnace, NoneOf500RandomMaterialsIsBrighterThanTheRoom) {
   Numbers numbers(500);
   std::vector<Material> materials;
-  for (int i = 0; i < kColumns * kRows; ++i) {
+  for (int i = 0; i < kBallsAcross * kBallsDown; ++i) {
     const auto chance = [&](double share) { return numbers.in(0, 1) < share; };
     Material m = diffuseMaterial(1);
     if (chance(0.5)) m.diffuse = color(numbers);
@@ -101,7 +102,7 @@ TEST(WhiteFurnace, NoneOf500RandomMaterialsIsBrighterThanTheRoom) {
 TEST(WhiteFurnace, WhatDoesNotAbsorbVanishes) {
   Numbers numbers(1);
   std::vector<Material> materials;
-  for (int i = 0; i < kColumns * kRows; ++i) {
+  for (int i = 0; i < kBallsAcross * kBallsDown; ++i) {
     Material m = diffuseMaterial(1);
     m.specular = i % 2 == 0 ? Rgb(0.04f) : color(numbers);
     m.roughness = static_cast<float>(numbers.in(0, 1));
