@@ -68,7 +68,8 @@ WHIT_KERNEL(LookUpRoughness, "lookUpRoughness", findIntersections,
 WHIT_KERNEL(LookUpCoverage, "lookUpCoverage", findIntersections,
             {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
 
-// Scales diffuse colors to the light that mirror, Fresnel's law and transmission leave.
+// Scales diffuse colors to the light that mirror, Fresnel's law, sampled lobes and transmission
+// leave.
 WHIT_KERNEL(LimitDiffuse, "limitDiffuse", findIntersections, {Part::rays, Part::surfels},
             {Part::surfels});
 

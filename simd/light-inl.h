@@ -16,7 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// lightPoint(): the lattice of each lane's own stream.
 class LightLanes {
  public:
   // Without `cones` a spot light shines to all sides.

@@ -34,12 +34,6 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
   return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
 }
 
-// The mirror coat's reflectance.
-RgbD coatReflectance(const Material& material, double c) {
-  const RgbD normal(material.mirror), grazing(material.mirrorGrazing);
-  return normal + (grazing - normal) * schlickTerm(c);
-}
-
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
 // proportion, so that glass keeps its hue under a coat.
 RgbD limited(const RgbD& color, const RgbD& taken) {
@@ -53,6 +47,20 @@ RgbD limited(const RgbD& color, const RgbD& taken) {
 
 double cosineOf(const Surfel& surfel) {
   return std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
+}
+
+// The mirror coat's reflectance towards the viewer.
+RgbD coatOf(const Material& material, EffectSet effects, const Surfel& surfel) {
+  if (!effects.has(Effect::mirror)) return {};
+  const RgbD normal(material.mirror), grazing(material.mirrorGrazing);
+  return normal + (grazing - normal) * schlickTerm(cosineOf(surfel));
+}
+
+// The share of the light that the interface does not reflect.
+double passedBy(const Crossing& crossing, const ShadingChoices& choices, const Surfel& surfel) {
+  if (!crossing.dielectric) return 1;
+  const double c = cosineOf(surfel);
+  return 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
 }
 
 // Seen from nearer to the normal than this, as a sine, the plane of incidence is lost in rounding,
@@ -128,7 +136,7 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   const Material& material = scene.materials[surfel.material];
   const double c = cosineOf(surfel);
   const bool mirrors = effects.has(Effect::mirror);
-  const RgbD coat = mirrors ? coatReflectance(material, c) : RgbD();
+  const RgbD coat = coatOf(material, effects, surfel);
   RgbD reflectance = coat * surfel.coverage;
   if (crossing.dielectric) {
     const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
@@ -152,34 +160,36 @@ LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot) {
   return {path, lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber)};
 }
 
+void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
+  const Material& material = scene.materials[surfel.material];
+  if (crossing.hidden || !material.scatters(effects)) return;
+  Surfel alone = surfel;
+  alone.coverage = 1;
+  RgbD taken;
+  const int rays = glossyRays(surfel, points.sampling);
+  for (int i = 0; i < rays; ++i) {
+    const auto k = static_cast<std::uint32_t>(i);
+    const UnitPoint at = pointOf(kGlossyLobe, points.path, points.sampling, k);
+    taken += glossyImpulse(alone, 0, at, choices).weight / rays;
+  }
+  surfel.belowLobe = RgbD(1.0) - taken;
+  surfel.aboveLobe =
+      (RgbD(1.0) - coatOf(material, effects, surfel)) * passedBy(crossing, choices, surfel);
+}
+
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
+  shareWithLobe(scene, effects, crossing, choices, points, surfel);
   const Material& material = scene.materials[surfel.material];
-  if (crossing.hidden) return;
-  const double c = cosineOf(surfel);
-  const RgbD coat = effects.has(Effect::mirror) ? coatReflectance(material, c) : RgbD();
-  const double passed =
-      crossing.dielectric
-          ? 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance
-          : 1;
-  if (material.scatters(effects)) {
-    Surfel alone = surfel;
-    alone.coverage = 1;
-    RgbD taken;
-    const int rays = glossyRays(surfel, points.sampling);
-    for (int i = 0; i < rays; ++i) {
-      const auto k = static_cast<std::uint32_t>(i);
-      const UnitPoint at = pointOf(kGlossyLobe, points.path, points.sampling, k);
-      taken += glossyImpulse(alone, 0, at, choices).weight / rays;
-    }
-    surfel.belowLobe = RgbD(1.0) - taken;
-    surfel.aboveLobe = (RgbD(1.0) - coat) * passed;
+  if (crossing.hidden || !material.limitsDiffuse(effects)) return;
+  RgbD taken = coatOf(material, effects, surfel);
+  double passed = 1;
+  if (crossing.dielectric && material.hasTransmission()) {
+    taken += limited(RgbD(material.transmission), taken);
+    passed = passedBy(crossing, choices, surfel);
   }
-  if (!material.limitsDiffuse(effects)) return;
-  const bool transmits = crossing.dielectric && material.hasTransmission();
-  const RgbD through = transmits ? limited(RgbD(material.transmission), coat) : RgbD();
-  surfel.diffuse =
-      limited(surfel.diffuse, coat + through) * (transmits ? passed : 1) * surfel.belowLobe;
+  surfel.diffuse = limited(surfel.diffuse, taken) * passed * surfel.belowLobe;
 }
 
 Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
@@ -248,10 +258,8 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t stack = mediaOf(chunk, slot);
   const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material, surfel.entering,
                                        stack, alsoCrossedAt(chunk, slot));
-  const RgbD diffuse = surfel.diffuse;  // limited already
-  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
-               lobePointsOf(chunk, slot), surfel);
-  surfel.diffuse = diffuse;
+  shareWithLobe(world.scene, world.effects, crossing, chunk.options().shading,
+                lobePointsOf(chunk, slot), surfel);
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));

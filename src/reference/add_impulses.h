@@ -50,8 +50,13 @@ struct LobePoints {
 
 LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot);
 
-// Shares the light that meets a surfel, so that it never sends out more than it gets: sets
-// aboveLobe and belowLobe and scales the diffuse color (scene/material.h has the rule).
+// Sets aboveLobe and belowLobe of a surfel whose glossy lobe is sampled (scene/material.h has the
+// rule).
+void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
+
+// shareWithLobe(), and scales the diffuse color to the light that mirror, Fresnel's law, the lobe
+// and transmission leave, so that a surface never sends out more than it gets.
 void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
 

@@ -121,13 +121,12 @@ TEST_F(GltfHostile, NodesThatAreNoTree) {
                        ",\"scenes\":[{\"nodes\":" + scene + "}]}");
   };
   EXPECT_EQ(error("[{\"children\":[0]}]", "[0]"),
-            "3 m.gltf#/nodes/0: expected a tree, found a parent of every node");
+            "3 m.gltf#/nodes/0: expected a tree, found no node without a parent");
   EXPECT_EQ(error("[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "[0]"),
             "3 m.gltf#/nodes/2/children: expected a tree, found node 1 with two parents");
   EXPECT_EQ(error("[{},{\"children\":[2]},{\"children\":[1]}]", "[1]"),
-            "3 m.gltf#/nodes/1: expected a tree, found a second way to this node");
-  EXPECT_EQ(error("[{}]", "[0,0]"),
-            "3 m.gltf#/nodes/0: expected a tree, found a second way to this node");
+            "3 m.gltf#/nodes/1: expected a tree, found this node twice");
+  EXPECT_EQ(error("[{}]", "[0,0]"), "3 m.gltf#/nodes/0: expected a tree, found this node twice");
   std::string chain;
   for (int i = 1; i <= 400; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
   EXPECT_EQ(error("[" + chain + "{}]", "[0]"), "3 m.gltf#/nodes/257: nested deeper than 256 nodes");

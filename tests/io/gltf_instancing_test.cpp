@@ -46,7 +46,7 @@ TEST_F(GltfInstancing, AttributesMustFitTogether) {
   const std::string one = std::to_string(b.positions({1, 1, 1}));
   EXPECT_EQ(errorOfText(textOf(b, "\"TRANSLATION\":" + two + ",\"SCALE\":" + one)),
             "3 m.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: expected attributes "
-            "of equal lengths, found 1");
+            "of equal lengths, found 1 beside 2");
   GltfBuilder flat;
   const std::string zero = std::to_string(flat.positions({1, 0, 1, 1, 1, 1}));
   EXPECT_EQ(triangleCount(loadText(textOf(flat, "\"SCALE\":" + zero))), 1u);

@@ -148,9 +148,9 @@ TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
     return errorOf([&] { at(0, text); });
   };
   EXPECT_EQ(errorAt({0, 0}, {0, 0, 0, 1, 0, 0}),
-            place + "input: expected times that increase, found a number 1 that does not");
+            place + "input: expected finite times that increase, found 0 at index 1");
   EXPECT_EQ(errorAt({0, kNone}, {0, 0, 0, 1, 0, 0}),
-            place + "input: expected times that increase, found a number 1 that does not");
+            place + "input: expected finite times that increase, found nan at index 1");
   EXPECT_EQ(errorAt({0, 1}, {0, 0, 0}), place + "output: expected 6 numbers for 2 times, found 3");
   EXPECT_EQ(errorAt({0, 1}, {0, 0, 0, kNone, 0, 0}),
             place + "output: expected finite numbers, found one that is not");

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "core/options.h"
 #include "io/gltf/accessor.h"
@@ -132,7 +133,8 @@ class AnimationReader {
     if (times.empty()) input.fail("at least one time", "none");
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
-      input.fail("times that increase", "a number " + std::to_string(i) + " that does not");
+      input.fail("finite times that increase",
+                 formatted("%g at index %zu", static_cast<double>(times[i]), i));
     }
     return {times.begin(), times.end()};
   }
@@ -367,7 +369,7 @@ class TreeReader {
       if (parents_[i] == kTopmost) topmost_.push_back(i);
     }
     if (topmost_.empty() && !parents_.empty()) {
-      nodes_[std::size_t{0}].fail("a tree", "a parent of every node");
+      nodes_[std::size_t{0}].fail("a tree", "no node without a parent");
     }
   }
 
@@ -387,7 +389,7 @@ class TreeReader {
   void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, int depth) {
     const JsonValue node = nodes_[index];
     if (depth > kGltfDepthLimit) failTooDeep(document_, index);
-    if (seen_[index]) node.fail("a tree", "a second way to this node");
+    if (seen_[index]) node.fail("a tree", "this node twice");
     seen_[index] = true;
     RigNode own = nodeOf(index);
     const Affine map = own.motion ? Affine() : toMover * own.toParent;
@@ -493,8 +495,10 @@ class TreeReader {
     const std::size_t turns = rotations.size() / 4;
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
     for (const std::size_t size : {translations.size(), turns, scales.size()}) {
-      if (size != 0 && size != count)
-        attributes.fail("attributes of equal lengths", std::to_string(size));
+      if (size != 0 && size != count) {
+        attributes.fail("attributes of equal lengths",
+                        std::to_string(size) + " beside " + std::to_string(count));
+      }
     }
     document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance),
                               attributes.where());
