@@ -64,18 +64,30 @@ Box grown(const Box& box, double by) {
 }
 
 // A triangle is tested by rays that meet the box of its leaf in Embree's BVH, which holds
-// neighbors: it is taken to reach no further from the triangle than this part of its size, and this
-// part of the scene's. It is the one thing about Embree that proofs take for granted without a
-// bound.
-constexpr double kLeafSizes = 0.5, kLeafReach = 1.0 / 1024;
+// neighbors: it is taken to reach no further from the triangle than half of its size and this part
+// of the scene's, or than the box of so many neighbors on the curve to each side. It is the one
+// thing about Embree that proofs take for granted without a bound.
+constexpr double kLeafReach = 1.0 / 1024;
+constexpr std::size_t kLeafNeighbors = 4;
 
-float growthOf(const Scene& scene, const CasterList& list, const CasterRef& caster,
+double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
+
+float growthOf(const Scene& scene, const CasterList& list, std::size_t at,
                const LightPoint& light) {
-  const Box box = list.boxOf(scene, caster);
-  const double most =
-      length(Vec3d(box.upper) - Vec3d(box.lower)) * kLeafSizes + list.size * kLeafReach;
+  const CasterRef& caster = list.casters[at];
+  double reach = diagonalOf(list.boxOf(scene, caster)) / 2 + list.size * kLeafReach;
   const double influence = Caster(scene.triangles[caster.number], light).influence(list.size);
-  return static_cast<float>(std::min(influence, most)) * (1 + 0x1p-20f);
+  if (influence > reach) {
+    Box neighbors;
+    const std::size_t end = std::min(at + kLeafNeighbors + 1, list.casters.size());
+    for (std::size_t i = at - std::min(at, kLeafNeighbors); i < end; ++i) {
+      const Box box = list.boxOf(scene, list.casters[i]);
+      neighbors.add(box.lower);
+      neighbors.add(box.upper);
+    }
+    reach = std::max(reach, diagonalOf(neighbors));
+  }
+  return static_cast<float>(std::min(influence, reach)) * (1 + 0x1p-20f);
 }
 
 // Embree's own tests of boxes, and its way into an instance's space, are off by some ulps.
@@ -141,9 +153,10 @@ CasterTree::CasterTree(const Scene& scene, const CasterList& list, const LightPo
   growth_.reserve(list.casters.size());
   std::vector<Box> boxes;
   boxes.reserve(list.casters.size());
-  for (const CasterRef& caster : list.casters) {
+  for (std::size_t i = 0; i < list.casters.size(); ++i) {
+    const CasterRef& caster = list.casters[i];
     const Box box = list.boxOf(scene, caster);
-    growth_.push_back(caster.isBox() ? 0 : growthOf(scene, list, caster, light));
+    growth_.push_back(caster.isBox() ? 0 : growthOf(scene, list, i, light));
     boxes.push_back(caster.isBox() ? box : grown(box, double{growth_.back()}));
   }
   while (!boxes.empty()) {

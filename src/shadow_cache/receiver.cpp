@@ -11,9 +11,10 @@ namespace {
 constexpr double kRim = kShadowRim * (1 - 0x1p-6);
 // Per axis to Euclidean, with what the kernel's own interpolation may be off.
 constexpr double kReach = kCachedShadowReach * 1.7320508 * 1.5;
-// A triangle is a sliver if its area is less than this share of the product of two edge lengths (as
-// in the kernels' GeometricNormal, with room).
-constexpr double kSliverArea = 0x1p-10;
+// A triangle is a sliver if twice its area is less than this share of its longest edge squared. Of
+// 120 random scenes of needles, two had rays that met the triangle where they start, at a share of
+// 0.00134; this is three times as much.
+constexpr double kSliverArea = 0x1p-8;
 
 struct Weights2 {
   double u = 0, v = 0;

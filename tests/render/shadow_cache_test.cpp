@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -290,6 +291,40 @@ TEST(ShadowCache, H88_randomScenesOfTenKinds) {
       SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
       expectRight(randomScene(kind, seed), options);
     }
+  }
+}
+
+// A floor and a needle, almost edge-on to their light. Embree tests a triangle for every ray that
+// meets the box of its leaf, which here is the whole scene's. Rounding lets it find the first
+// needle by rays that pass 4 units beside it, and the second one by rays that start on it.
+TEST(ShadowCache, H89_needlesInScenesOfThreeTriangles) {
+  struct Case {
+    float floor;
+    std::array<Vec3f, 3> needle;
+    Vec3f light, eye;
+  };
+  const Case cases[] = {{14.028239f,
+                         {Vec3f{-5.37400494f, 7.47210031f, 6.03172519f},
+                          {-3.61076613f, 5.3170083f, -0.208840215f},
+                          {-4.0588264f, 5.86460821f, 1.37681513f}},
+                         {-2.4535348947f, 3.9025999089f, -4.3045855774f},
+                         {12.625415f, 18.236711f, 15.431063f}},
+                        {9.68172845f,
+                         {Vec3f{-1.90015353f, 5.71769683f, -4.11312747f},
+                          {0.80964481f, 4.72943939f, 4.59507258f},
+                          {-0.792609496f, 5.32087824f, -0.528518661f}},
+                         {1.56804267f, 4.45285337f, 7.03225773f},
+                         {8.71355561f, 12.586247f, 10.6499013f}}};
+  RenderOptions options = soupOptions();
+  options.size = ImageSize{161, 121};
+  for (const Case& c : cases) {
+    Soup soup(0);
+    soup.addFloor(0, c.floor);
+    soup.add(c.needle[0], c.needle[1], c.needle[2]);
+    soup.light(c.light);
+    Scene scene = soup.finish(c.eye, {0, 0.3f, 0});
+    scene.cameras[0].fov = 50;
+    expectRight(scene, options);
   }
 }
 
