@@ -3,7 +3,7 @@
 #   tests/run.sh           Release with warnings as errors and every test of it; formatting where
 #                          clang-format is: ten minutes on two cores
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
-#                          Clang, fuzzing, MPI, the Debian package in a clean system, Embree 4 with Clang
+#                          Clang, fuzzing, the Debian package in a clean system, Embree 4 with Clang
 #                          in Release as well, and both commands of README.md in fresh systems: forty
 #                          minutes
 #   tests/run.sh --deep    every test in the fresh systems a second time, as a user with sudo, and in
@@ -80,18 +80,6 @@ checkThreads() {
   done
 }
 
-# One image on several ranks: the rest of the program is that of the other builds.
-checkRanks() {
-  if ! command -v mpirun >/dev/null; then
-    echo "!! Open MPI is not installed: WHIT_MPI is NOT checked" >&2
-    [ -z "${CI:-}" ]
-    return
-  fi
-  cmake --preset release -B build-mpi -DWHIT_MPI=ON -DWHIT_WERROR=ON >/dev/null &&
-    cmake --build build-mpi --parallel "$(nproc)" --target whit &&
-    tests/cli/mpi_test.sh build-mpi/whit
-}
-
 # 20 s a reader; tests/fuzz/run.sh by itself runs for longer.
 fuzzReaders() {
   tests/fuzz/run.sh 20
@@ -121,7 +109,6 @@ if $full; then
   step "thread sanitizer" checkThreads
   step "sanitizers" buildAndTest debug-sanitize -DWHIT_WERROR=ON
   step "fuzzing" fuzzReaders
-  step "MPI" checkRanks
   step "package" tests/package.sh
 fi
 if $deep; then

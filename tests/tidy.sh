@@ -20,9 +20,7 @@ if ! command -v clang-tidy >/dev/null; then
   [ -z "${CI:-}" ]
   exit
 fi
-mpi=OFF
-if command -v mpirun >/dev/null; then mpi=ON; fi
-cmake --preset tidy -DWHIT_WERROR=ON -DWHIT_MPI=$mpi >/dev/null
+cmake --preset tidy -DWHIT_WERROR=ON >/dev/null
 
 # Every source that the build would compile, those made of most first: they take longest.
 sources() {

@@ -65,11 +65,10 @@ OptionList listOptions(BenchJob& job) {
   return list;
 }
 
-void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm& farm,
-             Progress* progress) {
+void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
   const auto add = [&](const RenderOptions& options) {
-    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress, &farm));
+    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
   };
   RenderOptions options = optionsFor(open->scene, job.common);
   if (job.widths) {
@@ -95,9 +94,8 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Farm
   }
 }
 
-void checkShadowCacheTurns(const BenchJob& job, const Farm& farm) {
+void checkShadowCacheTurns(const BenchJob& job) {
   if (job.reference()) throwUsage("--ab-shadow-cache is for packets, not --mode reference");
-  if (farm.ranks() > 1) throwUsage("--ab-shadow-cache is for one process, not for mpirun");
   if (job.widths || job.abEffects) {
     throwUsage(
         "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
@@ -107,16 +105,14 @@ void checkShadowCacheTurns(const BenchJob& job, const Farm& farm) {
   }
 }
 
-void checkJob(const BenchJob& job, const Farm& farm) {
-  if (farm.leads()) requireJsonWritable(job.json);
-  checkShared(farm, job.common);
-  if (farm.ranks() > 1 && job.floor) throwUsage("--floor is for one process, not for mpirun");
+void checkJob(const BenchJob& job) {
+  requireJsonWritable(job.json);
   if (job.reference() && job.floor) throwUsage("--floor is for packets, not --mode reference");
   if (job.reference() && job.widths) throwUsage("--widths is for packets, not --mode reference");
   if (job.widths && job.common.given.contains("packet")) {
     throwUsage("--widths runs every packet width: leave out --packet");
   }
-  if (job.abShadowCache) checkShadowCacheTurns(job, farm);
+  if (job.abShadowCache) checkShadowCacheTurns(job);
   if (!job.abEffects) return;
   if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
   if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");
@@ -125,18 +121,19 @@ void checkJob(const BenchJob& job, const Farm& farm) {
   }
 }
 
-int bench(const Words& words, Farm& farm) {
+}  // namespace
+
+int benchCommand(const Words& words) {
   BenchJob job;
   if (parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words) == Parsed::helpShown)
     return 0;
   settleOptions(job.common);
-  quietUnlessLeading(farm, job.common);
-  checkJob(job, farm);
+  checkJob(job);
   auto progress = makeProgressBar(job.common);
   std::vector<RunSummary> summaries;
   BenchRuns runs;
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {
-    addRuns(runs, job.scenes[i], job, farm, progress.get());
+    addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
     if (job.comparesRuns() && i + 1 < job.scenes.size()) continue;
     takeTurns(runs, job.turns(), progress.get());
@@ -144,7 +141,6 @@ int bench(const Words& words, Farm& farm) {
     runs.clear();
   }
   progress.reset();
-  if (!farm.leads()) return 0;
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
@@ -154,12 +150,6 @@ int bench(const Words& words, Farm& farm) {
   }
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.pairs()));
   return 0;
-}
-
-}  // namespace
-
-int benchCommand(const Words& words) {
-  return Farm::run([&](Farm& farm) { return bench(words, farm); });
 }
 
 }  // namespace whit::cli

@@ -8,9 +8,8 @@
 namespace whit::cli {
 
 BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-                   const RenderOptions& options, Progress* progress, Farm* farm)
+                   const RenderOptions& options, Progress* progress)
     : open_(std::move(open)),
-      farm_(farm),
       options_(options),
       renderer_(open_->scene, options, progress),
       camera_(chooseCamera(open_->scene, options)),
@@ -20,20 +19,14 @@ BenchRun::BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& c
   summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
 }
 
-FrameStats BenchRun::frame() {
-  return farm_ ? renderShared(*farm_, renderer_, options_, camera_, film_)
-               : renderFrame(renderer_, options_.mode, camera_, film_);
-}
-
 void BenchRun::warmUp() {
-  const bool shared = farm_ && farm_->ranks() > 1;
-  const bool proves = cachesShadows_ && begun_ && !shared && options_.mode != Mode::reference;
+  const bool proves = cachesShadows_ && begun_ && options_.mode != Mode::reference;
   if (proves && coldMs_.empty()) {
     renderer_.expectFrames(
         memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
         options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
   }
-  const FrameStats stats = frame();
+  const FrameStats stats = renderFrame(renderer_, options_.mode, camera_, film_);
   if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
   begun_ = true;
 }
@@ -47,9 +40,8 @@ void BenchRun::fillShadowCache() {
 
 void BenchRun::measure(bool floor) {
   if (!coldMs_.empty() && !summary_.shadowCache) fillShadowCache();
-  summary_.frames.push_back(frame());
+  summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
   summary_.imageHash = accuracy::digestOf(film_.image);
-  if (farm_ && farm_->ranks() > 1) summary_.shares.push_back(farm_->lastFrame());
   if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_, 1).floorMs);
 }
 

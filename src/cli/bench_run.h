@@ -14,13 +14,11 @@ namespace whit::cli {
 class BenchRun {
  public:
   // `common` gives the film's size and limits, `options` everything else.
-  // `farm`: null for frames of this process alone; must outlive the run.
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-           const RenderOptions& options, Progress* progress, Farm* farm = nullptr);
+           const RenderOptions& options, Progress* progress);
 
   // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
-  // without it, and filled before the measured ones. Not in reference mode, nor in frames that
-  // several processes share.
+  // without it, and filled before the measured ones. Not in reference mode.
   void useShadowCache() { cachesShadows_ = true; }
 
   void warmUp();
@@ -33,11 +31,9 @@ class BenchRun {
   const RenderOptions& options() const { return options_; }
 
  private:
-  FrameStats frame();
   void fillShadowCache();
 
   std::shared_ptr<const OpenScene> open_;
-  Farm* farm_;
   RenderOptions options_;
   Renderer renderer_;
   Camera camera_;

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "accuracy/report.h"
 #include "cli/app/interrupt.h"
@@ -35,20 +34,6 @@ Json stagesJson(const FrameStats& frame) {
 }
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
-
-Json farmJson(const FarmFrame& share) {
-  const std::vector<double> ms(share.blockMs.begin(), share.blockMs.end());
-  return {{"ranks", share.ranks},
-          {"block_side", share.blockSide},
-          {"blocks", ms.size()},
-          {"block_ms",
-           {{"sum", std::accumulate(ms.begin(), ms.end(), 0.0)},
-            {"median", quantile(ms, 0.5)},
-            {"max", quantile(ms, 1)}}},
-          {"messages", share.messages},
-          {"message_bytes", share.messageBytes},
-          {"place_ms", share.placeMs}};
-}
 
 }  // namespace
 
@@ -102,7 +87,6 @@ void addFrames(const RunSummary& run, Json& json) {
                           {"waited", quantile(run.waitedMs, 0.5)}};
     json["written_per_s"] = writtenPerSecond(run);
   }
-  if (!run.shares.empty()) json["farm"] = farmJson(run.shares[medianFrameIndex(run)]);
 }
 
 // By their numbers in the channel of that name, as objects are.

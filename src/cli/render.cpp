@@ -158,20 +158,17 @@ void checkFilm(const RenderJob& job) {
   }
 }
 
-void checkJob(const RenderJob& job, const Farm& farm) {
+void checkJob(const RenderJob& job) {
   if (job.outputs.empty()) {
     throwUsage("expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
   }
-  checkShared(farm, job.common);
   checkChannels(job);
   checkFilm(job);
-  if (farm.leads()) {
-    checkStandardOutput(job);
-    for (const std::string& output : job.outputs) {
-      if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
-    }
-    requireJsonWritable(job.json);
+  checkStandardOutput(job);
+  for (const std::string& output : job.outputs) {
+    if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
   }
+  requireJsonWritable(job.json);
   if (job.frames.empty()) {
     for (const std::string& output : job.outputs) requireNoFrameName(output);
     return;
@@ -186,7 +183,7 @@ void checkJob(const RenderJob& job, const Farm& farm) {
 }
 
 // Without ffmpeg the frames of a film are written as PNG files.
-void replaceFilm(RenderJob& job, bool tell) {
+void replaceFilm(RenderJob& job) {
   for (std::string& output : job.outputs) {
     if (!isFilm(output) || findProgram("ffmpeg")) continue;
     const std::string film = output, stem = film.substr(0, film.size() - std::strlen(kFilm));
@@ -194,7 +191,6 @@ void replaceFilm(RenderJob& job, bool tell) {
     for (const char c : stem) pattern += c == '%' ? "%%" : std::string(1, c);
     job.filmCommand = filmCommand(pattern + "-%04d.png", job.fps, film);
     output = stem + "-####.png";
-    if (!tell) continue;
     std::fprintf(stderr,
                  "whit: ffmpeg is not in $PATH: PNG files are written instead of %s; with ffmpeg "
                  "installed, this makes the film:\n",
@@ -259,31 +255,28 @@ std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
 // Traces frames and writes them, each beside the tracing of the next.
 class ImageWriter {
  public:
-  ImageWriter(const RenderJob& job, OpenScene& open, Farm& farm, Progress* progress)
+  ImageWriter(const RenderJob& job, OpenScene& open, Progress* progress)
       : job_(job),
-        farm_(farm),
         open_(&open),
         options_(optionsFor(open.scene, job.common)),
         films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
-    if (farm.ranks() == 1) {
-      std::size_t frames = 1;
-      if (!job.frames.empty()) {
-        const FrameRange range = parseFrameRange(job.frames);
-        frames = static_cast<std::size_t>(range.last - range.first) + 1;
-      }
-      const std::uint64_t most = job.common.load.maxMemoryBytes;
-      schedule_.emplace(*renderer_, ShadowCacheRun{frames, films_[0].image.pixels.size(),
-                                                   memoryLeft(open.scene, *renderer_, most)});
+    std::size_t frames = 1;
+    if (!job.frames.empty()) {
+      const FrameRange range = parseFrameRange(job.frames);
+      frames = static_cast<std::size_t>(range.last - range.first) + 1;
     }
+    const std::uint64_t most = job.common.load.maxMemoryBytes;
+    schedule_.emplace(*renderer_, ShadowCacheRun{frames, films_[0].image.pixels.size(),
+                                                 memoryLeft(open.scene, *renderer_, most)});
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera_, options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
-    if (farm.leads()) sceneDigest_ = accuracy::digestOf(open.scene);
+    sceneDigest_ = accuracy::digestOf(open.scene);
     aboutChannels_ = describeChannels(open.scene, options_.channels);
     const auto film = std::find_if(job.outputs.begin(), job.outputs.end(), isFilm);
-    if (film == job.outputs.end() || !farm.leads()) return;
+    if (film == job.outputs.end()) return;
     const Image& image = films_[0].image;
     pipe_.emplace(findProgram("ffmpeg").value_or("ffmpeg"), *film, image.width, image.height,
                   job.fps);
@@ -303,7 +296,7 @@ class ImageWriter {
     if (!scene.motion.ofGeometry && !scene.motion.ofLights()) return;
     renderer_->sceneMoved();
     run_.updateMs.push_back(stopwatch.ms());
-    if (farm_.leads()) sceneDigest_ = accuracy::digestOf(open_->scene);
+    sceneDigest_ = accuracy::digestOf(open_->scene);
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
@@ -317,16 +310,13 @@ class ImageWriter {
     addSettings(open_->settings, open_->sky, metadata);
     metadata.emplace_back("sceneDigest", sceneDigest_);
     metadata.insert(metadata.end(), more.begin(), more.end());
-    if (farm_.leads() && job_.resume && areWhole(files, film.image, metadata)) {
-      farm_.leaveOut();
+    if (job_.resume && areWhole(files, film.image, metadata)) {
       ++run_.kept;
       return;
     }
     prepareAudit(film);
-    if (schedule_) schedule_->prepare(camera_, film);
-    run_.frames.push_back(renderShared(farm_, *renderer_, options_, camera_, film, progress));
-    if (!farm_.leads()) return;
-    if (farm_.ranks() > 1) run_.shares.push_back(farm_.lastFrame());
+    schedule_->prepare(camera_, film);
+    run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
@@ -354,7 +344,7 @@ class ImageWriter {
   // --shadow-cache audit: an extra first frame requests what the cache then holds.
   void prepareAudit(Film& film) {
     if (options_.shadowCache != ShadowCacheMode::audit || options_.mode == Mode::reference) return;
-    if (run_.shadowCache || farm_.ranks() > 1) return;
+    if (run_.shadowCache) return;
     const std::uint64_t most = job_.common.load.maxMemoryBytes;
     renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
     if (!renderer_->decidesShadows()) return;
@@ -366,7 +356,7 @@ class ImageWriter {
   void fillShadowCache() {
     if (options_.shadowCache == ShadowCacheMode::audit && run_.shadowCache) {
       run_.shadowCache->fillMs += renderer_->fillShadowCache().ms;
-    } else if (schedule_ && schedule_->used()) {
+    } else if (schedule_->used()) {
       schedule_->frameDone();
       if (!run_.shadowCache) run_.shadowCache.emplace();
       run_.shadowCache->fillMs = schedule_->fillMs();
@@ -409,7 +399,6 @@ class ImageWriter {
   }
 
   const RenderJob& job_;
-  Farm& farm_;
   OpenScene* open_;
   Camera camera_;
   RenderOptions options_;  // with an automatic exposure settled
@@ -484,18 +473,17 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
   writeJson(job.json, json);
 }
 
-int render(RenderJob& job, Farm& farm) {
+int render(RenderJob& job) {
   const Stopwatch stopwatch;
   settleOptions(job.common);
-  quietUnlessLeading(farm, job.common);
-  checkJob(job, farm);
-  replaceFilm(job, farm.leads());
+  checkJob(job);
+  replaceFilm(job);
 
   auto progress = makeProgressBar(job.common);
   job.common.load.instant.plays = job.common.load.instant.alongPath =
       !job.frames.empty() && !job.onTurntable;
   const auto open = openFor(job, progress.get());
-  ImageWriter writer(job, *open, farm, progress.get());
+  ImageWriter writer(job, *open, progress.get());
   if (job.frames.empty()) {
     writer.write(job.outputs, progress.get());
   } else {
@@ -503,7 +491,6 @@ int render(RenderJob& job, Farm& farm) {
   }
   writer.finish();
   progress.reset();
-  if (!farm.leads()) return 0;
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
@@ -522,22 +509,18 @@ int render(RenderJob& job, Farm& farm) {
 }  // namespace
 
 int renderCommand(const Words& words) {
-  return Farm::run([&](Farm& farm) {
-    RenderJob job;
-    const auto parsed = parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words);
-    return parsed == Parsed::helpShown ? 0 : render(job, farm);
-  });
+  RenderJob job;
+  const auto parsed = parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words);
+  return parsed == Parsed::helpShown ? 0 : render(job);
 }
 
 int turntableCommand(const Words& words) {
-  return Farm::run([&](Farm& farm) {
-    RenderJob job;
-    job.onTurntable = true;
-    const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
-    if (parsed == Parsed::helpShown) return 0;
-    if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
-    return render(job, farm);
-  });
+  RenderJob job;
+  job.onTurntable = true;
+  const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
+  if (parsed == Parsed::helpShown) return 0;
+  if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
+  return render(job);
 }
 
 }  // namespace whit::cli

@@ -13,7 +13,6 @@ void appendSettings(std::string& text, const RunSummary& run) {
   text += formatted("%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), run.width, run.height,
                     surfacesText(run.triangles, run.spheres).c_str(), run.machine.threads,
                     run.machine.threads == 1 ? "" : "s");
-  if (!run.shares.empty()) text += formatted("on each of %d ranks  ", run.shares[0].ranks);
   if (packets) {
     text +=
         formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),

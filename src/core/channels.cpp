@@ -13,14 +13,6 @@ void keep(std::span<float> layer, std::size_t pixel, std::initializer_list<float
             layer.begin() + static_cast<std::ptrdiff_t>(pixel * values.size()));
 }
 
-template <typename Value>
-void copyPixels(const std::vector<Value>& from, std::size_t first, std::size_t count,
-                std::size_t components, std::size_t to, std::vector<Value>& layer) {
-  const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first * components);
-  std::copy_n(begin, count * components,
-              layer.begin() + static_cast<std::ptrdiff_t>(to * components));
-}
-
 }  // namespace
 
 ChannelSet parseChannels(const std::string& commaSeparated) {
@@ -43,8 +35,6 @@ std::size_t ChannelLayers::bytesPerPixel(ChannelSet channels) {
   channels.forEach([&](Channel c) { bytes += infoOf(c).components * sizeof(float); });
   return bytes;
 }
-
-std::size_t ChannelLayers::bytes() const { return pixels_ * bytesPerPixel(channels_); }
 
 void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
   if (channels == channels_ && pixels == pixels_) return;
@@ -75,18 +65,6 @@ void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
   keepNumber(Channel::object, v.object);
   keepNumber(Channel::material, v.material);
   keepNumber(Channel::triangle, v.triangle);
-}
-
-void ChannelLayers::copy(const ChannelLayers& from, std::size_t first, std::size_t count,
-                         std::size_t to) {
-  channels_.forEach([&](Channel c) {
-    const std::size_t components = infoOf(c).components;
-    if (infoOf(c).countsThings) {
-      copyPixels(from.numbers_[index(c)], first, count, components, to, numbers_[index(c)]);
-    } else {
-      copyPixels(from.floats_[index(c)], first, count, components, to, floats_[index(c)]);
-    }
-  });
 }
 
 }  // namespace whit

@@ -103,7 +103,6 @@ class ChannelLayers {
   void resize(ChannelSet channels, std::size_t pixels);
   ChannelSet channels() const { return channels_; }
   std::size_t pixels() const { return pixels_; }
-  std::size_t bytes() const;
   // Memory of the channels for one pixel.
   static std::size_t bytesPerPixel(ChannelSet channels);
 
@@ -115,8 +114,6 @@ class ChannelLayers {
 
   // Stores the values of all existing channels for the pixel with this index.
   void keep(std::size_t pixel, const ChannelValues& values);
-  // Copies all channels of `count` pixels from others, which have the same channels.
-  void copy(const ChannelLayers& from, std::size_t first, std::size_t count, std::size_t to);
 
  private:
   static std::size_t index(Channel channel) { return static_cast<std::size_t>(channel); }

@@ -52,27 +52,22 @@ makeModel >helmet.glb
 for image in a b; do "$whit" render matte --size 48x32 -o $image.exr --quiet || exit 1; done
 printf 'wait 2 frames\nquit\n' >leave.txt
 
-# Of several processes as many as asked for, whatever the machine has, in a container too.
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
-
 # One command a line: first those of code blocks, without their comments, then those within text.
 commandsOf() {
   awk '/^```/ { inside = !inside; next } inside' "$@" | sed -E 's/ +#( .*)?$//' |
-    grep -E '^([A-Z]+=[^ ]+ )*((build|scenes|tests)/[a-z]|mpirun |cmake |cpack )'
+    grep -E '^([A-Z]+=[^ ]+ )*((build|scenes|tests)/[a-z]|cmake |cpack )'
   awk '/^```/ { inside = !inside; next } !inside' "$@" | tr '\n' ' ' |
-    grep -oE '`((build|scenes|tests)/|mpirun |cmake |cpack |whit |whit-view )[^` ]*[^`]* [^`]+`' |
+    grep -oE '`((build|scenes|tests)/|cmake |cpack |whit |whit-view )[^` ]*[^`]* [^`]+`' |
     tr -d '`' | sed -E 's/^(whit|whit-view) /build\/&/'
 }
 
 # The same without what takes long and shows nothing more: the atrium alone is made in two seconds.
 cheap() {
   sed -E -e 's/ *((&&|\|) ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
-    -e 's/COMMAND/render/' -e '/--crop|--frames|mpirun|--widths/s/atrium/whitted/g' \
+    -e 's/COMMAND/render/' -e '/--crop|--frames|--widths/s/atrium/whitted/g' \
     -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
     -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/--depth N/--depth 4/' -e 's/--sphere-segments N/--sphere-segments 8/' \
     -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) FILE/\1 whitted/' -e 's/1\.\.48/1..2/' -e 's/0\.\.239/0..2/' \
-    -e 's/mpirun -n [0-9]+/mpirun -n 2/' \
     -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
     -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
@@ -96,7 +91,6 @@ lacking() {
   esac
   case $1 in
     *scenes/farm/*) command -v parallel >/dev/null || echo "GNU parallel is not installed" ;;
-    *mpirun*) ldd "$whit" | grep libmpi >/dev/null || echo "this build is without MPI" ;;
     *whit-view*)
       [ -n "$view" ] || echo "the viewer was not built"
       command -v Xvfb >/dev/null || echo "Xvfb is not installed" ;;

@@ -27,7 +27,3 @@ whit_program_test(cli install.works_where_it_is_put ${folder}/install_test.sh ${
 whit_program_test(cli channels.read_by_others ${folder}/openexr_test.sh $<TARGET_FILE:whit>)
 whit_program_test(cli farm.goes_on_after_a_kill ${folder}/farm_test.sh $<TARGET_FILE:whit>)
 set_tests_properties(farm.goes_on_after_a_kill PROPERTIES TIMEOUT 300)
-if(WHIT_MPI)
-  whit_program_test(cli farm.ranks_make_the_same_image ${folder}/mpi_test.sh $<TARGET_FILE:whit>)
-  set_tests_properties(farm.ranks_make_the_same_image PROPERTIES TIMEOUT 300)
-endif()

@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -76,7 +77,19 @@ TEST_F(ImageLayers, PartsAreMerged) {
     ChannelLayers layers;
     layers.resize(whole.channels(), width * 3);
     for (std::size_t y = 0; y < 3; ++y) {
-      layers.copy(whole, y * 4 + static_cast<std::size_t>(window.x0), width, y * width);
+      const std::size_t from = y * 4 + static_cast<std::size_t>(window.x0);
+      whole.channels().forEach([&](Channel c) {
+        const std::size_t n = infoOf(c).components;
+        const auto copy = [&](auto source, auto target) {
+          std::ranges::copy(source.subspan(from * n, width * n),
+                            target.subspan(y * width * n).begin());
+        };
+        if (infoOf(c).countsThings) {
+          copy(whole.numbers(c), layers.numbers(c));
+        } else {
+          copy(whole.floats(c), layers.floats(c));
+        }
+      });
     }
     return write(name, layers, ExrStorage::zip, window);
   };

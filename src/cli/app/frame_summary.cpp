@@ -28,13 +28,10 @@ std::vector<double> frameTimes(const RunSummary& run) {
   return times;
 }
 
-std::size_t medianFrameIndex(const RunSummary& run) {
-  const std::vector<double> times = frameTimes(run);
-  return static_cast<std::size_t>(std::find(times.begin(), times.end(), quantile(times, 0.5)) -
-                                  times.begin());
+const FrameStats& medianFrame(const RunSummary& run) {
+  const double median = quantile(frameTimes(run), 0.5);
+  return *std::ranges::find(run.frames, median, &FrameStats::frameMs);
 }
-
-const FrameStats& medianFrame(const RunSummary& run) { return run.frames[medianFrameIndex(run)]; }
 
 double writtenPerSecond(const RunSummary& run) {
   return run.tracedAndWrittenMs > 0

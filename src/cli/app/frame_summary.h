@@ -9,7 +9,6 @@
 
 #include "core/options.h"
 #include "core/quantile.h"
-#include "farm/farm.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -33,7 +32,6 @@ struct RunSummary {
   std::vector<double> floorMs;                // empty without --floor
   std::string imageHash;                      // of the last frame: accuracy::digestOf(image)
   std::optional<ShadowCacheUse> shadowCache;  // none: all shadow rays were traced
-  std::vector<FarmFrame> shares;              // how the frames were shared; empty for one process
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
@@ -49,7 +47,6 @@ using whit::quantile;
 
 // The frame of median duration (the lower of the two middle ones): its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);
-std::size_t medianFrameIndex(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
 
 // Frames per second, traced and written.

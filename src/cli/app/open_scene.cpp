@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/error.h"
 #include "core/option_table.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
@@ -40,24 +39,6 @@ void tellWarnings(const Warnings& warnings) {
 
 Film openFilm(const Scene& scene, const CommonOptions& common) {
   return makeFilm(scene, common.render, common.load.maxMemoryBytes);
-}
-
-void checkShared(const Farm& farm, const CommonOptions& common) {
-  if (farm.ranks() > 1 && common.render.batch == Batch::frame) {
-    throwUsage("--batch frame needs the whole image in one process: leave it out, or mpirun");
-  }
-}
-
-void quietUnlessLeading(const Farm& farm, CommonOptions& common) {
-  if (!farm.leads()) common.quiet = true;
-}
-
-FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
-                        const Camera& camera, Film& film, Progress* progress) {
-  if (farm.ranks() > 1) progress = nullptr;  // of the leader's blocks, which are a part
-  return farm.render(film, options.tile, renderer.machine().threads, [&](Film& part) {
-    return renderFrame(renderer, options.mode, camera, part, progress);
-  });
 }
 
 }  // namespace whit::cli

@@ -10,7 +10,6 @@
 #include "bake/scene.h"
 #include "cli/app/parse_options.h"
 #include "core/warnings.h"
-#include "farm/farm.h"
 #include "render/render_frame.h"
 
 namespace whit::cli {
@@ -42,14 +41,5 @@ void tellWarnings(const Warnings& warnings);
 
 // A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.
 Film openFilm(const Scene& scene, const CommonOptions& common);
-
-// Throws Error(usage) for what several ranks cannot share.
-void checkShared(const Farm& farm, const CommonOptions& common);
-// The ranks beside the leader keep to themselves.
-void quietUnlessLeading(const Farm& farm, CommonOptions& common);
-
-// One frame, shared with the other ranks if there are any.
-FrameStats renderShared(Farm& farm, Renderer& renderer, const RenderOptions& options,
-                        const Camera& camera, Film& film, Progress* progress = nullptr);
 
 }  // namespace whit::cli
