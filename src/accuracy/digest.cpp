@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <tuple>
@@ -15,61 +16,42 @@
 
 namespace whit::accuracy {
 
-struct Digester::State {
-  XXH3_state_t* xxh = XXH3_createState();
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() { XXH3_freeState(xxh); }
-};
-
-Digester::Digester() : state_(std::make_unique<State>()) {
-  if (!state_->xxh) throw std::bad_alloc();
-  XXH3_128bits_reset(state_->xxh);
-}
-Digester::~Digester() = default;
-
-void Digester::bytes(const void* data, std::size_t size) {
-  XXH3_128bits_update(state_->xxh, data, size);
-}
-
-void Digester::text(std::string_view text) {
-  const std::uint64_t size = text.size();
-  bytes(&size, sizeof size);
-  bytes(text.data(), text.size());
-}
-
-std::string Digester::hex() const {
-  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
-  return formatted("%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                   static_cast<unsigned long long>(hash.low64));
-}
-
 namespace {
 
+class Digester {
+ public:
+  Digester() : state_(XXH3_createState(), XXH3_freeState) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_128bits_reset(state_.get());
+  }
+  void bytes(const void* data, std::size_t size) { XXH3_128bits_update(state_.get(), data, size); }
+  // Adds the length first, so that "ab", "c" and "a", "bc" differ.
+  void text(std::string_view text) {
+    const std::uint64_t size = text.size();
+    bytes(&size, sizeof size);
+    bytes(text.data(), text.size());
+  }
+  std::string hex() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return formatted("%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                     static_cast<unsigned long long>(hash.low64));
+  }
+
+ private:
+  std::shared_ptr<XXH3_state_t> state_;
+};
+
+template <typename T, typename... Others>
+constexpr bool kIsOneOf = (std::is_same_v<T, Others> || ...);
 // True for types without padding and pointers, whose bytes are their value.
 template <typename T>
-constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-template <typename T>
-constexpr bool kPlain<Vec3<T>> = sizeof(Vec3<T>) == 3 * sizeof(T);
-template <>
-constexpr bool kPlain<Affine> = sizeof(Affine) == 12 * sizeof(double);
-template <>
-constexpr bool kPlain<TriangleRecord> = sizeof(TriangleRecord) == 16 * sizeof(float);
-template <>
-constexpr bool kPlain<NormalRecord> = sizeof(NormalRecord) == 9 * sizeof(float);
-template <>
-constexpr bool kPlain<ColorRecord> = sizeof(ColorRecord) == 9 * sizeof(float);
-template <>
-constexpr bool kPlain<UvRecord> = sizeof(UvRecord) == 6 * sizeof(float);
-template <>
-constexpr bool kPlain<ImageSize> = sizeof(ImageSize) == 2 * sizeof(int);
-template <>
-constexpr bool kPlain<Crop> = sizeof(Crop) == 4 * sizeof(int);
-template <>
-constexpr bool kPlain<EffectSet> = sizeof(EffectSet) == sizeof(std::uint32_t);
-template <>
-constexpr bool kPlain<ChannelSet> = sizeof(ChannelSet) == sizeof(std::uint32_t);
+constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+                        kIsOneOf<T, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord,
+                                 UvRecord, ImageSize, Crop, EffectSet, ChannelSet>;
+static_assert(sizeof(Affine) == 12 * sizeof(double) &&
+              sizeof(TriangleRecord) == 16 * sizeof(float) &&
+              sizeof(NormalRecord) == 9 * sizeof(float) &&
+              sizeof(ColorRecord) == 9 * sizeof(float) && sizeof(UvRecord) == 6 * sizeof(float));
 template <typename T, std::size_t n>
 constexpr bool kPlain<std::array<T, n>> = kPlain<T>;
 
@@ -163,6 +145,12 @@ std::string digestOf(const RenderOptions& options) {
 std::string digestOf(const Camera& camera) {
   Digester d;
   add(d, camera);
+  return d.hex();
+}
+
+std::string digestOf(std::initializer_list<std::string_view> texts) {
+  Digester d;
+  for (const std::string_view text : texts) d.text(text);
   return d.hex();
 }
 

@@ -1,8 +1,7 @@
 // Digests of everything that a picture depends on: 128 bits of XXH3 as 32 hexadecimal digits.
 #pragma once
 
-#include <cstddef>
-#include <memory>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -12,23 +11,6 @@
 
 namespace whit::accuracy {
 
-class Digester {
- public:
-  Digester();
-  ~Digester();
-  Digester(const Digester&) = delete;
-  Digester& operator=(const Digester&) = delete;
-
-  void bytes(const void* data, std::size_t size);
-  // Adds the length first, so that "ab", "c" and "a", "bc" differ.
-  void text(std::string_view text);
-  std::string hex() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
 // Covers every table of the finalized scene that a picture can depend on, but not its name, its own
 // size, its cameras and the reasons for its effects: a picture takes these from its options and
 // from its camera.
@@ -37,6 +19,8 @@ std::string digestOf(const Scene& scene);
 // for values of the others.
 std::string digestOf(const RenderOptions& options);
 std::string digestOf(const Camera& camera);
+// Covers the texts and their lengths.
+std::string digestOf(std::initializer_list<std::string_view> texts);
 // Covers size, window and the bits of all pixels.
 std::string digestOf(const Image& image);
 // The digest of the file of the running program; "unknown" if it cannot be read.

@@ -1,7 +1,6 @@
 // The knobs: options that trade accuracy for time. The table of options in core/options.h has them.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,16 +10,16 @@ namespace whit::accuracy {
 
 inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling", "transport"};
 
-// The reason why a knob or a value changes nothing, or is impossible, in scenes with these effects;
-// empty if there is none.
-using Idle = std::function<std::string(EffectSet)>;
-
 struct KnobValue {
-  std::string label;  // as on the command line: --KNOB LABEL
-  std::function<void(RenderOptions&)> apply;
+  std::string knob, label;              // as on the command line: --KNOB LABEL
   bool crossed = false, spare = false;  // see KnobSpec
-  Idle idle;                            // null: none beyond the knob's own
+  bool endless = false;                 // branching rays never end with it
   std::vector<std::string> alongside;   // other options that it sets, as on the command line
+
+  void apply(RenderOptions& options) const;
+  // The reason why the value is impossible in scenes with these effects, beyond the knob's own;
+  // empty if there is none.
+  std::string idle(EffectSet effects) const;
 };
 
 // The cutoff that counts as exact. It is not 0 in scenes with glass, where rays split in two at
@@ -34,8 +33,12 @@ struct Knob {
   std::string name;
   Cause cause = Cause::algorithm;
   std::vector<KnobValue> values;
-  std::function<void(RenderOptions&, const Exactness&)> makeExact;
-  Idle idle;
+  KnobSpec spec;
+  std::string exact;  // label
+
+  void makeExact(RenderOptions& options, const Exactness& exactness) const;
+  // The reason why the knob changes nothing in scenes with these effects; empty if there is none.
+  std::string idle(EffectSet effects) const;
 };
 
 const std::vector<Knob>& allKnobs();

@@ -12,14 +12,9 @@ namespace whit::accuracy {
 
 namespace {
 
-constexpr std::pair<const char*, Quality> kPresets[] = {{"draft", Quality::draft},
-                                                        {"standard", Quality::standard},
-                                                        {"fine", Quality::fine},
-                                                        {"reference", Quality::reference}};
-
-RenderOptions presetOf(const RenderOptions& base, Quality quality) {
+RenderOptions presetOf(const RenderOptions& base, const std::string& quality) {
   RenderOptions options = base;
-  options.quality = quality;
+  setOption(options, "quality", quality);
   applyQuality(options, {});
   return options;
 }
@@ -98,10 +93,10 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
                      std::size_t jointLimit, std::uint32_t seed) {
   PointList list;
   PointCollector collector(list.points);
-  const bool standard = digestOf(base) == digestOf(presetOf(base, Quality::standard));
+  const bool standard = digestOf(base) == digestOf(presetOf(base, "standard"));
   collector.add(PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
-  for (const auto& [name, quality] : kPresets) {
-    collector.add(PointKind::preset, "quality", name, {}, presetOf(base, quality));
+  for (const QualityPreset& preset : qualityPresets()) {
+    collector.add(PointKind::preset, "quality", preset.name, {}, presetOf(base, preset.name));
   }
   std::vector<Knob> active;
   for (const Knob& knob : knobs) {
@@ -112,7 +107,7 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
     }
     active.push_back(knob);
     for (const KnobValue& value : knob.values) {
-      const std::string unable = value.idle ? value.idle(effects) : std::string();
+      const std::string unable = value.idle(effects);
       if (!unable.empty()) {
         list.idle.push_back({knob.name + "=" + value.label, unable});
         continue;
@@ -158,9 +153,9 @@ void addTransportPoints(const RenderOptions& base, EffectSet effects,
   const std::vector<Knob> samplings = activeOf(Cause::sampling);
   for (const Knob& transport : activeOf(Cause::transport)) {
     for (const KnobValue& light : transport.values) {
-      for (const auto& [name, quality] : kPresets) {
+      for (const QualityPreset& preset : qualityPresets()) {
         RenderOptions options = base;
-        options.spp = presetOf(base, quality).spp;
+        options.spp = presetOf(base, preset.name).spp;
         light.apply(options);
         if (!hasTransport(options)) continue;
         const std::string samples =

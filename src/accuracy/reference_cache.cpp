@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "accuracy/digest.h"
 #include "core/error.h"
@@ -25,33 +26,49 @@ constexpr const char* kNoiseKey = "noiseFlip";
 
 double meanOf(const RgbD& c) { return (c.x + c.y + c.z) / 3; }
 
-// A picture from a file, with the numbers in its metadata.
-class CachedPicture {
- public:
-  CachedPicture(const std::string& path, const Image& shape, const std::string& digest) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return;
-    try {
-      Warnings warnings;
-      image_ = readImage(path, ImageLimits(), warnings);
-      for (const auto& [name, text] : readExrMetadata(path)) facts_[name] = text;
-    } catch (const Error&) {
-      return;
-    }
-    isValid_ = image_.width == shape.width && image_.height == shape.height &&
-               image_.window == shape.window && facts_[kDigestKey] == digest;
-  }
+using Numbers = std::map<std::string, double>;
 
-  // True if the file exists and has the digest.
-  bool isValid() const { return isValid_; }
-  Image takeImage() { return std::move(image_); }
-  double number(const char* key) { return std::strtod(facts_[key].c_str(), nullptr); }
-
- private:
-  bool isValid_ = false;
-  Image image_;
-  std::map<std::string, std::string> facts_;
+// A picture with the numbers in the metadata of its file.
+struct KeptPicture {
+  Image image;
+  Numbers numbers;
+  bool fromFile = false;
 };
+
+// The picture in a file, if it can be read and has the shape and the digest.
+std::optional<KeptPicture> readKept(const std::string& path, const Image& shape,
+                                    const std::string& digest) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  try {
+    Warnings warnings;
+    KeptPicture kept{readImage(path, ImageLimits(), warnings), {}, true};
+    bool isRight = kept.image.width == shape.width && kept.image.height == shape.height &&
+                   kept.image.window == shape.window;
+    for (const auto& [name, text] : readExrMetadata(path)) {
+      if (name == kDigestKey) isRight &= text == digest;
+      kept.numbers[name] = std::strtod(text.c_str(), nullptr);
+    }
+    if (isRight && kept.numbers.contains(kDigestKey)) return kept;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// The picture in the file, or the one that `render` makes, which is written there. `render` takes a
+// film and returns numbers.
+template <typename Render>
+KeptPicture readOrRender(const std::string& path, Film film, const std::string& digest,
+                         Render&& render) {
+  if (auto kept = readKept(path, film.image, digest)) return std::move(*kept);
+  film.wantDisplay = false;
+  const Numbers numbers = render(film);
+  ImageMetadata metadata{{kDigestKey, digest}};
+  for (const auto& [name, value] : numbers) metadata.emplace_back(name, formatted("%.17g", value));
+  writeExr(path, film.image, metadata);
+  return {std::move(film.image), numbers};
+}
 
 }  // namespace
 
@@ -103,11 +120,7 @@ double PassMean::meanRadiance() const {
 ReferenceCache::ReferenceCache(const Scene& scene, const Camera& camera, std::string folder,
                                const std::string& program)
     : scene_(scene), camera_(camera), folder_(std::move(folder)) {
-  Digester d;
-  d.text(digestOf(scene));
-  d.text(digestOf(camera));
-  d.text(program);
-  sceneDigest_ = d.hex();
+  sceneDigest_ = digestOf({digestOf(scene), digestOf(camera), program});
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throwIo("cannot make the folder '" + folder_ + "': " + error.message());
@@ -122,37 +135,21 @@ std::string ReferenceCache::digest(const RenderOptions& options) const {
   const Film film = makeFilm(scene_, options);
   settled.size = ImageSize{film.image.width, film.image.height};
   settled.crop = film.image.window;
-  Digester d;
-  d.text(sceneDigest_);
-  d.text(digestOf(settled));
-  return d.hex();
+  return digestOf({sceneDigest_, digestOf(settled)});
 }
 
 const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progress* progress) {
   const std::string digest = this->digest(options);
   const auto found = pictures_.find(digest);
   if (found != pictures_.end()) return found->second;
-  ReferencePicture picture;
-  picture.digest = digest;
-  Film film = makeFilm(scene_, options);
-  film.wantDisplay = false;
-  CachedPicture cached(pathOf(digest), film.image, digest);
-  if (cached.isValid()) {
-    picture.image = cached.takeImage();
-    picture.renderMs = cached.number(kTimeKey);
-    picture.rays = cached.number(kRaysKey);
-    picture.fromFile = true;
-  } else {
-    Renderer renderer(scene_, options);
-    const FrameStats stats = renderer.renderReference(camera_, film, progress);
-    picture.renderMs = stats.frameMs;
-    picture.rays = static_cast<double>(stats.allRays());
-    picture.image = std::move(film.image);
-    writeExr(pathOf(digest), picture.image,
-             {{kDigestKey, digest},
-              {kTimeKey, std::to_string(picture.renderMs)},
-              {kRaysKey, std::to_string(picture.rays)}});
-  }
+  KeptPicture kept =
+      readOrRender(pathOf(digest), makeFilm(scene_, options), digest, [&](Film& film) {
+        Renderer renderer(scene_, options);
+        const FrameStats stats = renderer.renderReference(camera_, film, progress);
+        return Numbers{{kTimeKey, stats.frameMs}, {kRaysKey, static_cast<double>(stats.allRays())}};
+      });
+  ReferencePicture picture{std::move(kept.image), digest, kept.numbers[kTimeKey],
+                           kept.numbers[kRaysKey], kept.fromFile};
   return pictures_.emplace(digest, std::move(picture)).first->second;
 }
 
@@ -161,47 +158,32 @@ std::string ReferenceCache::pathOf(const std::string& digest) const {
 }
 
 TransportPicture ReferenceCache::transport(const RenderOptions& options, Progress* progress) const {
-  TransportPicture picture;
-  Digester d;
-  d.text(digest(options));
-  d.text("passes");
-  d.bytes(&kTransportPasses, sizeof kTransportPasses);
-  picture.digest = d.hex();
-  picture.passes = kTransportPasses;
-  picture.samples = kTransportPasses * options.spp;
-  Film film = makeFilm(scene_, options);
-  film.wantDisplay = false;
-  CachedPicture cached(pathOf(picture.digest), film.image, picture.digest);
-  if (cached.isValid()) {
-    picture.image = cached.takeImage();
-    picture.standardError = cached.number(kErrorKey);
-    picture.meanRadiance = cached.number(kRadianceKey);
-    picture.noiseFlip = cached.number(kNoiseKey);
-    picture.renderMs = cached.number(kTimeKey);
-    picture.fromFile = true;
-    return picture;
-  }
-  Renderer renderer(scene_, options);
-  PassMean passes(film.image);
-  for (int pass = 0; pass < kTransportPasses; ++pass) {
-    renderer.setSeed(static_cast<std::uint32_t>(pass));
-    picture.renderMs += renderer.render(camera_, film).frameMs;
-    passes.add(film.image);
-    reportProgress(progress, "all transport", static_cast<double>(pass + 1) / kTransportPasses);
-  }
-  picture.image = passes.mean();
-  picture.standardError = passes.standardError();
-  picture.meanRadiance = passes.meanRadiance();
-  picture.noiseFlip =
-      compareImages(passes.half(false), passes.half(true), options.exposure.ev, options.toneCurve)
-          .flipMean;
-  writeExr(pathOf(picture.digest), picture.image,
-           {{kDigestKey, picture.digest},
-            {kErrorKey, formatted("%.9g", picture.standardError)},
-            {kRadianceKey, formatted("%.9g", picture.meanRadiance)},
-            {kNoiseKey, formatted("%.9g", picture.noiseFlip)},
-            {kTimeKey, formatted("%.9g", picture.renderMs)}});
-  return picture;
+  const std::string digest =
+      digestOf({this->digest(options), "passes", std::to_string(kTransportPasses)});
+  KeptPicture kept =
+      readOrRender(pathOf(digest), makeFilm(scene_, options), digest, [&](Film& film) {
+        Renderer renderer(scene_, options);
+        PassMean passes(film.image);
+        double ms = 0;
+        for (int pass = 0; pass < kTransportPasses; ++pass) {
+          renderer.setSeed(static_cast<std::uint32_t>(pass));
+          ms += renderer.render(camera_, film).frameMs;
+          passes.add(film.image);
+          reportProgress(progress, "all transport",
+                         static_cast<double>(pass + 1) / kTransportPasses);
+        }
+        film.image = passes.mean();
+        const ImageDifference halves = compareImages(passes.half(false), passes.half(true),
+                                                     options.exposure.ev, options.toneCurve);
+        return Numbers{{kTimeKey, ms},
+                       {kErrorKey, passes.standardError()},
+                       {kRadianceKey, passes.meanRadiance()},
+                       {kNoiseKey, halves.flipMean}};
+      });
+  Numbers& n = kept.numbers;
+  return {{kTransportPasses, kTransportPasses * options.spp, n[kErrorKey], n[kRadianceKey],
+           n[kNoiseKey], n[kTimeKey], kept.fromFile, digest},
+          std::move(kept.image)};
 }
 
 }  // namespace whit::accuracy

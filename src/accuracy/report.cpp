@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/csv.h"
 #include "accuracy/findings.h"
 
 namespace whit::accuracy {

@@ -1,5 +1,5 @@
-// The results of a sweep for people: text for a terminal, and the data of an HTML page that draws
-// itself.
+// The results of a sweep: text for a terminal, rows for CSV files, and an HTML page that draws
+// itself from JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,6 +21,16 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
 // if that picture is not the truth.
 std::string referenceText(const SceneSweep& sweep);
 std::string transportText(const SceneSweep& sweep);
+
+// An array of one object for each point, all with the same keys. Errors come in groups: total_
+// (against the truth), same_samples_, sampling_, algorithm_, arithmetic_ and transport_; null was
+// not measured. Times are in milliseconds, shares in per cent.
+Json sweepRows(const SceneSweep& sweep, const RunFacts& facts);
+
+// The rows as CSV, with the keys of the first as header. Null is an empty field, true is "yes", and
+// a number has seven digits.
+std::string csvOf(const Json& rows);
+std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
 
 Json stagesJson(const std::vector<StageDifference>& stages);
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its

@@ -41,25 +41,4 @@ bool Scope::comparesPaths(const Point& point) const {
   return point.cause == Cause::arithmetic && (chosenKnobs || !longFrames());
 }
 
-void Pace::begin(const std::string& step, double work) {
-  step_ = step;
-  current_ = work;
-  report("", 0);
-}
-
-void Pace::end() {
-  done_ += current_;
-  current_ = 0;
-}
-
-void Pace::skip() {
-  total_ -= current_;
-  current_ = 0;
-}
-
-void Pace::report(const std::string&, double fraction) {
-  const double all = total_ > 0 ? (done_ + current_ * fraction) / total_ : 0;
-  reportProgress(out_, subject_ + ": " + step_, all);
-}
-
 }  // namespace whit::accuracy

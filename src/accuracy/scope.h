@@ -1,12 +1,10 @@
-// The limits of a sweep, the points that it leaves out to keep them, and its progress.
+// The limits of a sweep, the points that it leaves out to keep them.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
 #include "accuracy/measurement.h"
-#include "core/progress.h"
-#include "core/stopwatch.h"
 
 namespace whit::accuracy {
 
@@ -46,26 +44,6 @@ struct Scope {
       "the minute of a quick sweep was over: --full, or --knobs with one of them, measures it";
   // True if packets are compared with the scalar reference of the same options, path by path.
   bool comparesPaths(const Point& point) const;
-};
-
-// Tells the progress of a sweep. Work has any unit that the steps share. A running step can report
-// its own fraction.
-class Pace : public Progress {
- public:
-  Pace(Progress* out, std::string subject) : out_(out), subject_(std::move(subject)) {}
-
-  void plan(double work) { total_ += work; }
-  void begin(const std::string& step, double work);
-  void end();
-  void skip();  // instead of end(), for a step that turned out to be unnecessary
-  void report(const std::string& phase, double fraction) override;
-  double seconds() const { return stopwatch_.ms() / 1000; }
-
- private:
-  Progress* out_;
-  std::string subject_, step_;
-  double total_ = 0, done_ = 0, current_ = 0;
-  Stopwatch stopwatch_;
 };
 
 }  // namespace whit::accuracy

@@ -19,6 +19,7 @@
 #include "accuracy/timing.h"
 #include "core/display.h"
 #include "core/quantile.h"
+#include "core/stopwatch.h"
 #include "core/worker_pool.h"
 #include "inspect/hdr_flip.h"
 #include "inspect/path_divergence.h"
@@ -77,33 +78,108 @@ class ErrorMeter {
   // that is null. Scene, cache and `transport` must outlive the meter.
   ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
              const Exactness& exactness, ReferenceCache& cache, int samples,
-             const TransportPicture* transport, Progress* progress);
+             const TransportPicture* transport, Progress* progress)
+      : scene_(scene),
+        camera_(camera),
+        base_(base),
+        exactness_(exactness),
+        reference_(cache.get(
+            referenceOptions(transport ? withoutTransport(base) : base, samples, exactness),
+            progress)),
+        exact_(cache.get(exactAtSameSamples(base, exactness), progress).image),
+        transport_(transport),
+        hdrFlip_(truth()) {
+    if (transport_) leftOut_ = against(reference_.image, truth(), SrgbEncoding::exact);
+  }
 
   // Sets the point's errors from its last frame. Errors of arithmetic are measured only if
   // `arithmetic` is true. For a knob of arithmetic the errors of sampling and algorithm are not
   // set, because they are the baseline's.
-  void measure(Point& point, FrameSource& frames, bool arithmetic);
-  // Sets the point's pictures, which stay in memory.
-  void addPictures(Point& point, const Image& image) const;
-  std::string pngOf(const Image& image) const;  // the displayed image
+  void measure(Point& point, FrameSource& frames, bool arithmetic) {
+    point.stats = frames.stats;
+    const Image& image = frames.film.image;
+    const auto differenceOf = [&](const Image& a, const Image& b) {
+      return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
+    };
+    std::vector<std::function<void()>> comparisons;
+    comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
+    comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
+    // The point has the baseline's sampling if the exact options are the same.
+    if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
+        digestOf(exactAtSameSamples(base_, exactness_))) {
+      comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_); });
+    }
+    runTogether(comparisons);
+    const bool transports = transport_ && hasTransport(point.options);
+    if (point.cause != Cause::arithmetic) {
+      const Image& unapproximated = withoutApproximations(point, image);
+      // The picture that more samples of the point converge to.
+      const Image& limit = transports ? truth() : reference_.image;
+      runTogether({[&] { point.sampling = differenceOf(unapproximated, limit); },
+                   [&] { point.algorithm = differenceOf(image, unapproximated); }});
+    }
+    if (transport_) point.transport = transports ? noDifference() : *leftOut_;
+    if (!arithmetic) return;
+    point.arithmetic =
+        arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
+  }
 
-  const ReferencePicture& reference() const { return *reference_; }
-  const Image& truth() const { return transport_ ? transport_->image : reference_->image; }
+  // Sets the point's pictures, which stay in memory.
+  void addPictures(Point& point, const Image& image) const {
+    point.imagePng = pngOf(image);
+    point.totalMapPng = encodePng(heatMap(image, truth()));
+    if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_));
+  }
+
+  // The displayed image.
+  std::string pngOf(const Image& image) const {
+    return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
+  }
+
+  const ReferencePicture& reference() const { return reference_; }
+  const Image& truth() const { return transport_ ? transport_->image : reference_.image; }
 
  private:
-  ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const;
-  // The picture that more samples of the point converge to.
-  const Image& limitOf(const Point& point) const;
-  const Image& withoutApproximations(const Point& point, const Image& own);
+  ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const {
+    return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
+  }
+
+  const Image& withoutApproximations(const Point& point, const Image& own) {
+    const Exactness exactness =
+        hasTransport(point.options) ? Exactness{kTransportCutoff} : exactness_;
+    const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness);
+    const std::string digest = digestOf(exact);
+    if (digest == digestOf(point.options)) return own;
+    const auto found = exactPackets_.find(digest);
+    if (found != exactPackets_.end()) return found->second;
+    FrameSource frames(scene_, camera_, exact);
+    frames.render();
+    return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
+  }
+
   // Paths of the scalar reference with the point's own options. Points whose options differ only in
   // ways that the scalar reference ignores share them.
-  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames);
+  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames) {
+    const RenderOptions defaults;
+    RenderOptions seen = point.options;
+    seen.shading.reciprocal = defaults.shading.reciprocal;
+    seen.film = defaults.film;
+    seen.srgb = defaults.srgb;
+    seen.packet = defaults.packet;
+    const std::string digest = digestOf(seen);
+    const auto found = referencePaths_.find(digest);
+    if (found != referencePaths_.end()) return found->second;
+    return referencePaths_
+        .emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
+        .first->second;
+  }
 
   const Scene& scene_;
   Camera camera_;
   RenderOptions base_;
   Exactness exactness_;
-  const ReferencePicture *reference_, *exact_;
+  const ReferencePicture& reference_;
+  const Image& exact_;
   const TransportPicture* transport_;
   // The difference of the reference from the picture with all transport.
   std::optional<ImageDifference> leftOut_;
@@ -112,95 +188,6 @@ class ErrorMeter {
   std::map<std::string, ReferencePaths> referencePaths_;
 };
 
-ErrorMeter::ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
-                       const Exactness& exactness, ReferenceCache& cache, int samples,
-                       const TransportPicture* transport, Progress* progress)
-    : scene_(scene),
-      camera_(camera),
-      base_(base),
-      exactness_(exactness),
-      reference_(&cache.get(
-          referenceOptions(transport ? withoutTransport(base) : base, samples, exactness),
-          progress)),
-      exact_(&cache.get(exactAtSameSamples(base, exactness), progress)),
-      transport_(transport),
-      hdrFlip_(truth()) {
-  if (transport_) leftOut_ = against(reference_->image, truth(), SrgbEncoding::exact);
-}
-
-ImageDifference ErrorMeter::against(const Image& a, const Image& b, SrgbEncoding encoding) const {
-  return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
-}
-
-const Image& ErrorMeter::limitOf(const Point& point) const {
-  return transport_ && hasTransport(point.options) ? truth() : reference_->image;
-}
-
-const Image& ErrorMeter::withoutApproximations(const Point& point, const Image& own) {
-  const Exactness exactness =
-      hasTransport(point.options) ? Exactness{kTransportCutoff} : exactness_;
-  const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness);
-  const std::string digest = digestOf(exact);
-  if (digest == digestOf(point.options)) return own;
-  const auto found = exactPackets_.find(digest);
-  if (found != exactPackets_.end()) return found->second;
-  FrameSource frames(scene_, camera_, exact);
-  frames.render();
-  return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
-}
-
-void ErrorMeter::measure(Point& point, FrameSource& frames, bool arithmetic) {
-  point.stats = frames.stats;
-  const Image& image = frames.film.image;
-  const auto differenceOf = [&](const Image& a, const Image& b) {
-    return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
-  };
-  std::vector<std::function<void()>> comparisons;
-  comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
-  comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
-  // The point has the baseline's sampling if the exact options are the same.
-  if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
-      digestOf(exactAtSameSamples(base_, exactness_))) {
-    comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_->image); });
-  }
-  runTogether(comparisons);
-  if (point.cause != Cause::arithmetic) {
-    const Image& unapproximated = withoutApproximations(point, image);
-    runTogether({[&] { point.sampling = differenceOf(unapproximated, limitOf(point)); },
-                 [&] { point.algorithm = differenceOf(image, unapproximated); }});
-  }
-  if (transport_) point.transport = hasTransport(point.options) ? noDifference() : *leftOut_;
-  if (!arithmetic) return;
-  point.arithmetic =
-      arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
-}
-
-const ReferencePaths& ErrorMeter::referencePaths(const Point& point, FrameSource& frames) {
-  const RenderOptions defaults;
-  RenderOptions seen = point.options;
-  seen.shading.reciprocal = defaults.shading.reciprocal;
-  seen.film = defaults.film;
-  seen.srgb = defaults.srgb;
-  seen.packet = defaults.packet;
-  const std::string digest = digestOf(seen);
-  const auto found = referencePaths_.find(digest);
-  if (found != referencePaths_.end()) return found->second;
-  return referencePaths_.emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
-      .first->second;
-}
-
-std::string ErrorMeter::pngOf(const Image& image) const {
-  return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
-}
-
-void ErrorMeter::addPictures(Point& point, const Image& image) const {
-  point.imagePng = pngOf(image);
-  point.totalMapPng = encodePng(heatMap(image, truth()));
-  if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_->image));
-}
-
-// The approximate work of a packet frame in units of a scalar frame with one sample.
-constexpr double kPacketFrameWork = 0.1;
 // The number of points with a single frame that share a frame of the baseline, also for long
 // frames.
 constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
@@ -217,7 +204,7 @@ class SceneSweeper {
         effects_(scenes.with(0).effects.without(base.disable)),
         exactness_(exactnessFor(effects_, settings.full)),
         cache_(scenes.with(0), camera_, settings.cacheFolder, settings.program),
-        pace_(progress, scenes.given().name) {}
+        progress_(progress) {}
 
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
@@ -295,41 +282,27 @@ class SceneSweeper {
 
   void renderTransport() {
     if (settings_.truth == Truth::model) return;
-    pace_.begin("all transport", 0);
     FrameSource one(scenes_.with(0), camera_, transportOptions(base_, 1));
     const double rays = static_cast<double>(one.render().allRays());
     const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
-    transport_ = cache_.transport(options, &pace_);
+    transport_ = cache_.transport(options, progress_);
     scope_.transportPaths = transport_->passes * transportPaths(options);
     sweep_.transport = static_cast<const TransportFacts&>(*transport_);
-    pace_.end();
-    transportSeconds_ = pace_.seconds();
+    points_ = Stopwatch();
   }
 
   ErrorMeter renderReferences() {
-    const double work = sweep_.referenceSamples;
-    pace_.plan(work + base_.spp);
-    for (const Point& point : sweep_.points) pace_.plan(workOf(point));
-    pace_.begin("reference", work);
     ErrorMeter meter(scenes_.with(0), camera_, base_, exactness_, cache_, sweep_.referenceSamples,
-                     transport_ ? &*transport_ : nullptr, &pace_);
+                     transport_ ? &*transport_ : nullptr, progress_);
     const ReferencePicture& reference = meter.reference();
-    reference.fromFile ? pace_.skip() : pace_.end();
     sweep_.referenceDigest = reference.digest;
     sweep_.referenceMs = reference.renderMs;
     sweep_.referenceFromFile = reference.fromFile;
     return meter;
   }
 
-  double workOf(const Point& point) const {
-    const double frame = point.options.spp * kPacketFrameWork;
-    return (point.options.mode == Mode::reference ? point.options.spp : 10 * frame) +
-           (scope_.comparesPaths(point) ? point.options.spp + frame : 0);
-  }
-
   void measureBaseline(ErrorMeter& meter) {
     Point& point = sweep_.points.front();
-    pace_.begin(point.label(), workOf(point));
     meter.measure(point, *baseline_, scope_.comparesPaths(point));
     if (base_.mode == Mode::packets) {
       const Film scratch = makeFilm(sceneFor(base_), scope_.longFrames() ? middleQuarter() : base_);
@@ -337,7 +310,6 @@ class SceneSweeper {
     }
     meter.addPictures(point, baseline_->film.image);
     sweep_.truthPng = meter.pngOf(meter.truth());
-    pace_.end();
   }
 
   RenderOptions middleQuarter() const {
@@ -364,10 +336,10 @@ class SceneSweeper {
     const std::vector<std::size_t> order = chooseOrder();
     for (std::size_t k = 0; k < order.size(); ++k) {
       Point& point = sweep_.points[order[k]];
-      pace_.begin(point.label(), workOf(point));
-      if (scope_.isOver(pace_.seconds() - transportSeconds_)) {
+      reportProgress(progress_, sweep_.scene + ": " + point.label(),
+                     static_cast<double>(k) / static_cast<double>(order.size()));
+      if (scope_.isOver(points_.ms() / 1000)) {
         unmeasured[point.label()] = Scope::kOverBecause;
-        pace_.skip();
         continue;
       }
       if (measurePoint(point, meter, order.size() - k)) {
@@ -376,7 +348,6 @@ class SceneSweeper {
         unmeasured[point.label()] =
             "the same rays and the same picture as '" + sweep_.points.front().label() + "'";
       }
-      pace_.end();
     }
     for (const Point& point : sweep_.points) {
       const auto found = unmeasured.find(point.label());
@@ -443,7 +414,7 @@ class SceneSweeper {
       for (Point* point : points) {
         if (point->timing.rounds >= rounds || !point->timing.noisy()) continue;
         if (timer_->leftMs() <= 0) return;
-        pace_.begin(point->label() + " again", 0);
+        reportProgress(progress_, sweep_.scene + ": " + point->label() + " again", 1);
         timer_->repeat(*point, rounds, [&] {
           return std::make_unique<FrameSource>(sceneFor(point->options), camera_, point->options);
         });
@@ -472,11 +443,11 @@ class SceneSweeper {
   EffectSet effects_;
   Exactness exactness_;
   ReferenceCache cache_;
-  Pace pace_;
+  Progress* progress_;
   std::unique_ptr<FrameSource> baseline_;
   std::optional<PointTimer> timer_;
   std::optional<TransportPicture> transport_;  // set if it is the truth
-  double transportSeconds_ = 0;                // time until it was ready
+  Stopwatch points_;                           // runs without the picture with all transport
   SceneSweep sweep_;
 };
 

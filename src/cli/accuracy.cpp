@@ -4,10 +4,8 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 
-#include "accuracy/csv.h"
 #include "accuracy/digest.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
@@ -16,7 +14,7 @@
 #include "cli/app/open_scene.h"
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/machine_facts.h"
+#include "cli/json_report.h"
 #include "core/error.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
@@ -40,19 +38,9 @@ struct AccuracyJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string out, knobs;
-  accuracy::Truth truth = accuracy::Truth::model;
-  bool quick = false, full = false;
+  bool quick = false;
   int seed = 1;
-  std::optional<double> timeBudget;
-
-  std::vector<std::string> knobNames() const {
-    std::vector<std::string> names;
-    std::istringstream words(knobs);
-    for (std::string name; std::getline(words, name, ',');) {
-      if (!name.empty()) names.push_back(name);
-    }
-    return names;
-  }
+  accuracy::SweepSettings settings;
 };
 
 std::string knobHelp() {
@@ -69,17 +57,18 @@ OptionList listOptions(AccuracyJob& job) {
   list.value({"truth", "model|transport"},
              "what errors are measured against: Whitted's model without approximations, or all "
              "transport of light, with points from a draft to that",
-             job.truth);
+             job.settings.truth);
   list.flag(
       "quick",
       "256x256 pixels, up to 64 reference samples, points until a minute is over (the default)",
       job.quick);
-  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs", job.full);
+  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs",
+            job.settings.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value(
       {"time-budget", "SECONDS", 0, 1e6},
       "time for measuring times of a scene until their spread is known (default: 20, --full 600)",
-      job.timeBudget);
+      job.settings.timingSeconds);
   list.value({"seed", "N", 0, 1e9}, "seed of the random order of the measurements", job.seed);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -89,25 +78,23 @@ OptionList listOptions(AccuracyJob& job) {
 
 void checkJob(AccuracyJob& job) {
   if (job.out.empty()) throwUsage("whit accuracy expected --out DIR");
-  if (job.quick && job.full) throwUsage("--quick and --full exclude each other: give one of them");
+  accuracy::SweepSettings& settings = job.settings;
+  if (job.quick && settings.full) {
+    throwUsage("--quick and --full exclude each other: give one of them");
+  }
   if (job.common.render.mode == Mode::reference) {
     throwUsage("whit accuracy measures packets against the reference: leave out --mode");
   }
-  accuracy::chooseKnobs(job.knobNames());
-  if (!job.full && !job.common.render.size) job.common.render.size = kQuickSize;
+  std::istringstream words(job.knobs);
+  for (std::string name; std::getline(words, name, ',');) {
+    if (!name.empty()) settings.knobs.push_back(name);
+  }
+  accuracy::chooseKnobs(settings.knobs);
+  if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
+  settings.seed = static_cast<std::uint32_t>(job.seed);
+  settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
+  settings.program = std::string(versionText()) + " " + accuracy::digestOfProgram();
   makeFolder(job.out);
-}
-
-accuracy::RunFacts factsOf(const AccuracyJob& job) {
-  const MachineFacts machine = machineFacts();
-  accuracy::RunFacts facts;
-  facts.cpu = machine.cpu;
-  facts.cores = machine.cores;
-  facts.compiler = machine.compiler;
-  facts.commit = machine.commit;
-  facts.seed = static_cast<std::uint32_t>(job.seed);
-  facts.full = job.full;
-  return facts;
 }
 
 // Automatic exposure is computed once, so that all pictures of a sweep have the same.
@@ -119,17 +106,8 @@ RenderOptions sweptOptions(const OpenScene& open, const CommonOptions& common) {
   return options;
 }
 
-std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
-                                              const accuracy::RunFacts& facts) {
+std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
   auto progress = makeProgressBar(job.common);
-  accuracy::SweepSettings settings;
-  settings.truth = job.truth;
-  settings.full = job.full;
-  settings.knobs = job.knobNames();
-  settings.seed = facts.seed;
-  settings.timingSeconds = job.timeBudget;
-  settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
-  settings.program = std::string(versionText()) + " " + accuracy::digestOfProgram();
   std::vector<accuracy::SceneSweep> sweeps;
   for (const std::string& name : job.scenes) {
     const auto open = openScene(name, job.common, progress.get());
@@ -141,7 +119,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job,
       other.load.sphereSegments = segments;
       return std::move(openScene(name, other, nullptr)->scene);
     });
-    sweeps.push_back(sweepScene(scenes, options, settings, progress.get()));
+    sweeps.push_back(sweepScene(scenes, options, job.settings, progress.get()));
   }
   return sweeps;
 }
@@ -154,8 +132,10 @@ int accuracyCommand(const Words& words) {
     return 0;
   settleOptions(job.common);
   checkJob(job);
-  const accuracy::RunFacts facts = factsOf(job);
-  const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job, facts);
+  const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job);
+  accuracy::RunFacts facts = machineFacts();
+  facts.seed = job.settings.seed;
+  facts.full = job.settings.full;
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
   const WriteScope scope;

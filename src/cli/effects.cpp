@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/csv.h"
 #include "accuracy/report.h"
 #include "cli/app/image_output.h"
 #include "cli/app/interrupt.h"

@@ -1,12 +1,16 @@
 #include "cli/json_report.h"
 
+#include <sys/resource.h>
+
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.h"
 #include "cli/app/interrupt.h"
-#include "cli/machine_facts.h"
 #include "core/option_table.h"
+#include "core/option_values.h"
+#include "core/usable_threads.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {
@@ -35,10 +39,50 @@ Json stagesJson(const FrameStats& frame) {
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
+std::string cpuName() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const std::size_t begin = line.find_first_not_of(" \t", line.find(':') + 1);
+    if (begin != std::string::npos) return line.substr(begin);
+  }
+  return "unknown";
+}
+
+std::string compilerName() {
+#if defined(__clang__)
+  return std::string("clang++ ") + __clang_version__;
+#elif defined(__GNUC__)
+  return "g++ " + std::to_string(__GNUC__) + "." + std::to_string(__GNUC_MINOR__) + "." +
+         std::to_string(__GNUC_PATCHLEVEL__);
+#else
+  return "unknown";
+#endif
+}
+
+double peakRssMb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return static_cast<double>(usage.ru_maxrss) / 1e6;
+#else
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
+#endif
+}
+
 }  // namespace
 
+accuracy::RunFacts machineFacts() {
+  accuracy::RunFacts facts;
+  facts.cpu = cpuName();
+  facts.cores = affinityThreads();
+  facts.compiler = compilerName();
+  facts.commit = WHIT_COMMIT;
+  return facts;
+}
+
 Json machineJson(const Machine& machine) {
-  const MachineFacts facts = machineFacts();
+  const accuracy::RunFacts facts = machineFacts();
   return {{"cpu", facts.cpu},         {"cores", facts.cores},       {"simd", machine.simd},
           {"embree", machine.embree}, {"compiler", facts.compiler}, {"commit", facts.commit}};
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/measurement.h"
 #include "cli/app/frame_summary.h"
 #include "core/warnings.h"
 #include "inspect/metrics.h"
@@ -17,6 +18,8 @@ namespace whit::cli {
 
 using Json = nlohmann::ordered_json;
 
+// The machine and the build; seed and extent of a sweep are not set.
+accuracy::RunFacts machineFacts();
 Json machineJson(const Machine& machine);
 // `writing_ms`, where images were written, has the medians of what writing one took and of what the
 // tracing waited for it; `written_per_s` is the rate of both together. `stages_ms`, `embree_ms`,

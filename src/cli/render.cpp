@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -49,8 +48,7 @@ constexpr const char* kTurntableUsage = "whit turntable SCENE -o FILM.mp4|FRAMES
 constexpr const char* kTurntableSummary =
     "Renders a model on a turntable: supplies a view and light, moves the camera once around the "
     "model and leaves the light where it is. In a scene file the camera goes around the point that "
-    "it looks at. ffmpeg makes the film; where it is not installed, the frames are written as PNG "
-    "files and the command that makes a film of them is printed.";
+    "it looks at. ffmpeg makes the film.";
 
 constexpr const char* kFilm = ".mp4";
 bool isFilm(const std::string& output) { return extensionOf(output) == kFilm; }
@@ -66,14 +64,11 @@ struct RenderJob {
   double turns = 1;
   std::optional<Turntable> turntable;  // once the scene is open
   int turntableFrames = 96;            // of all turns together
-  std::string filmCommand;  // what makes the film that was asked for, where there is no ffmpeg
 
   bool toStandardOutput() const {
     return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
   }
-  bool makesFilm() const {
-    return !filmCommand.empty() || std::any_of(outputs.begin(), outputs.end(), isFilm);
-  }
+  bool makesFilm() const { return std::any_of(outputs.begin(), outputs.end(), isFilm); }
 };
 
 OptionList listOptions(RenderJob& job) {
@@ -169,6 +164,9 @@ void checkJob(const RenderJob& job) {
     if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
   }
   requireJsonWritable(job.json);
+  if (job.makesFilm() && !findProgram("ffmpeg")) {
+    throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
+  }
   if (job.frames.empty()) {
     for (const std::string& output : job.outputs) requireNoFrameName(output);
     return;
@@ -179,22 +177,6 @@ void checkJob(const RenderJob& job) {
   }
   if (job.common.load.instant.seconds && !job.onTurntable) {
     throwUsage("--time is one instant, --frames are many: give one");
-  }
-}
-
-// Without ffmpeg the frames of a film are written as PNG files.
-void replaceFilm(RenderJob& job) {
-  for (std::string& output : job.outputs) {
-    if (!isFilm(output) || findProgram("ffmpeg")) continue;
-    const std::string film = output, stem = film.substr(0, film.size() - std::strlen(kFilm));
-    std::string pattern;  // as printf() and ffmpeg number files
-    for (const char c : stem) pattern += c == '%' ? "%%" : std::string(1, c);
-    job.filmCommand = filmCommand(pattern + "-%04d.png", job.fps, film);
-    output = stem + "-####.png";
-    std::fprintf(stderr,
-                 "whit: ffmpeg is not in $PATH: PNG files are written instead of %s; with ffmpeg "
-                 "installed, this makes the film:\n",
-                 printable(film).c_str());
   }
 }
 
@@ -278,8 +260,7 @@ class ImageWriter {
     const auto film = std::find_if(job.outputs.begin(), job.outputs.end(), isFilm);
     if (film == job.outputs.end()) return;
     const Image& image = films_[0].image;
-    pipe_.emplace(findProgram("ffmpeg").value_or("ffmpeg"), *film, image.width, image.height,
-                  job.fps);
+    pipe_.emplace(*film, image.width, image.height, job.fps);
     written_.push_back(*film);
   }
 
@@ -469,7 +450,6 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
   json["machine"] = machineJson(writer.run().machine);
   if (!job.frames.empty()) json["film_fps"] = job.fps;
   if (job.onTurntable) json["turns"] = job.turns;
-  if (!job.filmCommand.empty()) json["command"] = job.filmCommand;
   writeJson(job.json, json);
 }
 
@@ -477,7 +457,6 @@ int render(RenderJob& job) {
   const Stopwatch stopwatch;
   settleOptions(job.common);
   checkJob(job);
-  replaceFilm(job);
 
   auto progress = makeProgressBar(job.common);
   job.common.load.instant.plays = job.common.load.instant.alongPath =
@@ -499,9 +478,6 @@ int render(RenderJob& job) {
     }
   }
   if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
-  if (!job.filmCommand.empty() && job.json != kStandardOutput && !job.toStandardOutput()) {
-    std::printf("%s\n", job.filmCommand.c_str());
-  }
   if (!job.json.empty()) writeReport(job, writer);
   return 0;
 }

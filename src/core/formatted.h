@@ -1,8 +1,9 @@
-// printf into a string.
+// Text for people: printf into a string, and lines of a width.
 #pragma once
 
 #include <cstdarg>
 #include <cstdio>
+#include <sstream>
 #include <string>
 
 namespace whit {
@@ -18,6 +19,26 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char* f
   va_end(again);
   text.pop_back();
   return text;
+}
+
+// The words of the text in lines of at most `width` letters, if no word is longer. The first line
+// starts at column `at`, the others are indented.
+inline std::string wrapped(const std::string& text, std::size_t at, std::size_t indent,
+                           std::size_t width) {
+  std::string lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!lines.empty() && at + 1 + word.size() > width) {
+      lines += "\n" + std::string(indent, ' ');
+      at = indent;
+    } else if (!lines.empty()) {
+      lines += ' ';
+      ++at;
+    }
+    lines += word;
+    at += word.size();
+  }
+  return lines + "\n";
 }
 
 }  // namespace whit

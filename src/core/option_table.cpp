@@ -39,7 +39,6 @@ void visitOption(Options& options, const std::string& name, Visitor&& visit) {
     visit(spec, field);
   });
   if (found) return;
-  refuseFormerName(name);
   throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
 }
 
@@ -76,15 +75,6 @@ constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
 };
 
 }  // namespace
-
-void refuseFormerName(const std::string& name) {
-  for (const auto& [former, present] :
-       {std::pair{"verdicts", "shadow-cache"}, std::pair{"ab-verdicts", "ab-shadow-cache"}}) {
-    if (name == former) {
-      throwUsage("--" + name + " is now called --" + present);
-    }
-  }
-}
 
 void setOption(RenderOptions& options, const std::string& name, const std::string& text) {
   visitOption(options, name,

@@ -11,9 +11,7 @@
 namespace whit {
 
 // Set or format the option of this name. They throw Error(usage), which for an unknown name
-// suggests a near one. Throws Error(usage) if the name is a former one of an option, with the
-// present one.
-void refuseFormerName(const std::string& name);
+// suggests a near one.
 void setOption(RenderOptions& options, const std::string& name, const std::string& text);
 std::string optionText(const RenderOptions& options, const std::string& name);
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "accuracy/csv.h"
 #include "accuracy/sweep_rows.h"
 #include "embedded_data.h"
 

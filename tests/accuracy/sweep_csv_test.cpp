@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/csv.h"
+#include "accuracy/report.h"
 #include "accuracy/sweep_rows.h"
 #include "core/error.h"
 

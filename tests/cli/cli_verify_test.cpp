@@ -66,13 +66,6 @@ TEST(Verify, ASheetOfAllScenes) {
   EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
 }
 
-TEST(Verify, WhitStressNamesTheProgram) {
-  const Outcome outcome = runWhit({"stress"});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("whit stress is the program whit-verify now"), std::string::npos)
-      << outcome.err;
-}
-
 TEST(Verify, HelpListsTheOptions) {
   const Outcome outcome = runVerify({"--help"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

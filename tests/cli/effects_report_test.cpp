@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/csv.h"
 #include "accuracy/report.h"
 #include "cli/stage_table.h"
 #include "embedded_data.h"

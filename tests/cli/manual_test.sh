@@ -21,7 +21,7 @@ for program in "$@"; do
   sed 's/\\-/-/g; s/\\fB//g; s/\\fR//g; s/\\fI//g' "$page" >"$work/plain"
   count=0
   for option in $(sed -n 's/^  \(-[a-z],\)\{0,1\}\(--[a-z0-9-]*\).*/\2/p' "$work/help" | sort -u); do
-    grep -qE -e "^(-[a-z], )?$option( |\$)" "$work/plain" ||
+    grep -qE -e "^(-[a-z], ?)?$option( |\$)" "$work/plain" ||
       { echo "$program --man says nothing of $option"; exit 1; }
     count=$((count + 1))
   done

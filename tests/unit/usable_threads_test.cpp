@@ -46,19 +46,6 @@ TEST_F(CgroupQuota, TheLeastOfAllAboveCounts) {
   EXPECT_EQ(cgroupQuota("0::/a.slice/b.service\n", root_), 0.5);
 }
 
-TEST_F(CgroupQuota, VersionOne) {
-  const std::string membership =
-      "4:memory:/elsewhere\n3:cpu,cpuacct:/batch/job\n1:name=systemd:/\n";
-  EXPECT_EQ(cgroupQuota(membership, root_), 0);
-  put("cpu/cpu.cfs_quota_us", "-1");
-  put("cpu/cpu.cfs_period_us", "100000");
-  EXPECT_EQ(cgroupQuota(membership, root_), 0);
-  put("cpu/batch/job/cpu.cfs_quota_us", "300000");
-  put("cpu/batch/job/cpu.cfs_period_us", "100000");
-  EXPECT_EQ(cgroupQuota(membership, root_), 3);
-  EXPECT_EQ(cgroupQuota("2:cpuset:/batch/job\n", root_), 0) << "a set of processors, no quota";
-}
-
 // The membership names the host's groups, which a container does not see.
 TEST_F(CgroupQuota, InAContainerTheRootCounts) {
   put("cpu.max", "250000 100000");

@@ -63,16 +63,6 @@ double mraysPerSecond(std::uint64_t rays, double ms) {
   return ms > 0 ? static_cast<double>(rays) / ms / 1e3 : 0;
 }
 
-std::vector<std::string> effectNames(EffectSet effects) {
-  std::vector<std::string> names;
-  for (int i = 0; i < kEffectCount; ++i) {
-    if (effects.has(static_cast<Effect>(i))) {
-      names.emplace_back(kEffectNames[static_cast<std::size_t>(i)].name);
-    }
-  }
-  return names;
-}
-
 std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options) {
   std::vector<EffectRow> rows;
   for (int i = 0; i < kEffectCount; ++i) {

@@ -70,8 +70,6 @@ RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
 double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);
 
-std::vector<std::string> effectNames(EffectSet effects);
-
 struct EffectRow {
   std::string name;
   bool on = false;

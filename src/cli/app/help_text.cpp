@@ -7,11 +7,14 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <map>
+#include <regex>
 #include <sstream>
 
 #include "cli/app/parse_options.h"
 #include "cli/app/program.h"
+#include "core/formatted.h"
 #include "core/option_table.h"
 #include "core/option_values.h"
 #include "core/version.h"
@@ -23,28 +26,6 @@ namespace {
 
 constexpr int kLeastWidth = 40, kUsualWidth = 80, kLargestWidth = 120;
 constexpr std::size_t kNamesWidth = 28, kNarrowNamesWidth = 8;
-
-// Words with blanks between, in lines behind `indent` blanks; the first goes on where the text
-// stands, at column `at`.
-std::string wrapped(const std::string& text, std::size_t at, std::size_t indent,
-                    std::size_t width) {
-  std::string lines;
-  std::istringstream words(text);
-  bool first = true;
-  for (std::string word; words >> word;) {
-    if (!first && at + 1 + word.size() > width) {
-      lines += "\n" + std::string(indent, ' ');
-      at = indent;
-    } else if (!first) {
-      lines += ' ';
-      ++at;
-    }
-    lines += word;
-    at += word.size();
-    first = false;
-  }
-  return lines + "\n";
-}
 
 // Names on the left and their meaning beside them, or below where there is no room.
 std::string row(const std::string& names, const std::string& meaning, std::size_t width) {
@@ -65,13 +46,24 @@ std::string namesOf(const OptionList::Entry& entry) {
   return entry.placeholder.empty() ? names : names + " " + entry.placeholder;
 }
 
-std::string presetRows(std::size_t width) {
-  std::string text =
-      "\n" + wrapped("What --quality stands for, where an option is not given:", 0, 0, width);
+Terms presetTerms() {
+  Terms terms;
   for (const QualityPreset& preset : qualityPresets()) {
-    text += row(preset.name, preset.options.empty() ? "the defaults" : preset.options, width);
+    terms.emplace_back(preset.name, preset.options.empty() ? "the defaults" : preset.options);
   }
-  return text;
+  return terms;
+}
+
+// The options that `isWanted` chooses, by their groups.
+template <typename IsWanted>
+std::vector<std::pair<std::string, Terms>> groupsOf(const OptionList& list, IsWanted&& isWanted) {
+  std::vector<std::pair<std::string, Terms>> groups;
+  for (const OptionList::Entry& entry : list.entries) {
+    if (!isWanted(entry)) continue;
+    if (groups.empty() || groups.back().first != entry.group) groups.push_back({entry.group, {}});
+    groups.back().second.emplace_back(namesOf(entry), entry.help);
+  }
+  return groups;
 }
 
 // NAME stands for the program, FUNCTION for its name without dashes.
@@ -97,23 +89,6 @@ if [[ $funcstack[1] == _FUNCTION ]]; then _FUNCTION "$@"; else compdef _FUNCTION
 end
 complete -c NAME -f -n 'count (__FUNCTION_complete) >/dev/null' -a '(__FUNCTION_complete)'
 )"};
-
-std::string withName(const std::string& script, const std::string& program) {
-  std::string function = program, text;
-  std::replace(function.begin(), function.end(), '-', '_');
-  for (std::size_t i = 0; i < script.size(); ++i) {
-    if (script.compare(i, 4, "NAME") == 0) {
-      text += program;
-      i += 3;
-    } else if (script.compare(i, 8, "FUNCTION") == 0) {
-      text += function;
-      i += 7;
-    } else {
-      text += script[i];
-    }
-  }
-  return text;
-}
 
 // The values of an option that begin with `word`.
 std::string valueLines(const std::string& word, const OptionList::Entry& entry) {
@@ -146,15 +121,13 @@ std::string heading(std::string text) {
   return ".SH \"" + roff(text) + "\"\n";
 }
 
-std::string termText(const std::string& term, const std::string& meaning) {
-  return ".TP\n" + term + "\n" + roff(meaning) + (meaning.ends_with('.') ? "\n" : ".\n");
-}
-
-std::string entryText(const OptionList::Entry& entry) {
-  const std::string letter = entry.shortName.empty() ? "" : "-" + entry.shortName + ", ";
-  std::string term = "\\fB" + roff(letter + "--" + entry.name) + "\\fR";
-  if (!entry.placeholder.empty()) term += " \\fI" + roff(entry.placeholder) + "\\fR";
-  return termText(term, entry.help);
+std::string termsText(const Terms& terms) {
+  std::string text;
+  for (const auto& [term, meaning] : terms) {
+    text += ".TP\n\\fB" + roff(term) + "\\fR\n" + roff(meaning) +
+            (meaning.ends_with('.') ? "\n" : ".\n");
+  }
+  return text;
 }
 
 }  // namespace
@@ -167,22 +140,24 @@ std::string helpText(const std::string& usage, const std::string& summary, const
     text +=
         "\n" + wrapped(list.operand.placeholder + ": " + list.operand.help + ".", 0, 2, columns);
   }
-  std::string group;
-  std::size_t left = 0;
-  bool presets = false;
-  for (const OptionList::Entry& entry : list.entries) {
-    if (tier == HelpTier::everyday && !entry.everyday) {
-      ++left;
-      continue;
-    }
-    if (entry.group != group) text += "\n" + (group = entry.group) + ":\n";
-    text += row(namesOf(entry), entry.help, columns);
-    presets |= entry.name == "quality";
+  const auto isListed = [&](const OptionList::Entry& e) {
+    return tier == HelpTier::all || e.everyday;
+  };
+  auto groups = groupsOf(list, isListed);
+  const auto left =
+      list.entries.size() - static_cast<std::size_t>(std::ranges::count_if(list.entries, isListed));
+  groups.push_back({"Help",
+                    {{"-h,--help", "the options of every day"},
+                     {"--help-all", left > 0 ? formatted("all options, %zu more", left)
+                                             : std::string("all options")}}});
+  if (std::ranges::find(list.entries, "quality", &OptionList::Entry::name) != list.entries.end()) {
+    groups.push_back({"What --quality stands for, where an option is not given", presetTerms()});
   }
-  text += "\nHelp:\n" + row("-h,--help", "the options of every day", columns);
-  text += row("--help-all",
-              left > 0 ? "all options, " + std::to_string(left) + " more" : "all options", columns);
-  return presets ? text + presetRows(columns) : text;
+  for (const auto& [title, terms] : groups) {
+    text += "\n" + wrapped(title + ":", 0, 0, columns);
+    for (const auto& [names, meaning] : terms) text += row(names, meaning, columns);
+  }
+  return text;
 }
 
 int helpWidth() {
@@ -205,7 +180,11 @@ std::string completionLine(const std::string& word, const std::string& name,
 
 std::string completionScript(const std::string& shell, const std::string& program) {
   const OptionSpec spec{.name = "completion", .words = "bash|zsh|fish"};
-  return withName(kScripts[parseChoice(spec, shell)], program);
+  std::string function = program;
+  std::replace(function.begin(), function.end(), '-', '_');
+  const std::string script =
+      std::regex_replace(kScripts[parseChoice(spec, shell)], std::regex("FUNCTION"), function);
+  return std::regex_replace(script, std::regex("NAME"), program);
 }
 
 std::string completions(const std::vector<std::string>& words, const OptionList& list) {
@@ -230,9 +209,7 @@ std::string completions(const std::vector<std::string>& words, const OptionList&
 }
 
 std::string manSection(const std::string& title, const Terms& terms) {
-  std::string text = heading(title);
-  for (const auto& [term, meaning] : terms) text += termText("\\fB" + roff(term) + "\\fR", meaning);
-  return text;
+  return heading(title) + termsText(terms);
 }
 
 std::string manOptions(const std::string& usage, const std::string& summary,
@@ -242,11 +219,11 @@ std::string manOptions(const std::string& usage, const std::string& summary,
     text +=
         ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + roff(list.operand.help) + ".\n";
   }
-  std::string group, shared;
-  for (const OptionList::Entry& entry : list.entries) {
-    if (!entry.common) text += entryText(entry);
-    if (entry.common && entry.group != group) shared += (shared.empty() ? "" : ", ") + entry.group;
-    if (entry.common) group = entry.group;
+  const auto isShared = [](const OptionList::Entry& entry) { return entry.common; };
+  for (const auto& [title, terms] : groupsOf(list, std::not_fn(isShared))) text += termsText(terms);
+  std::string shared;
+  for (const auto& [title, terms] : groupsOf(list, isShared)) {
+    shared += (shared.empty() ? "" : ", ") + title;
   }
   return shared.empty() ? text : text + ".PP\nAlso the options described below: " + shared + ".\n";
 }
@@ -267,21 +244,15 @@ void printManual(const ManPage& page, const std::function<void()>& body) {
   CommonOptions common;
   OptionList shared;
   listCommonOptions(shared, common);
-  std::string group;
   text.clear();
-  for (const OptionList::Entry& entry : shared.entries) {
-    if (entry.group != group) text += heading(group = entry.group);
-    text += entryText(entry);
+  for (const auto& [title, terms] : groupsOf(shared, [](const auto&) { return true; })) {
+    text += manSection(title, terms);
   }
-  Terms statuses, presets;
+  Terms statuses;
   for (const ExitMeaning& e : kExitMeanings) {
     statuses.emplace_back(std::to_string(e.status), e.meaning);
   }
-  for (const QualityPreset& preset : qualityPresets()) {
-    presets.emplace_back("--quality " + preset.name,
-                         preset.options.empty() ? "the defaults" : preset.options);
-  }
-  text += manSection("presets", presets) + manSection("exit status", statuses) +
+  text += manSection("values of --quality", presetTerms()) + manSection("exit status", statuses) +
           manSection("environment",
                      {{"WHIT_SCENES", "folder that is searched first for shipped scenes"},
                       {"WHIT_DATA", "folder of models that scenes may name as $WHIT_DATA/..."}}) +

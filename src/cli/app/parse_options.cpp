@@ -14,7 +14,6 @@ namespace whit::cli {
 namespace {
 
 [[noreturn]] void throwUnknownOption(const std::string& name, const OptionList& list) {
-  if (name.starts_with("--")) refuseFormerName(name.substr(2));
   std::vector<std::string> names{"--help", "--help-all"};
   for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
   throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
