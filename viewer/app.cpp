@@ -7,7 +7,6 @@
 #include "bake/move_scene.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "viewer/overlay.h"
 #include "viewer/panel.h"
 
 namespace whit::view {

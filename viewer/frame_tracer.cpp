@@ -14,7 +14,6 @@
 #include "farm/blocks.h"
 #include "io/supply_view.h"
 #include "render/auto_exposure.h"
-#include "render/describe_image.h"
 #include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
@@ -48,22 +47,10 @@ std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& ray
 
 std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
-// Removes the scale that heatMap() draws below the map, which panels would cover.
-DisplayImage withoutScale(const DisplayImage& map, int width, int height) {
-  DisplayImage image{width, height, {}};
-  image.rgba.resize(static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    const auto row = map.rgba.begin() + y * rowBytes(map);
-    std::copy(row, row + rowBytes(image), image.rgba.begin() + y * rowBytes(image));
-  }
-  return image;
-}
-
 // Measures the difference of `frame` from the finished reference. Throws as compareImages().
 void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison) {
   const Image& reference = comparison.reference.image;
-  comparison.heatMap =
-      withoutScale(heatMap(frame.image, reference), reference.width, reference.height);
+  comparison.heatMap = heatMap(frame.image, reference, false);
   comparison.difference = compareImages(frame.image, reference, exposure, curve);
 }
 
@@ -305,7 +292,7 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
     calls.showUnfinished({request, seen, done, {}});
   };
   frame.stats = views ? watchFrame(*renderer_, request.camera, frame.film, view, watched, &hooks)
-                      : renderer_->render(request.camera, frame.film, {}, &hooks);
+                      : renderer_->render(request.camera, frame.film, &hooks);
   if (stopped) return false;
   if (!views) return true;
   scale_ = scaleOf(view, watched, options_.spp);

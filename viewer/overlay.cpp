@@ -1,4 +1,4 @@
-#include "viewer/overlay.h"
+#include "viewer/panel.h"
 
 #include <imgui.h>
 

@@ -9,7 +9,6 @@
 
 #include "cli/app/frame_summary.h"
 #include "core/formatted.h"
-#include "viewer/overlay.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -252,29 +251,16 @@ void FrameGraph::draw(double rate) const {
   const float scale = 1.25f * std::max(highest, budget);
   const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
   const int oldest = count_ < times_.size() ? 0 : static_cast<int>(next_);
-  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest,
-                   count_ == 0 ? "nothing has moved yet" : nullptr, 0, scale, size);
-  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const std::string text = count_ == 0 ? "nothing has moved yet"
+                                       : formatted("at most %.1f ms; %.1f ms hold %.0f/s",
+                                                   static_cast<double>(highest), 1000 / rate, rate);
+  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest, text.c_str(), 0,
+                   scale, size);
+  const float padding = ImGui::GetStyle().FramePadding.y;
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  const auto heightOf = [&](float ms) {
-    return to.y - padding.y - ms / scale * (to.y - from.y - 2 * padding.y);
-  };
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  const float y = heightOf(budget);
-  list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
-  std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
-  // The text stands below its line unless that lies low.
-  const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
-  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 at(to.x - padding.x - words.x, below);
-  // The background keeps the curve from striking the text through.
-  list.AddRectFilled(at, ImVec2(at.x + words.x, at.y + words.y),
-                     ImGui::GetColorU32(ImGuiCol_FrameBg));
-  list.AddText(at, color, text.c_str());
-  if (count_ == 0) return;
-  text = formatted("%.1f ms at most", static_cast<double>(highest));
-  list.AddText(ImVec2(from.x + padding.x, from.y), color, text.c_str());
+  const float y = to.y - padding - budget / scale * (to.y - from.y - 2 * padding);
+  ImGui::GetWindowDrawList()->AddLine(ImVec2(from.x, y), ImVec2(to.x, y),
+                                      ImGui::GetColorU32(ImGuiCol_Border));
 }
 
 }  // namespace whit::view

@@ -1,4 +1,4 @@
-#include "viewer/ray_panel.h"
+#include "viewer/panel.h"
 
 #include <imgui.h>
 

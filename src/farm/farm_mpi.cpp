@@ -16,7 +16,7 @@
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
 #include "farm/farm.h"
-#include "render/frame_setup.h"
+#include "render/frame.h"
 
 namespace whit {
 

@@ -11,7 +11,7 @@
 #include "cli/app/parse_options.h"
 #include "core/warnings.h"
 #include "farm/farm.h"
-#include "render/render_frame.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 
