@@ -1,8 +1,10 @@
 // All that is drawn over the picture: the panel with its tabs, rays, messages, the comparison.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <span>
 #include <string>
 
@@ -15,6 +17,12 @@ inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
 
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
+
+// Returns the largest difference of a channel of two colors, in 8-bit codes.
+inline int largestDifference(const std::array<std::uint8_t, 3>& a,
+                             const std::array<std::uint8_t, 3>& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
 
 // The view of the rays.
 struct RayView {
@@ -38,7 +46,6 @@ struct PanelSettings {
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
-  bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
   bool inspects = true;    // the pixel under the pointer is described
@@ -58,9 +65,6 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
-// Returns whether nothing but options differs from the view that was measured.
-bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
-
 class Panel {
  public:
   void remember(const TracedFrame& frame);
@@ -75,24 +79,9 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
-  FrameRequest measuredFor_;
-  double measured_ = 0;  // share of the knobs that are measured
-  std::string sofar_;    // samples so far of a picture that gains samples
+  std::string sofar_;  // samples so far of a picture that gains samples
   FrameGraph graph_;
 };
-
-// knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
-// Begin and End.
-// Draws presets, then every option that the table of options has in the tab of knobs.
-void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the options that the table has in the picture's tab: exposure and tone curve.
-void drawDisplay(RenderOptions& options);
-// Draws the cost of that knob or effect beside its control, where it was measured and can be told
-// from noise.
-void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
-// Lists the costs that can be told from noise, the largest first.
-void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
 // picked; `ownSky` is the scene's. Returns whether something was changed.
