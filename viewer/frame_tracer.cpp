@@ -13,7 +13,6 @@
 #include "core/stopwatch.h"
 #include "io/supply_view.h"
 #include "render/auto_exposure.h"
-#include "render/describe_image.h"
 #include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
@@ -47,22 +46,10 @@ std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& ray
 
 std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
-// Removes the scale that heatMap() draws below the map, which panels would cover.
-DisplayImage withoutScale(const DisplayImage& map, int width, int height) {
-  DisplayImage image{width, height, {}};
-  image.rgba.resize(static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    const auto row = map.rgba.begin() + y * rowBytes(map);
-    std::copy(row, row + rowBytes(image), image.rgba.begin() + y * rowBytes(image));
-  }
-  return image;
-}
-
 // Measures the difference of `frame` from the finished reference. Throws as compareImages().
 void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison) {
   const Image& reference = comparison.reference.image;
-  comparison.heatMap =
-      withoutScale(heatMap(frame.image, reference), reference.width, reference.height);
+  comparison.heatMap = heatMap(frame.image, reference, false);
   comparison.difference = compareImages(frame.image, reference, exposure, curve);
 }
 
@@ -203,7 +190,6 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   if (request.seconds && *request.seconds != seconds_) moveTo(*request.seconds);
   applyOptions(request);
   frame.comparison.reset();
-  frame.costs.clear();
   if (!tracePicture(request, frame, calls)) return false;
   finished_ = request;
   frame.scene = scene_;
@@ -225,31 +211,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.sampled = renderer_->plan().features.has(Feature::streams);
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
-  if (request.measureKnobs && !measure(request, frame, calls)) return false;
   return !request.withReference || traceReference(request, frame, calls);
-}
-
-bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
-                          const TraceCalls& calls) {
-  const ImageSize whole = request.options.size.value();
-  // The cache would make all but the first frames of a setting faster.
-  RenderOptions traced = options_;
-  traced.shadowCache = ShadowCacheMode::off;
-  const OptionsInUse used(*renderer_, traced);
-  const ImageSize size = measuredSize(whole, msPerSample_ * options_.spp);
-  sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
-  const double scale = static_cast<double>(whole.width) * whole.height /
-                       (static_cast<double>(size.width) * size.height);
-  const auto show = [&](const std::vector<KnobCost>& sofar, std::size_t all) {
-    const double done = static_cast<double>(sofar.size()) / static_cast<double>(all);
-    calls.showUnfinished({request, {}, done, sofar});
-  };
-  const auto superseded = [&] {
-    calls.answer();
-    return calls.superseded();
-  };
-  frame.costs = measureKnobs(*renderer_, traced, request.camera, band_, scale, {superseded, show});
-  return !superseded();
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
@@ -301,10 +263,10 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
     if (4 * seenPixels == seen.rgba.size() || sinceShown.ms() < kUnfinishedMs) return;
     sinceShown = Stopwatch();
     const double done = 4 * static_cast<double>(seenPixels) / static_cast<double>(seen.rgba.size());
-    calls.showUnfinished({request, seen, done, {}});
+    calls.showUnfinished({request, seen, done});
   };
   frame.stats = views ? watchFrame(*renderer_, request.camera, frame.film, view, watched, &hooks)
-                      : renderer_->render(request.camera, frame.film, {}, &hooks);
+                      : renderer_->render(request.camera, frame.film, &hooks);
   if (stopped) return false;
   if (!views) return true;
   scale_ = scaleOf(view, watched, options_.spp);
@@ -369,7 +331,7 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
     if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
     if (part.end == options_.spp) break;
     const double done = static_cast<double>(part.end) / options_.spp;
-    UnfinishedFrame sight{request, {}, done, {}, part.end, frame.sampleError};
+    UnfinishedFrame sight{request, {}, done, part.end, frame.sampleError};
     if (part.end > shown) sight.display = frame.film.display;
     calls.showUnfinished(std::move(sight));
     calls.answer();

@@ -28,8 +28,7 @@ struct TraceCalls {
   std::function<void()> answer;
   // Called with frames whose reference is under way.
   std::function<void(const TracedFrame&)> publish;
-  // Called every kUnfinishedMs while a picture is traced, by a worker, and after each option that
-  // was measured.
+  // Called every kUnfinishedMs while a picture is traced, by a worker.
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
@@ -68,7 +67,6 @@ class FrameTracer {
   // Paints pixels of a tile of a debug view into the film's display.
   void paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
                  std::span<const std::uint32_t> pixels, Film& film);
-  bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
@@ -80,7 +78,7 @@ class FrameTracer {
   Sky ownSky_;                             // the scene's own sky, while it has another one
   double seconds_ = 0;                     // the instant that a moving scene is at
   std::string animation_;                  // the animation that the scene was read with
-  Film band_;                              // rows of the reference; frames that are measured
+  Film band_;                              // rows of the reference
   std::optional<FrameRequest> finished_;   // the last picture
   AmountScale scale_;  // scale of the last debug view, with which the next begins
   DebugView scaleOf_ = DebugView::none;

@@ -3,13 +3,14 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "cli/app/frame_summary.h"
 #include "core/formatted.h"
-#include "viewer/overlay.h"
+#include "core/option_table.h"
+#include "core/option_values.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -61,7 +62,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
 }
 
 // Draws a box for each effect, grayed where the scene does not call for it, and the reason.
-void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
+void drawEffects(const TracedFrame& frame, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
@@ -72,12 +73,97 @@ void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, E
       disable = on ? disable.without(effect) : disable.with(effect);
     }
     ImGui::EndDisabled();
-    drawCost(costs, name);
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextWrapped("%s", reason.because.c_str());
     ImGui::PopStyleColor();
   }
+}
+
+constexpr float kControlWidth = 11;  // in heights of the font
+
+template <typename Field>
+void drawChoice(const OptionSpec& spec, Field& field) {
+  const std::string now = formatValue(spec, field);
+  if (!ImGui::BeginCombo(spec.name.data(), now.c_str())) return;
+  for (const std::string& word : choicesOf(spec)) {
+    if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
+  }
+  ImGui::EndCombo();
+}
+
+void drawNumber(const OptionSpec& spec, int& field) {
+  constexpr double kOpenEnd = 1 << 20;
+  const int low = static_cast<int>(std::max(spec.low, 0.0));
+  const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
+  int value = field;
+  constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
+  const auto flags = ImGuiSliderFlags_AlwaysClamp |
+                     (high - low > kShort ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  if (ImGui::SliderInt(spec.name.data(), &value, low, high, "%d", flags)) field = value;
+}
+
+void drawNumber(const OptionSpec& spec, float& field) {
+  const auto low = static_cast<float>(std::max(spec.low, 0.0));
+  const auto high = static_cast<float>(std::min(spec.high, 1.0));
+  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+  ImGui::SliderFloat(spec.name.data(), &field, low, high, "%.1e", kFlags);
+}
+
+template <typename Field>
+void drawKnob(const OptionSpec& spec, Field& field) {
+  if constexpr (std::is_same_v<Field, bool>) {
+    ImGui::Checkbox(spec.name.data(), &field);
+  } else if (!choicesOf(spec).empty()) {
+    drawChoice(spec, field);
+  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
+    drawNumber(spec, field);
+  }
+}
+
+// Applies a preset, but not its reference mode, which key X is for.
+RenderOptions withQuality(RenderOptions options, Quality quality) {
+  options.quality = quality;
+  applyQuality(options, {"mode"});
+  return options;
+}
+
+void drawPresets(RenderOptions& options) {
+  constexpr std::array kNames{"draft", "standard", "fine", "reference"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
+    RenderOptions now = options;
+    now.quality = preset.quality;
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::RadioButton(kNames[i], now == preset)) options = preset;
+  }
+}
+
+// Draws presets, then every option that the table of options has in the tab of knobs.
+void drawKnobs(RenderOptions& options) {
+  drawPresets(options);
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::knobs) return;
+    drawKnob(spec, field);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
+  });
+  ImGui::PopItemWidth();
+}
+
+// Draws the options that the table has in the picture's tab: exposure and tone curve.
+void drawDisplay(RenderOptions& options) {
+  constexpr float kStops = 10;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::picture) return;
+    if constexpr (std::is_same_v<decltype(field), Exposure&>) {
+      ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
+    } else {
+      drawKnob(spec, field);
+    }
+  });
+  ImGui::PopItemWidth();
 }
 
 void drawPicture(PanelSettings& settings) {
@@ -131,31 +217,13 @@ void drawKeys() {
 
 }  // namespace
 
-bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
-  measured.options = request.options;
-  return sameSubject(measured, request);
-}
-
 void Panel::remember(const TracedFrame& frame) {
-  if (!frame.costs.empty()) {
-    costs_ = frame.costs;
-    measuredFor_ = frame.request;
-  } else if (!isMeasuredView(measuredFor_, frame.request)) {
-    costs_.clear();
-  }
   sofar_.clear();
-  if (frame.request.measureKnobs) measured_ = 0;
-  if (frame.request.interruptible) return;
-  graph_.add(frame.stats.frameMs);
+  if (!frame.request.interruptible) graph_.add(frame.stats.frameMs);
 }
 
 void Panel::remember(const UnfinishedFrame& frame) {
-  const bool shown = frame.samples > 0 && !frame.display.rgba.empty();
-  if (shown) sofar_ = samplesText(frame);
-  if (!frame.request.measureKnobs || frame.costs.empty()) return;
-  measured_ = frame.done;
-  costs_ = frame.costs;
-  measuredFor_ = frame.request;
+  if (frame.samples > 0 && !frame.display.rgba.empty()) sofar_ = samplesText(frame);
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -195,17 +263,8 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     drawPicture(settings);
     drawView(frame, settings);
   });
-  tab("knobs", [&] {
-    if (settings.measureKnobs) {
-      ImGui::ProgressBar(static_cast<float>(measured_), ImVec2(-1, 0),
-                         formatted("measuring: %.0f %%", 100 * measured_).c_str());
-    } else if (ImGui::Button("measure what each costs (M)")) {
-      settings.measureKnobs = true;
-    }
-    drawMeasured(costs_);
-    drawKnobs(settings.options, costs_);
-  });
-  tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
+  tab("knobs", [&] { drawKnobs(settings.options); });
+  tab("effects", [&] { drawEffects(frame, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
@@ -252,29 +311,16 @@ void FrameGraph::draw(double rate) const {
   const float scale = 1.25f * std::max(highest, budget);
   const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
   const int oldest = count_ < times_.size() ? 0 : static_cast<int>(next_);
-  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest,
-                   count_ == 0 ? "nothing has moved yet" : nullptr, 0, scale, size);
-  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const std::string text = count_ == 0 ? "nothing has moved yet"
+                                       : formatted("at most %.1f ms; %.1f ms hold %.0f/s",
+                                                   static_cast<double>(highest), 1000 / rate, rate);
+  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest, text.c_str(), 0,
+                   scale, size);
+  const float padding = ImGui::GetStyle().FramePadding.y;
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  const auto heightOf = [&](float ms) {
-    return to.y - padding.y - ms / scale * (to.y - from.y - 2 * padding.y);
-  };
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  const float y = heightOf(budget);
-  list.AddLine(ImVec2(from.x, y), ImVec2(to.x, y), ImGui::GetColorU32(ImGuiCol_Border));
-  std::string text = formatted("%.1f ms for %.0f/s", static_cast<double>(budget), rate);
-  // The text stands below its line unless that lies low.
-  const float below = y + ImGui::GetFontSize() < to.y ? y : y - ImGui::GetFontSize();
-  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 at(to.x - padding.x - words.x, below);
-  // The background keeps the curve from striking the text through.
-  list.AddRectFilled(at, ImVec2(at.x + words.x, at.y + words.y),
-                     ImGui::GetColorU32(ImGuiCol_FrameBg));
-  list.AddText(at, color, text.c_str());
-  if (count_ == 0) return;
-  text = formatted("%.1f ms at most", static_cast<double>(highest));
-  list.AddText(ImVec2(from.x + padding.x, from.y), color, text.c_str());
+  const float y = to.y - padding - budget / scale * (to.y - from.y - 2 * padding);
+  ImGui::GetWindowDrawList()->AddLine(ImVec2(from.x, y), ImVec2(to.x, y),
+                                      ImGui::GetColorU32(ImGuiCol_Border));
 }
 
 }  // namespace whit::view

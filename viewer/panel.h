@@ -1,18 +1,39 @@
-// The panel over the picture: times and rays of the frame, options, effects, the scene, the keys.
+// All that is drawn over the picture: the panel with its tabs, rays, messages, the comparison.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <span>
 #include <string>
 
-#include "viewer/ray_panel.h"
 #include "viewer/timeline.h"
+#include "viewer/traced_frame.h"
 
 namespace whit::view {
 
 inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
+
+inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
+
+// Returns the largest difference of a channel of two colors, in 8-bit codes.
+inline int largestDifference(const std::array<std::uint8_t, 3>& a,
+                             const std::array<std::uint8_t, 3>& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+// The view of the rays.
+struct RayView {
+  bool lines = true;                       // over the picture
+  std::size_t pointedAt = kNoCounterpart;  // the node under the pointer, whose line stands out
+  // The material that was hit and the light that adds most to it, which the scene's tab unfolds
+  // once; kNoCounterpart: none.
+  std::size_t material = kNoCounterpart, light = kNoCounterpart;
+  bool fromAside = false;  // the camera is to see all rays
+  bool forget = false;     // the rays are to go
+};
 
 // The settings that the panel and the keys change.
 struct PanelSettings {
@@ -25,7 +46,6 @@ struct PanelSettings {
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
-  bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
   bool inspects = true;    // the pixel under the pointer is described
@@ -45,9 +65,6 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
-// Returns whether nothing but options differs from the view that was measured.
-bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
-
 class Panel {
  public:
   void remember(const TracedFrame& frame);
@@ -62,28 +79,52 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
-  FrameRequest measuredFor_;
-  double measured_ = 0;  // share of the knobs that are measured
-  std::string sofar_;    // samples so far of a picture that gains samples
+  std::string sofar_;  // samples so far of a picture that gains samples
   FrameGraph graph_;
 };
-
-// knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
-// Begin and End.
-// Draws presets, then every option that the table of options has in the tab of knobs.
-void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the options that the table has in the picture's tab: exposure and tone curve.
-void drawDisplay(RenderOptions& options);
-// Draws the cost of that knob or effect beside its control, where it was measured and can be told
-// from noise.
-void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
-// Lists the costs that can be told from noise, the largest first.
-void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
 // picked; `ownSky` is the scene's. Returns whether something was changed.
 bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene);
+
+// ray_panel.cpp: the rays of a picked pixel, as a tree in the panel and as lines over the picture.
+// Lets the scene's tab unfold what was picked.
+void select(const RayPick& pick, RayView& view);
+
+// Draws the tree, or how to pick a pixel. Call between ImGui's Begin and End.
+void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view);
+
+// Draws the lines as this camera sees them, behind panels. Call between ImGui's NewFrame and
+// Render.
+void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view);
+
+// overlay.cpp: everything else that is drawn over the picture, between ImGui's NewFrame and Render.
+// ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;
+// empty where that is not known.
+std::string errorText(double sampleError);
+// "100 of 256 samples, within about 0.8 %": of a picture that gains samples.
+std::string samplesText(const UnfinishedFrame& frame);
+// "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
+std::string sharpnessText(const FrameRequest& request);
+
+// Describes that pixel of a window of this size in lines, with units: by the view that was traced,
+// or by its radiance; with `compared` also by the reference's. Empty beside the picture.
+std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& window,
+                    const std::array<int, 2>& pixel);
+// Draws such lines beside the pointer, inside the window.
+void drawInspection(const std::string& lines, double pointerX, double pointerY);
+
+// Draws into a corner of the window what is on screen, how fast it comes, what is on its way, and
+// what the colors of a view mean.
+void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
+// Draws a line at the bottom of the window.
+void drawMessage(const std::string& message);
+// Draws an error, which stays until it is clicked away; returns false then.
+bool drawError(const std::string& error);
+
+// Draws the line between both pictures at the share `split` of the window's width; with `words`
+// also their names, and the measures of their difference.
+void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
 
 // app_keys.cpp: the keys, and what they do.
 struct KeyHelp {

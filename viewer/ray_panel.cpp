@@ -1,4 +1,4 @@
-#include "viewer/ray_panel.h"
+#include "viewer/panel.h"
 
 #include <imgui.h>
 
@@ -109,13 +109,8 @@ class RayTreeTab {
 
   // Returns the largest difference of a channel without the node and all below it, in 8-bit codes.
   int codesAdded(const RgbD& added) const {
-    const auto with = codesOf(tree_.pixel);
-    const auto without = codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f)));
-    int most = 0;
-    for (std::size_t c = 0; c < with.size(); ++c) {
-      most = std::max(most, std::abs(int{with[c]} - int{without[c]}));
-    }
-    return most;
+    return largestDifference(codesOf(tree_.pixel),
+                             codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f))));
   }
 
   void point(std::size_t node) {

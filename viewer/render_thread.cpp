@@ -24,44 +24,36 @@ RenderThread::~RenderThread() {
   thread_.join();
 }
 
-// Wakes the tracing thread, unless `change` returns false.
-bool RenderThread::post(const std::function<bool()>& change) {
+// Changes the requests and wakes the tracing thread.
+template <typename Change>
+void RenderThread::post(const Change& change) {
   {
     const std::lock_guard lock(mutex_);
-    if (!change()) return false;
-    busy_ = true;
+    change();
+    busy_ = busy_ || hasWork();
   }
   wake_.notify_one();
-  return true;
 }
 
 bool RenderThread::ask(const FrameRequest& request) {
-  return post([&] {
-    if (fresh_ || isCommitted()) return false;
-    asked_ = request;
-    return true;
+  bool taken = false;
+  post([&] {
+    taken = !fresh_ && !isCommitted();
+    if (taken) asked_ = request;
   });
+  return taken;
 }
 
 void RenderThread::load(const SceneChoice& scene) {
-  post([&] {
-    scene_ = scene;
-    return true;
-  });
+  post([&] { scene_ = scene; });
 }
 
 void RenderThread::edit(ShadingEdit edit) {
-  post([&] {
-    edit_ = std::move(edit);
-    return true;
-  });
+  post([&] { edit_ = std::move(edit); });
 }
 
 void RenderThread::query(const RayQuery& query) {
-  post([&] {
-    query_ = query;
-    return true;
-  });
+  post([&] { query_ = query; });
 }
 
 std::optional<RayPick> RenderThread::takePick() {

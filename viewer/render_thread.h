@@ -48,7 +48,8 @@ class RenderThread {
   bool committed() const;   // tracing a picture that nothing stops
 
  private:
-  bool post(const std::function<bool()>& change);
+  template <typename Change>
+  void post(const Change& change);
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);

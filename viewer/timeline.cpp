@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/formatted.h"
-#include "viewer/overlay.h"
+#include "viewer/panel.h"
 
 namespace whit::view {
 

@@ -13,7 +13,6 @@
 #include "inspect/metrics.h"
 #include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
-#include "viewer/knob_costs.h"
 #include "viewer/shading_edit.h"
 
 namespace whit::view {
@@ -34,7 +33,6 @@ struct FrameRequest {
   bool coarse = false;      // finer pixels will follow at rest
   DebugView view = DebugView::none;
   bool withReference = false;     // the reference's picture is traced and compared as well
-  bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
   std::optional<double> seconds;  // the instant of a scene that moves
   int serial = 0;                 // the number of the request
@@ -45,8 +43,8 @@ struct FrameRequest {
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
          a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
-         a.withReference == b.withReference && a.measureKnobs == b.measureKnobs &&
-         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+         a.withReference == b.withReference && a.reloads == b.reloads && a.edits == b.edits &&
+         a.seconds == b.seconds;
 }
 
 // Returns whether both show the same, at any resolution.
@@ -55,7 +53,6 @@ inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.spp = a.spp;
   b.depth = a.depth;
   b.withReference = a.withReference;
-  b.measureKnobs = a.measureKnobs;
   return samePicture(a, b);
 }
 
@@ -103,7 +100,6 @@ struct TracedFrame {
   AmountScale scale;
   std::shared_ptr<const std::vector<WatchedPixel>> watched;
   std::optional<Comparison> comparison;  // if the request is with the reference
-  std::vector<KnobCost> costs;           // if the request measures them
 };
 
 // Returns the frame left of column `split` and the rows of the reference that are done right of it.
@@ -112,9 +108,8 @@ DisplayImage splitPicture(const DisplayImage& frame, const Comparison& compariso
 // The visible part of a frame that is being traced.
 struct UnfinishedFrame {
   FrameRequest request;
-  DisplayImage display;  // transparent where nothing was traced yet; empty: knobs are measured
+  DisplayImage display;  // transparent where nothing was traced yet; empty: nothing new to show
   double done = 0;       // share of the frame
-  std::vector<KnobCost> costs;  // costs measured so far
   // For a picture that gains samples: the samples shown, and SampleSums::relativeError().
   int samples = 0;
   double sampleError = 0;

@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kPictureLimit = 9999;
-
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
@@ -60,13 +58,15 @@ void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
   });
 }
 
-std::string freeName(const std::string& scene) {
-  for (int i = 1; i <= kPictureLimit; ++i) {
-    std::string name = scene + formatted("-%04d", i);
-    const auto taken = [&](const char* extension) { return fs::exists(name + extension); };
-    if (!taken(".png") && !taken(".exr") && !taken(".json")) return name;
+// Returns the first name that is free, of name(1), name(2) and so on.
+template <typename Name>
+std::string freeName(const Name& name, const std::vector<const char*>& extensions) {
+  constexpr int kLimit = 9999;
+  for (int i = 1; i <= kLimit; ++i) {
+    const auto taken = [&](const char* extension) { return fs::exists(name(i) + extension); };
+    if (std::none_of(extensions.begin(), extensions.end(), taken)) return name(i);
   }
-  throwIo("'" + scene + "-9999' is taken: there are too many saved pictures in this folder");
+  throwIo("'" + name(kLimit) + "' is taken: there are too many saved files in this folder");
 }
 
 std::string commandWith(const std::string& scene, const std::string& picture, RenderOptions options,
@@ -93,15 +93,6 @@ bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
   }
   const auto folder = findScene(parseSceneName(scene).file, shippedScenes).parent_path();
   return movePaths(root, folder, folder);
-}
-
-std::string freeFile(const std::string& scene) {
-  constexpr int kLimit = 9999;
-  for (int i = 1; i <= kLimit; ++i) {
-    std::string file = scene + "-edited" + (i == 1 ? "" : "-" + std::to_string(i)) + ".json";
-    if (!fs::exists(file)) return file;
-  }
-  throwIo("'" + scene + "-edited-9999.json' is taken: there are too many in this folder");
 }
 
 void apply(const std::vector<std::string>& settings, const std::set<std::string>& but,
@@ -205,7 +196,10 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli
                                 : editedFile(path, parsed, scene.settings, edit);
   lookThrough(camera, scene.scene, root);
   SavedScene saved;
-  saved.file = freeFile(scene.scene.name);
+  const auto nameOf = [&](int i) {
+    return scene.scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
+  };
+  saved.file = freeName(nameOf, {".json"}) + ".json";
   saved.leavesFolder = movePaths(root, path.parent_path(), ".");
   const cli::WriteScope scope;
   writeTextFile(saved.file, root.dump(2) + "\n");
@@ -222,7 +216,8 @@ std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOption
 
 std::string savePicture(const TracedFrame& frame, const std::string& command) {
   const cli::WriteScope scope;
-  std::string name = freeName(frame.scene->scene.name);
+  const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
+  const std::string name = freeName(nameOf, {".png", ".exr", ".json"});
   cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
   cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
   writeCamera(name + ".json", frame.request.camera, command);

@@ -1,9 +1,317 @@
+// Rays through Embree: in packets of 4, 8 or 16 that kernels fill and empty, or one by one.
 #include "accel/accel.h"
 
-#include "accel/accel_parts.h"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "accel/embree_scene.h"
+#include "bake/eye_in_plane.h"
 #include "core/error.h"
+#include "simd/kernels.h"
+#include "stages/packet_words.h"
 
 namespace whit {
+
+struct Accel::Parts {
+  Parts(const Scene& scene, const AccelOptions& options, Progress* progress)
+      : embree(scene, options, progress) {}
+
+  // The width of a packet of shadow rays.
+  int shadowPacket(bool coherent) const {
+    return coherent && embree.coherentAnyHitMayHang(packet) ? 8 : packet;
+  }
+
+  EmbreeScene embree;
+  simd::PacketKernels kernels = simd::findPacketKernels();
+  int packet = 8;
+  std::string description;
+};
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Rays that are traced with one kind of call. Closest hits belong to one segment of a chunk.
+struct HitRange {
+  RayColumns rays;
+  HitColumns hits;
+  std::size_t n = 0;
+  bool coherent = false;
+  bool instances = false;  // the column of instances is written, too
+};
+struct ShadowRange {
+  ShadowColumns rays;
+  float* visible = nullptr;
+  std::size_t n = 0;
+  bool coherent = false;
+};
+
+template <typename Columns>
+Vec3f originAt(const Columns& c, std::size_t i) {
+  return {c.orgX[i], c.orgY[i], c.orgZ[i]};
+}
+template <typename Columns>
+Vec3f directionAt(const Columns& c, std::size_t i) {
+  return {c.dirX[i], c.dirY[i], c.dirZ[i]};
+}
+
+void store(const Hit& hit, const HitRange& range, std::size_t i) {
+  const HitColumns& hits = range.hits;
+  hits.triangle[i] = hit.triangle;
+  hits.t[i] = hit.t;
+  hits.u[i] = hit.u;
+  hits.v[i] = hit.v;
+  if (range.instances) hits.instance[i] = hit.instance;
+}
+
+// Embree ends the program at a NaN or beyond its range of coordinates (hard case H28). In the place
+// of such a ray stands an empty one, from where no triangle is. Kernels do the same (packRays).
+RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
+                    float tNear, float tFar, unsigned mask) {
+  const Vec3f size = abs(origin), way = abs(direction);
+  const float reach = scene.reach(), place = 0.25f * reach;
+  const bool traceable = size.x + size.y + size.z + way.x + way.y + way.z <= reach;
+  const Vec3f o = traceable ? origin : Vec3f(place), d = traceable ? direction : Vec3f{0, 0, 1};
+  RTCRayHit r{};
+  r.ray = {o.x, o.y, o.z, tNear, d.x, d.y, d.z, 0, traceable ? tFar : -1, mask, 0, 0};
+  r.hit.geomID = r.hit.primID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return r;
+}
+
+Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
+            bool coherent = false, float tNear = 0) noexcept {
+  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+  RTCRayHit r = singleRay(scene, origin, direction, tNear, kUnbounded, kSeenMask);
+  QueryContext context(coherent);
+  context.trace(scene.top(), r);
+  const unsigned instance = r.hit.instID[0];
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};
+  return {scene.triangleOf(instance, r.hit.geomID, r.hit.primID), scene.instanceOf(instance),
+          r.ray.tfar, r.hit.u, r.hit.v};
+}
+
+bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction, float tFar,
+                bool coherent = false) noexcept {
+  RTCRayHit r = singleRay(scene, origin, direction, 0, tFar, kShadowMask);
+  QueryContext context(coherent);
+  context.trace(scene.top(), r.ray);
+  return !(r.ray.tfar >= 0);
+}
+
+// Packets are filled, traced and emptied in groups of this many rays, so that the clock around
+// Embree's calls is read rarely and sees nothing but them.
+constexpr std::size_t kGroup = 128;
+
+template <int kWidth, typename Packet>
+struct Group {
+  explicit Group(unsigned mask) {
+    for (Packet& packet : packets) {
+      if constexpr (kWantsHits<Packet>) {
+        std::fill_n(packet.ray.mask, kWidth, mask);
+      } else {
+        std::fill_n(packet.mask, kWidth, mask);
+      }
+    }
+    setLanes(kGroup);
+  }
+
+  // Activates the lanes of the first `rays` rays; the other rays of the last packet are empty.
+  void setLanes(std::size_t rays) {
+    count = (rays + kWidth - 1) / kWidth;
+    for (std::size_t i = 0; i < count * kWidth; ++i) {
+      live[i / kWidth].lanes[i % kWidth] = i < rays ? -1 : 0;
+    }
+  }
+
+  PacketWords words() {
+    return {reinterpret_cast<float*>(packets), sizeof(Packet) / sizeof(float), kWidth};
+  }
+
+  struct alignas(64) Lanes {
+    int lanes[kWidth];
+  };
+  // Embree's robust traversal accepts hits at tnear, which is 0, so the origin must not lie on the
+  // surface: it has been moved off by its error bound.
+  alignas(64) Packet packets[kGroup / kWidth]{};
+  Lanes live[kGroup / kWidth];
+  std::size_t count = 0;  // packets in use
+};
+
+// Calls pack(group, first ray, number of rays), Embree and unpack(...) for one group of the n rays
+// after the other. Returns the number of lanes, and adds to the time inside Embree.
+template <int kWidth, typename Packet, typename Pack, typename Unpack>
+std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, bool coherent, std::size_t n,
+                        double& embreeMs, const Pack& pack, const Unpack& unpack) {
+  QueryContext context(coherent);
+  const bool together = coherent && scene.streamWidth() == kWidth;
+  Group<kWidth, Packet> group(mask);
+  std::size_t lanes = 0;
+  for (std::size_t begin = 0; begin < n; begin += kGroup) {
+    const std::size_t rest = std::min(n - begin, kGroup);
+    if (rest < kGroup) group.setLanes(rest);
+    pack(group, begin, rest);
+    const auto start = Clock::now();
+    if (together) {
+      context.traceStream(scene.top(), group.packets, kWidth, group.count);
+    } else {
+      for (std::size_t p = 0; p < group.count; ++p) {
+        context.trace(scene.top(), group.packets[p], group.live[p].lanes);
+      }
+    }
+    embreeMs += millisecondsSince(start);
+    unpack(group, begin, rest);
+    lanes += group.count * kWidth;
+  }
+  return lanes;
+}
+
+// The additional output of scenes with instances: the instance that was hit, and the numbers of its
+// triangles.
+template <int kWidth, typename Packet>
+void storeInstances(const EmbreeScene& scene, const Packet* packets, std::size_t n,
+                    const HitColumns& hits) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& hit = packets[i / kWidth].hit;
+    const std::size_t lane = i % kWidth;
+    const unsigned instance = hit.instID[0][lane], geometry = hit.geomID[lane];
+    hits.triangle[i] = geometry == RTC_INVALID_GEOMETRY_ID
+                           ? kMiss
+                           : scene.triangleOf(instance, geometry, hit.primID[lane]);
+    hits.instance[i] = scene.instanceOf(instance);
+  }
+}
+
+template <int kWidth>
+std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double& embreeMs) {
+  const EmbreeScene& scene = parts.embree;
+  const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
+    parts.kernels.packRays(advanced(range.rays, begin), n, scene.reach(), group.words());
+    // Embree writes hits only; what a ray starts with says that there is none.
+    for (std::size_t p = 0; p < group.count; ++p) {
+      std::fill_n(group.packets[p].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
+      std::fill_n(group.packets[p].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
+    }
+  };
+  const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
+    const HitColumns to = advanced(range.hits, begin);
+    parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
+    if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
+  };
+  return traceGroups<kWidth, RayHits<kWidth>>(scene, kSeenMask, range.coherent, range.n, embreeMs,
+                                              pack, unpack);
+}
+
+template <int kWidth>
+std::size_t traceRange(const Accel::Parts& parts, const ShadowRange& range, double& embreeMs) {
+  const EmbreeScene& scene = parts.embree;
+  const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
+    parts.kernels.packShadowRays(advanced(range.rays, begin), n, scene.reach(), group.words());
+  };
+  const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
+    parts.kernels.unpackVisibility(group.words(), n, range.rays.slot + begin, range.visible);
+  };
+  return traceGroups<kWidth, Rays<kWidth>>(scene, kShadowMask, range.coherent, range.n, embreeMs,
+                                           pack, unpack);
+}
+
+void traceSingly(const EmbreeScene& scene, const HitRange& range, std::size_t i) {
+  store(findHit(scene, originAt(range.rays, i), directionAt(range.rays, i), range.coherent), range,
+        i);
+}
+
+void traceSingly(const EmbreeScene& scene, const ShadowRange& range, std::size_t i) {
+  const bool blocked = isOccluded(scene, originAt(range.rays, i), directionAt(range.rays, i),
+                                  range.rays.tFar[i], range.coherent);
+  range.visible[range.rays.slot[i]] = blocked ? 0.0f : 1.0f;
+}
+
+// Returns the number of lanes.
+template <typename Range>
+std::size_t traceAll(const Accel::Parts& parts, int packet, const Range& range, double& embreeMs) {
+  if (packet == 16) return traceRange<16>(parts, range, embreeMs);
+  if (packet == 8) return traceRange<8>(parts, range, embreeMs);
+  if (packet == 4) return traceRange<4>(parts, range, embreeMs);
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < range.n; ++i) traceSingly(parts.embree, range, i);
+  embreeMs += millisecondsSince(start);
+  return range.n;
+}
+
+// Weight of a corner below which the hit is taken to lie on the edge opposite. Triangles that share
+// the edge may both be met there, at distances whose difference is lost in rounding; seen from a
+// thousand times their size away, rounding moves the edge by 1e-4 of it.
+constexpr float kNearEdge = 0x1p-12f;
+
+// Three comparisons without branches, so that compilers make vectors of them.
+int isNearEdge(float u, float v) {
+  return static_cast<int>(u < kNearEdge) | static_cast<int>(v < kNearEdge) |
+         static_cast<int>(1 - u - v < kNearEdge);
+}
+
+// Which of several triangles at one distance stays depends on the order in which Embree tests them,
+// which a packet's other rays change. A ray alone has but one order.
+void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
+  constexpr std::size_t kRun = 4 * kBlock;  // hits looked at together before any is by itself
+  const HitColumns& hits = range.hits;
+  for (std::size_t begin = 0; begin < range.n; begin += kRun) {
+    const std::size_t end = std::min(range.n, begin + kRun);
+    const float *const u = hits.u, *const v = hits.v;
+    int any = 0;
+    for (std::size_t i = begin; i < end; ++i) any |= isNearEdge(u[i], v[i]);
+    if (any == 0) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
+      const Hit hit = findHit(scene, originAt(range.rays, i), directionAt(range.rays, i));
+      if (hit.found()) store(hit, range, i);
+    }
+  }
+}
+
+// True if a hit is so near that the ray may start in its plane (bake/eye_in_plane.h), if the cosine
+// between ray and normal is at least 2^-10.
+int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
+  constexpr float kNear = 0x1p-12f;
+  const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
+  return static_cast<int>(t[i] <= kNear * size);
+}
+
+// Finds the nearest triangle that a primary ray does not start in. Robust traversal accepts hits at
+// a distance of 0, whatever the direction.
+void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) noexcept {
+  const HitColumns& hits = range.hits;
+  int any = 0;
+  for (std::size_t i = 0; i < range.n; ++i) any |= isNearEye(range.rays, hits.t, i);
+  if (any == 0) return;
+  for (std::size_t i = 0; i < range.n; ++i) {
+    if (isNearEye(range.rays, hits.t, i) == 0) continue;
+    const Vec3f origin = originAt(range.rays, i), direction = directionAt(range.rays, i);
+    for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
+      const std::uint32_t instance = range.instances ? hits.instance[i] : kNoInstance;
+      if (!liesInSurface(scene, Vec3d(origin), hits.triangle[i], instance)) break;
+      const auto tNear = static_cast<float>(wayPastEye(Vec3d(origin), attempt));
+      store(accel.closest(origin, direction, tNear), range, i);
+    }
+  }
+}
+
+// Three directions next to `d`, each off by about a unit in the last place of its largest
+// component, towards another side each.
+Vec3f nudged(const Vec3f& d, int attempt) {
+  const float step = maxComponent(abs(d)) * 0x1p-22f;
+  Vec3f result = d;
+  result[attempt] += d[attempt] < 0 ? -step : step;
+  result[(attempt + 1) % 3] -= step;
+  return result;
+}
+
+}  // namespace
 
 Accel::Accel(const Scene& scene, const AccelOptions& options, Progress* progress)
     : scene_(scene), parts_(std::make_unique<Parts>(scene, options, progress)) {
@@ -33,5 +341,95 @@ int Accel::packet() const { return parts_->packet; }
 std::string Accel::description() const { return parts_->description; }
 std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }
 std::uint64_t Accel::sphereBytes() const { return parts_->embree.sphereBytes(); }
+
+void Accel::findHits(Chunk& c) const noexcept {
+  for (std::size_t s = 0; s < c.segmentCount; ++s) {
+    const Segment& segment = c.segments[s];
+    const HitRange range{advanced(c.rays, segment.begin), advanced(c.hits, segment.begin),
+                         segment.end - segment.begin, c.coherent, c.has(Feature::instances)};
+    if (range.n == 0) continue;
+    RayTally& tally = c.meter->tally[static_cast<std::size_t>(segment.kind)];
+    tally.rays += range.n;
+    tally.lanes += traceAll(*parts_, parts_->packet, range, c.meter->embreeMs);
+    if (parts_->packet != 1) settleEdges(parts_->embree, range);
+    for (std::size_t i = 0; enclosed_ && i < range.n; ++i) {
+      if (range.hits.triangle[i] != kMiss) continue;
+      const Hit hit = closest(originAt(range.rays, i), directionAt(range.rays, i));
+      if (hit.found()) store(hit, range, i);
+    }
+    if (c.depth == 0) lookPastEye(*this, scene_, range);
+  }
+  // Kernels run over whole vectors.
+  std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
+}
+
+void Accel::checkShadows(Chunk& c) const noexcept {
+  const RayKind kind = shadowKind(c.lightIsAmbient());
+  const ShadowRange range{c.shadows, c.unshadowed.visible, c.shadowCount, c.shadowsAreCoherent()};
+  RayTally& tally = c.meter->tally[static_cast<std::size_t>(kind)];
+  tally.rays += range.n;
+  tally.lanes += traceAll(*parts_, parts_->shadowPacket(range.coherent), range, c.meter->embreeMs);
+}
+
+Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
+  Hit hit = findHit(parts_->embree, origin, direction, false, tNear);
+  for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
+    hit = findHit(parts_->embree, origin, nudged(direction, attempt), false, tNear);
+  }
+  return hit;
+}
+
+bool Accel::occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept {
+  return isOccluded(parts_->embree, origin, direction, tFar);
+}
+
+void RayLog::append(bool anyHit, bool coherent, const std::array<const float*, 7>& rays,
+                    std::size_t n) {
+  auto stream = std::find_if(streams_.begin(), streams_.end(), [&](const Stream& s) {
+    return s.anyHit == anyHit && s.coherent == coherent;
+  });
+  if (stream == streams_.end()) stream = streams_.insert(stream, {anyHit, coherent, 0, {}});
+  for (std::size_t c = 0; c < rays.size(); ++c) {
+    if (!rays[c]) continue;
+    std::vector<float>& column = stream->columns[c];
+    column.resize(stream->count);
+    column.insert(column.end(), rays[c], rays[c] + n);
+    column.resize(roundUpToBlock(stream->count + n));
+  }
+  stream->count += n;
+}
+
+// The results are dropped.
+double Accel::replay(const RayLog& log) const {
+  double ms = 0;
+  for (const RayLog::Stream& stream : log.streams()) {
+    const std::size_t room = roundUpToBlock(stream.count) + kBlock;
+    std::vector<std::uint32_t> numbers(room);
+    std::array<std::vector<float>, 3> results;
+    for (std::vector<float>& column : results) column.resize(room);
+    // Kernels only read them.
+    const auto column = [&](std::size_t c) { return const_cast<float*>(stream.columns[c].data()); };
+    if (stream.anyHit) {
+      std::iota(numbers.begin(), numbers.end(), 0u);
+      const ShadowColumns rays{column(0), column(1), column(2), column(3),
+                               column(4), column(5), column(6), numbers.data()};
+      traceAll(*parts_, parts_->shadowPacket(stream.coherent),
+               ShadowRange{rays, results[0].data(), stream.count, stream.coherent}, ms);
+      continue;
+    }
+    RayColumns rays;
+    rays.orgX = column(0), rays.orgY = column(1), rays.orgZ = column(2);
+    rays.dirX = column(3), rays.dirY = column(4), rays.dirZ = column(5);
+    HitColumns hits;
+    hits.triangle = numbers.data();
+    hits.t = results[0].data(), hits.u = results[1].data(), hits.v = results[2].data();
+    traceAll(*parts_, parts_->packet, HitRange{rays, hits, stream.count, stream.coherent}, ms);
+  }
+  return ms;
+}
+
+void findHits(Chunk& c) { c.frame->accel->findHits(c); }
+
+void checkShadows(Chunk& c) { c.frame->accel->checkShadows(c); }
 
 }  // namespace whit

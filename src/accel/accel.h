@@ -31,21 +31,17 @@ struct AccelOptions {
 class RayLog {
  public:
   struct Stream {
-    // anyHit: calls that ask whether there is a hit, not for the nearest.
-    bool anyHit = false, coherent = false;
+    bool anyHit = false;  // for calls that test for any hit, not for the closest one
+    bool coherent = false;
     std::size_t count = 0;
-    // Origin, direction, tFar; filled up to whole blocks.
+    // Origin, direction, and tFar of any-hit rays; filled up to whole blocks.
     std::array<std::vector<float>, 7> columns;
   };
-  void append(const RayColumns& rays, std::size_t n, bool coherent);
-  void append(const ShadowColumns& shadows, std::size_t n, bool coherent);
+  // Takes n rays from columns in the order of Stream::columns; the last is null for closest hits.
+  void append(bool anyHit, bool coherent, const std::array<const float*, 7>& rays, std::size_t n);
   const std::vector<Stream>& streams() const { return streams_; }
 
  private:
-  Stream& streamOf(bool anyHit, bool coherent);
-  // The last column is null where rays have no end.
-  static void append(Stream& stream, const std::array<const float*, 7>& from, std::size_t n);
-
   std::vector<Stream> streams_;
 };
 
@@ -90,7 +86,7 @@ class Accel {
   Hit closest(const Vec3f& origin, const Vec3f& direction, float tNear = 0) const noexcept;
   bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
 
-  // Milliseconds that Embree needs for the rays of a log, in full packets.
+  // Returns the milliseconds that Embree needs for the rays of a log, in full packets.
   double replay(const RayLog& log) const;
 
   int packet() const;
@@ -98,7 +94,7 @@ class Accel {
   std::uint64_t memoryBytes() const;
   std::uint64_t sphereBytes() const;  // of it, what is kept of spheres beside the BVH
 
-  struct Parts;  // accel/accel_parts.h
+  struct Parts;  // accel.cpp; no other folder sees Embree
 
  private:
   const Scene& scene_;

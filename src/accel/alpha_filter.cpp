@@ -1,9 +1,101 @@
 #include "accel/alpha_filter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace whit {
+
+namespace {
+
+constexpr int kCellShift = 3;
+// More than the rounding of a bilinear mean of values of at most 1, in units of 1/255.
+constexpr float kRounding = 1e-3f;
+
+struct AxisTexels {
+  int lower, upper;
+  float fraction;
+};
+
+// Floor of numbers that an int can hold. The library's function is a call where no instruction for
+// it may be assumed.
+int floorOf(float x) noexcept {
+  const int towardsZero = static_cast<int>(x);
+  return towardsZero - static_cast<int>(x < static_cast<float>(towardsZero));
+}
+
+inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
+  // Not finite, or too large for any fraction of a texel to be left.
+  if (!(std::fabs(s) <= 1048576.0f)) s = 0;
+  if (wrap == Wrap::repeat) {
+    const float x = (s - static_cast<float>(floorOf(s))) * static_cast<float>(size) - 0.5f;
+    const int lower = floorOf(x);
+    return {lower < 0 ? size - 1 : lower, lower + 1 >= size ? 0 : lower + 1,
+            x - static_cast<float>(lower)};
+  }
+  if (wrap == Wrap::mirror) {
+    const float half = s * 0.5f, phase = (half - static_cast<float>(floorOf(half))) * 2.0f;
+    s = std::fmin(phase, 2.0f - phase);
+  } else {
+    s = std::fmin(std::fmax(s, 0.0f), 1.0f);
+  }
+  const float x = s * static_cast<float>(size) - 0.5f;
+  const int lower = floorOf(x);
+  return {lower < 0 ? 0 : lower, lower + 1 >= size ? size - 1 : lower + 1,
+          x - static_cast<float>(lower)};
+}
+
+}  // namespace
+
+AlphaMap::AlphaMap(const Texture& texture)
+    : wrapU_(texture.wrapU),
+      wrapV_(texture.wrapV),
+      width_(texture.width),
+      height_(texture.height),
+      cellsAcross_(((texture.width - 1) >> kCellShift) + 1),
+      alpha_(texture.texels.size()) {
+  std::transform(texture.texels.begin(), texture.texels.end(), alpha_.begin(),
+                 [](std::uint32_t texel) { return static_cast<std::uint8_t>(texel & 255u); });
+  const int cellsDown = ((height_ - 1) >> kCellShift) + 1;
+  cells_.reserve(static_cast<std::size_t>(cellsAcross_) * static_cast<std::size_t>(cellsDown));
+  for (int y = 0; y < cellsDown; ++y) {
+    for (int x = 0; x < cellsAcross_; ++x) cells_.push_back(boundsOf(x, y));
+  }
+}
+
+// Footprints reach one texel beyond the cell, and at the border to the opposite one.
+AlphaMap::Bounds AlphaMap::boundsOf(int cellX, int cellY) const {
+  Bounds bounds;
+  const int x0 = cellX << kCellShift, y0 = cellY << kCellShift;
+  for (int y = y0; y <= std::min(y0 + (1 << kCellShift), height_); ++y) {
+    for (int x = x0; x <= std::min(x0 + (1 << kCellShift), width_); ++x) {
+      const std::uint8_t alpha = alpha_[index(y % height_, x % width_)];
+      bounds.least = std::min(bounds.least, alpha);
+      bounds.most = std::max(bounds.most, alpha);
+    }
+  }
+  return bounds;
+}
+
+bool AlphaMap::isOpaqueAt(float u, float v, float cutoff) const noexcept {
+  const AxisTexels x = wrapAxis(wrapU_, u, width_);
+  const AxisTexels y = wrapAxis(wrapV_, 1.0f - v, height_);
+  const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
+  const Bounds bounds = cells_[static_cast<std::size_t>(cell)];
+  const float wanted = cutoff * 255.0f;
+  // Which of the two a cell is cannot be predicted; that it is one of them nearly always can.
+  const bool everywhere = static_cast<float>(bounds.least) >= wanted + kRounding,
+             somewhere = static_cast<float>(bounds.most) >= wanted - kRounding;
+  if (everywhere == somewhere) return everywhere;
+  const auto texel = [&](int row, int column) {
+    return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
+  };
+  const float top =
+      texel(y.lower, x.lower) * (1 - x.fraction) + texel(y.lower, x.upper) * x.fraction;
+  const float bottom =
+      texel(y.upper, x.lower) * (1 - x.fraction) + texel(y.upper, x.upper) * x.fraction;
+  return top * (1 - y.fraction) + bottom * y.fraction >= cutoff;
+}
 
 AlphaMaps makeAlphaMaps(const Scene& scene) {
   AlphaMaps maps(scene.textures.size());

@@ -5,16 +5,42 @@
 #include <memory>
 #include <vector>
 
-#include "accel/alpha_map.h"
 #include "bake/scene.h"
 
 namespace whit {
 
-// One a texture of the scene; null where no material uses it as a mask.
+// An alpha mask: a byte a texel, and the bounds of each cell of 8x8 texels, which settle most
+// lookups from a table that stays in the cache.
+class AlphaMap {
+ public:
+  explicit AlphaMap(const Texture& texture);
+
+  // True if the bilinear alpha at texture coordinates (u, v) is at least `cutoff`.
+  bool isOpaqueAt(float u, float v, float cutoff) const noexcept;
+
+ private:
+  struct Bounds {
+    std::uint8_t least = 255, most = 0;
+  };
+
+  std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(column);
+  }
+  Bounds boundsOf(int cellX, int cellY) const;
+
+  Wrap wrapU_, wrapV_;
+  int width_, height_;
+  int cellsAcross_;
+  std::vector<std::uint8_t> alpha_;
+  std::vector<Bounds> cells_;  // of every footprint whose lower texel lies in the cell
+};
+
+// One map for each texture of the scene; null where no material uses it as a mask.
 using AlphaMaps = std::vector<std::unique_ptr<AlphaMap>>;
 AlphaMaps makeAlphaMaps(const Scene& scene);
 
-// The members of a masked triangle that a lookup reads: half a cache line, where its record for
+// The members of a masked triangle that a lookup reads take half a cache line; its record for
 // shading takes a whole one.
 struct alignas(32) MaskedTriangle {
   float uv[6];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #if WHIT_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>
@@ -9,149 +10,105 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include "stages/packet_words.h"
+
 namespace whit {
 
+// Packets of this width, with and without hits.
 template <int kWidth>
-struct PacketTypes;
+using RayHits = std::conditional_t<kWidth == 4, RTCRayHit4,
+                                   std::conditional_t<kWidth == 8, RTCRayHit8, RTCRayHit16>>;
+template <int kWidth>
+using Rays =
+    std::conditional_t<kWidth == 4, RTCRay4, std::conditional_t<kWidth == 8, RTCRay8, RTCRay16>>;
+
+// Kernels find the columns of a packet in these places.
+constexpr bool isColumn(std::size_t offset, std::size_t column) {
+  return offset == column * 8 * sizeof(float);
+}
+static_assert(isColumn(offsetof(RTCRay8, org_x), packet_column::orgX) &&
+              isColumn(offsetof(RTCRay8, dir_x), packet_column::dirX) &&
+              isColumn(offsetof(RTCRay8, tfar), packet_column::tFar) &&
+              isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, u), packet_column::u) &&
+              isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, geomID),
+                       packet_column::geometry));
+
+// Embree's function for a packet: closest hits if there is room for them, otherwise any hit.
+template <typename Packet>
+inline constexpr auto kCall = nullptr;
 template <>
-struct PacketTypes<4> {
-  using RayHit = RTCRayHit4;
-  using Ray = RTCRay4;
-};
+inline constexpr auto kCall<RTCRayHit> = rtcIntersect1;
 template <>
-struct PacketTypes<8> {
-  using RayHit = RTCRayHit8;
-  using Ray = RTCRay8;
-};
+inline constexpr auto kCall<RTCRayHit4> = rtcIntersect4;
 template <>
-struct PacketTypes<16> {
-  using RayHit = RTCRayHit16;
-  using Ray = RTCRay16;
+inline constexpr auto kCall<RTCRayHit8> = rtcIntersect8;
+template <>
+inline constexpr auto kCall<RTCRayHit16> = rtcIntersect16;
+template <>
+inline constexpr auto kCall<RTCRay> = rtcOccluded1;
+template <>
+inline constexpr auto kCall<RTCRay4> = rtcOccluded4;
+template <>
+inline constexpr auto kCall<RTCRay8> = rtcOccluded8;
+template <>
+inline constexpr auto kCall<RTCRay16> = rtcOccluded16;
+template <typename Packet>
+inline constexpr bool kWantsHits = requires(Packet packet) {
+  packet.hit;
 };
 
-#if WHIT_EMBREE_MAJOR == 4
-
+// Traces rays that are coherent or not. A packet comes with the mask of its live lanes.
 class QueryContext {
  public:
+#if WHIT_EMBREE_MAJOR == 4
   explicit QueryContext(bool coherent) {
     rtcInitIntersectArguments(&intersect_);
     rtcInitOccludedArguments(&occluded_);
     intersect_.flags = occluded_.flags =
         coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
-  RTCIntersectArguments* intersect() { return &intersect_; }
-  RTCOccludedArguments* occluded() { return &occluded_; }
+  template <typename Packet, typename... Live>
+  void trace(RTCScene scene, Packet& rays, Live... live) {
+    if constexpr (kWantsHits<Packet>) {
+      kCall<Packet>(live..., scene, &rays, &intersect_);
+    } else {
+      kCall<Packet>(live..., scene, &rays, &occluded_);
+    }
+  }
+  static constexpr bool kStreams = false;
+  template <typename Packet>
+  void traceStream(RTCScene, Packet*, int, std::size_t) {}
 
  private:
   RTCIntersectArguments intersect_;
   RTCOccludedArguments occluded_;
-};
-
-inline void intersect(const int*, RTCScene s, QueryContext& c, RTCRayHit& r) {
-  rtcIntersect1(s, &r, c.intersect());
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit4& r) {
-  rtcIntersect4(valid, s, &r, c.intersect());
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit8& r) {
-  rtcIntersect8(valid, s, &r, c.intersect());
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit16& r) {
-  rtcIntersect16(valid, s, &r, c.intersect());
-}
-inline void occluded(const int*, RTCScene s, QueryContext& c, RTCRay& r) {
-  rtcOccluded1(s, &r, c.occluded());
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay4& r) {
-  rtcOccluded4(valid, s, &r, c.occluded());
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay8& r) {
-  rtcOccluded8(valid, s, &r, c.occluded());
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay16& r) {
-  rtcOccluded16(valid, s, &r, c.occluded());
-}
-
-// Embree 4 has no streams.
-inline constexpr bool kStreams = false;
-template <typename Packet>
-void intersectStream(RTCScene, QueryContext&, Packet*, int, std::size_t) {}
-template <typename Packet>
-void occludedStream(RTCScene, QueryContext&, Packet*, int, std::size_t) {}
-
 #else
-
-class QueryContext {
- public:
   explicit QueryContext(bool coherent) {
     rtcInitIntersectContext(&context_);
     context_.flags =
         coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
-  RTCIntersectContext* get() { return &context_; }
+  template <typename Packet, typename... Live>
+  void trace(RTCScene scene, Packet& rays, Live... live) {
+    kCall<Packet>(live..., scene, &context_, &rays);
+  }
+  // Leads n packets of coherent rays through the BVH at once and finds the same hits.
+  static constexpr bool kStreams = true;
+  template <typename Packet>
+  void traceStream(RTCScene scene, Packet* packets, int width, std::size_t n) {
+    const auto w = static_cast<unsigned>(width), count = static_cast<unsigned>(n);
+    if constexpr (kWantsHits<Packet>) {
+      auto* const rays = reinterpret_cast<RTCRayHitN*>(packets);
+      rtcIntersectNM(scene, &context_, rays, w, count, sizeof(Packet));
+    } else {
+      auto* const rays = reinterpret_cast<RTCRayN*>(packets);
+      rtcOccludedNM(scene, &context_, rays, w, count, sizeof(Packet));
+    }
+  }
 
  private:
   RTCIntersectContext context_;
-};
-
-inline void intersect(const int*, RTCScene s, QueryContext& c, RTCRayHit& r) {
-  rtcIntersect1(s, c.get(), &r);
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit4& r) {
-  rtcIntersect4(valid, s, c.get(), &r);
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit8& r) {
-  rtcIntersect8(valid, s, c.get(), &r);
-}
-inline void intersect(const int* valid, RTCScene s, QueryContext& c, RTCRayHit16& r) {
-  rtcIntersect16(valid, s, c.get(), &r);
-}
-inline void occluded(const int*, RTCScene s, QueryContext& c, RTCRay& r) {
-  rtcOccluded1(s, c.get(), &r);
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay4& r) {
-  rtcOccluded4(valid, s, c.get(), &r);
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay8& r) {
-  rtcOccluded8(valid, s, c.get(), &r);
-}
-inline void occluded(const int* valid, RTCScene s, QueryContext& c, RTCRay16& r) {
-  rtcOccluded16(valid, s, c.get(), &r);
-}
-
-inline constexpr bool kStreams = true;
-template <typename Packet>
-void intersectStream(RTCScene s, QueryContext& c, Packet* packets, int width, std::size_t n) {
-  rtcIntersectNM(s, c.get(), reinterpret_cast<RTCRayHitN*>(packets), static_cast<unsigned>(width),
-                 static_cast<unsigned>(n), sizeof(Packet));
-}
-template <typename Packet>
-void occludedStream(RTCScene s, QueryContext& c, Packet* packets, int width, std::size_t n) {
-  rtcOccludedNM(s, c.get(), reinterpret_cast<RTCRayN*>(packets), static_cast<unsigned>(width),
-                static_cast<unsigned>(n), sizeof(Packet));
-}
-
 #endif
-
-// The lanes of a packet that are traced, -1, and the others, 0, whose rays are empty.
-template <int kWidth>
-struct alignas(64) Lanes {
-  int live[kWidth];
 };
-
-// n packets of one ray kind, one after the other. `together`: by Embree's stream calls, which lead
-// several packets of coherent rays through the BVH at once and find the same hits.
-template <int kWidth, typename Packet>
-void intersectAll(const Lanes<kWidth>* lanes, RTCScene scene, QueryContext& context, bool together,
-                  Packet* packets, std::size_t n) {
-  if (together) return intersectStream(scene, context, packets, kWidth, n);
-  for (std::size_t p = 0; p < n; ++p) intersect(lanes[p].live, scene, context, packets[p]);
-}
-template <int kWidth, typename Packet>
-void occludedAll(const Lanes<kWidth>* lanes, RTCScene scene, QueryContext& context, bool together,
-                 Packet* packets, std::size_t n) {
-  if (together) return occludedStream(scene, context, packets, kWidth, n);
-  for (std::size_t p = 0; p < n; ++p) occluded(lanes[p].live, scene, context, packets[p]);
-}
 
 }  // namespace whit

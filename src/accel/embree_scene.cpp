@@ -115,7 +115,8 @@ EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progre
     return rtcGetDeviceProperty(device(), what) != 0;
   };
   const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
-  if (kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) streamWidth_ = 8;
+  if (QueryContext::kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+    streamWidth_ = 8;
   const bool moves = scene.motion.ofGeometry;
   mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && (moves || !scene.instances.empty());
   rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
@@ -278,22 +279,15 @@ void EmbreeScene::commit(RTCScene scene, Progress* progress) {
   rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
   rtcCommitScene(scene);
   const RTCError error = rtcGetDeviceError(device());
-  // Who has ended the work ends it again, where it can be thrown.
+  // Progress that ended the build throws again, which is allowed here.
   if (error == RTC_ERROR_CANCELLED) reportProgress(progress, kBuilding, 1);
-  requireNone(error, kBuilding);
-}
-
-void EmbreeScene::requireNoError(const char* doing) const {
-  requireNone(rtcGetDeviceError(device()), doing);
-}
-
-void EmbreeScene::requireNone(RTCError error, const char* doing) {
   if (error == RTC_ERROR_NONE) return;
-  const std::string what = std::string("Embree failed while ") + doing;
+  const std::string what = std::string("Embree failed while ") + kBuilding;
   if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
   // An exception within its tasking system. What is built has been validated: it ran out of
   // something.
   if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
+
   throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
 }
 

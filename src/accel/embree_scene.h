@@ -85,8 +85,6 @@ class EmbreeScene {
   void moveInstances(const Scene& scene);
   void bendMeshes(const Scene& scene);
   void commit(RTCScene scene, Progress* progress);
-  void requireNoError(const char* doing) const;
-  static void requireNone(RTCError error, const char* doing);
 
   std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
   AlphaMaps alphaMaps_;

@@ -21,7 +21,7 @@
 #include "core/quantile.h"
 #include "core/stopwatch.h"
 #include "core/worker_pool.h"
-#include "inspect/hdr_flip.h"
+#include "inspect/flip.h"
 #include "inspect/path_divergence.h"
 #include "io/image/image_file.h"
 

@@ -12,7 +12,6 @@
 #include "core/warnings.h"
 #include "inspect/metrics.h"
 #include "inspect/stage_comparison.h"
-#include "inspect/value_difference.h"
 
 namespace whit::cli {
 

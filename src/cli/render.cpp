@@ -29,7 +29,6 @@
 #include "io/paths.h"
 #include "make/turntable.h"
 #include "render/auto_exposure.h"
-#include "render/describe_image.h"
 #include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/finalize_steps.h"
+#include "core/display.h"
 #include "core/formatted.h"
 #include "core/pixel.h"
 #include "inspect/metrics.h"
@@ -125,20 +126,34 @@ class Watcher : public StageObserver {
   Clock::time_point last_;
 };
 
-// Empty of views without a scale.
-std::string amountName(DebugView view) {
-  switch (view) {
-    case DebugView::depth:
-      return "distance";
-    case DebugView::rays:
-      return "rays a pixel and sample";
-    case DebugView::cost:
-      return "microseconds a pixel and sample";
-    case DebugView::occupancy:
-      return "share of live lanes";
-    default:
-      return "";
-  }
+// The meaning of the amounts that a view shows; empty for views without a scale.
+constexpr std::array<const char*, kDebugViewNames.size()> kAmounts{
+    "", "distance",           "", "", "rays a pixel and sample", "microseconds a pixel and sample",
+    "", "share of live lanes"};
+
+// A few pixels take tens of times what most do.
+bool isLogarithmic(DebugView view) { return view == DebugView::rays || view == DebugView::cost; }
+
+// True where a distance is not known because the primary rays left the scene.
+bool hitsNothing(DebugView view, const WatchedPixel& pixel) {
+  return view == DebugView::depth && pixel.count == 0;
+}
+
+double amountOf(const WatchedPixel& pixel, int samples) {
+  return static_cast<double>(pixel.sum.x) / (pixel.count > 0 ? pixel.count : samples);
+}
+
+std::uint8_t codeOf(float x) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(static_cast<double>(x), 0.0, 1.0)));
+}
+
+std::array<std::uint8_t, 3> meanColor(DebugView view, const WatchedPixel& pixel) {
+  const Rgb c = pixel.sum * (1 / static_cast<float>(std::max(pixel.count, 1.0)));
+  const auto code = [&](float x) {
+    const bool linear = view == DebugView::albedo;
+    return linear ? static_cast<std::uint8_t>(srgbCode(static_cast<double>(x))) : codeOf(x);
+  };
+  return {code(c.x), code(c.y), code(c.z)};
 }
 
 std::string namesOf(EffectSet effects) {
@@ -163,59 +178,67 @@ FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, Debu
 }
 
 AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples) {
-  switch (view) {
-    case DebugView::depth:
-      return depthScale(pixels);
-    case DebugView::rays:
-    case DebugView::cost:
-      return heatScale(amountsOf(pixels, samples));
-    default:
-      return {0, 1};
+  constexpr double kOutliers = 0.005;  // share of the pixels that may be beyond the scale
+  constexpr double kLongestScale = 1000;
+  if (view != DebugView::depth && !isLogarithmic(view)) return {0, 1};
+  std::vector<double> amounts;
+  for (const WatchedPixel& p : pixels) {
+    if (!hitsNothing(view, p)) amounts.push_back(amountOf(p, samples));
   }
+  if (amounts.empty()) return {};
+  const auto last = static_cast<double>(amounts.size() - 1);
+  const auto highest = amounts.begin() + std::lround(last * (1 - kOutliers));
+  std::nth_element(amounts.begin(), highest, amounts.end());
+  const double low = *std::min_element(amounts.begin(), highest + 1);
+  return {isLogarithmic(view) ? std::max(low, *highest / kLongestScale) : low, *highest};
 }
 
 void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
                const AmountScale& scale, DisplayImage& display) {
-  switch (view) {
-    case DebugView::depth:
-      return paintDepth(pixels, scale, display);
-    case DebugView::rays:
-    case DebugView::cost:
-      return paintHeat(amountsOf(pixels, samples), scale, display);
-    case DebugView::occupancy:
-      return paintShare(amountsOf(pixels, samples), display);
-    case DebugView::normals:
-    case DebugView::effects:
-    case DebugView::albedo:
-      return paintColors(pixels, view == DebugView::albedo, display);
-    case DebugView::none:
-      return;
+  const bool flat = !(scale.high > scale.low);
+  const double perLog = !flat && isLogarithmic(view) ? 1 / std::log(scale.high / scale.low) : 0;
+  const auto shareOf = [&](double amount) {
+    const double share = flat                  ? 0
+                         : isLogarithmic(view) ? std::log(amount / scale.low) * perLog
+                                               : (amount - scale.low) / (scale.high - scale.low);
+    return share > 0 ? std::min(share, 1.0) : 0;
+  };
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const WatchedPixel& p = pixels[i];
+    std::array<std::uint8_t, 3> color{};
+    if (!hasScale(view)) {
+      color = meanColor(view, p);
+    } else if (!hitsNothing(view, p)) {
+      color = colorAt(view, shareOf(amountOf(p, samples)));
+    }
+    std::copy(color.begin(), color.end(), &display.rgba[4 * i]);
+    display.rgba[4 * i + 3] = 255;
   }
 }
 
-bool hasScale(DebugView view) { return !amountName(view).empty(); }
+bool hasScale(DebugView view) { return *kAmounts[static_cast<std::size_t>(view)] != 0; }
 
 std::string legendOf(DebugView view, const AmountScale& scale) {
   if (!hasScale(view)) return "";
-  return formatted("%s, from %.3g to %.3g", amountName(view).c_str(), scale.low, scale.high);
+  return formatted("%s, from %.3g to %.3g", kAmounts[static_cast<std::size_t>(view)], scale.low,
+                   scale.high);
 }
 
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share) {
+  constexpr double kFarthest = 0.08;  // the gray of the farthest surface, told from nothing
   if (view != DebugView::depth) return heatColor(share);
-  constexpr float kBrightest = 255;
-  const auto code = static_cast<std::uint8_t>(std::lround(kBrightest * depthGray(share)));
+  const std::uint8_t code = codeOf(static_cast<float>(1 - (1 - kFarthest) * share));
   return {code, code, code};
 }
 
 double amountAt(DebugView view, const AmountScale& scale, double share) {
-  const bool logarithmic = view == DebugView::rays || view == DebugView::cost;
-  if (logarithmic && scale.low > 0) return scale.low * std::pow(scale.high / scale.low, share);
+  if (isLogarithmic(view) && scale.low > 0)
+    return scale.low * std::pow(scale.high / scale.low, share);
   return scale.low + share * (scale.high - scale.low);
 }
 
 std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
-  const double count = pixel.count;
-  const auto amount = static_cast<double>(pixel.sum.x) / (count > 0 ? count : samples);
+  const double count = pixel.count, amount = amountOf(pixel, samples);
   const RgbD mean = RgbD(pixel.sum) / std::max(count, 1.0);
   switch (view) {
     case DebugView::depth:
@@ -237,16 +260,6 @@ std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
       break;
   }
   return "";
-}
-
-DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view) {
-  DebugFrame frame;
-  frame.stats = watchFrame(renderer, camera, film, view, frame.pixels);
-  const int samples = renderer.options().spp;
-  frame.scale = scaleOf(view, frame.pixels, samples);
-  paintView(view, frame.pixels, samples, frame.scale, film.display);
-  frame.legend = legendOf(view, frame.scale);
-  return frame;
 }
 
 }  // namespace whit

@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "inspect/false_colors.h"
 #include "render/renderer.h"
 
 namespace whit {
@@ -15,15 +15,19 @@ enum class DebugView { none, depth, normals, albedo, rays, cost, effects, occupa
 inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo",
                                             "rays", "cost",  "effects", "occupancy"};
 
-struct DebugFrame {
-  FrameStats stats;  // of one worker, who was looked at all the time
-  // Describes the colors to people: "rays a pixel, from 1 to 23".
-  std::string legend;
-  AmountScale scale;                 // of those views that have one
-  std::vector<WatchedPixel> pixels;  // of the window
+struct WatchedPixel {
+  Rgb sum{0, 0, 0};  // of `count` colors, or of amounts in x
+  double count = 0;
+  EffectSet effects;  // of all surfaces that were met, for DebugView::effects
 };
 
-// Traces the frame as ever, but with one worker, and paints film.display (the window's pixels):
+// The amounts that have the first and the last of the colors.
+struct AmountScale {
+  double low = 0, high = 0;
+};
+
+// Traces the frame with one worker and stores what `view` (not none) shows of the window's pixels,
+// which `hooks` may look at. film.image is what render() makes of it.
 //   depth      distance along the primary ray, near ones bright; black: nothing hit
 //   normals    shading normals, (n + 1) / 2 a channel
 //   albedo     diffuse reflectance, textures included
@@ -31,17 +35,13 @@ struct DebugFrame {
 //   cost       the pixel's share of the time of the stages that it took part in
 //   effects    those of the surface that the primary ray hits, by effectColors(), added up
 //   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
-// Several samples are averaged. film.image is what render() makes of it. `view` is not none.
-DebugFrame renderDebugView(Renderer& renderer, const Camera& camera, Film& film, DebugView view);
-
-// The parts of the above, for pictures that are shown tile by tile: what is seen of the window's
-// pixels, which `hooks` may look at; then for any pixels, of so many samples each, scale, picture
-// and words.
 FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
                       std::vector<WatchedPixel>& pixels, const FrameHooks* hooks = nullptr);
+// Scale, picture, legend and words for such pixels, each the mean of this many samples.
 AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples);
 void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
                const AmountScale& scale, DisplayImage& display);
+// Describes the colors: "rays a pixel and sample, from 1 to 23"; empty for views without a scale.
 std::string legendOf(DebugView view, const AmountScale& scale);
 // The value of a pixel with its unit: "5.3 rays a sample".
 std::string textOf(DebugView view, const WatchedPixel& pixel, int samples);

@@ -1,10 +1,11 @@
 #include "inspect/floor.h"
 
 #include <algorithm>
-#include <atomic>
-#include <deque>
-#include <mutex>
+#include <numeric>
+#include <utility>
 #include <vector>
+
+#include "core/quantile.h"
 
 namespace whit {
 
@@ -17,10 +18,14 @@ class RayLogger : public StageObserver {
     if (stage == Stage::findIntersections) {
       for (std::size_t s = 0; s < c.segmentCount; ++s) {
         const Segment& segment = c.segments[s];
-        log_.append(advanced(c.rays, segment.begin), segment.end - segment.begin, c.coherent);
+        const RayColumns r = advanced(c.rays, segment.begin);
+        log_.append(false, c.coherent, {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, nullptr},
+                    segment.end - segment.begin);
       }
     } else if (stage == Stage::checkShadows) {
-      log_.append(c.shadows, c.shadowCount, c.shadowsAreCoherent());
+      const ShadowColumns& r = c.shadows;
+      log_.append(true, c.shadowsAreCoherent(),
+                  {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, r.tFar}, c.shadowCount);
     }
   }
   const RayLog& log() const { return log_; }
@@ -29,50 +34,34 @@ class RayLogger : public StageObserver {
   RayLog log_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Wall-clock time of the replay of all logs, each by the next worker that is free.
-double replay(Renderer& renderer, const std::deque<RayLogger>& lists) {
-  std::atomic<std::size_t> next{0};
-  const int threads = renderer.machine().threads;
-  std::vector<double> ms(static_cast<std::size_t>(threads));
+// Returns the wall-clock time of the replay of all logs, one for each worker.
+double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
+  std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
-    double mine = 0;
-    for (std::size_t i = next++; i < lists.size(); i = next++) {
-      mine += renderer.accel().replay(lists[i].log());
-    }
-    ms[static_cast<std::size_t>(worker)] = mine;
+    const auto w = static_cast<std::size_t>(worker);
+    ms[w] = renderer.accel().replay(loggers[w].log());
   });
-  double sum = 0;
-  for (const double m : ms) sum += m;
-  return sum / threads;
+  return std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
 }
 
 }  // namespace
 
 FloorResult measureFloor(Renderer& renderer, const Camera& camera, Film& film, int frames) {
-  std::deque<RayLogger> lists;
-  std::mutex mutex;
-  // A list of pixels is watched once, by whom it is replayed.
-  renderer.render(camera, film, [&](std::size_t) {
-    const std::lock_guard lock(mutex);
-    return &lists.emplace_back();
-  });
+  std::vector<RayLogger> loggers(static_cast<std::size_t>(renderer.machine().threads));
+  std::vector<StageObserver*> observers;
+  for (RayLogger& logger : loggers) observers.push_back(&logger);
+  renderer.render(camera, film, nullptr, observers);
   FloorResult result;
-  for (const RayLogger& list : lists) {
-    for (const RayLog::Stream& stream : list.log().streams()) result.rays += stream.count;
+  for (const RayLogger& logger : loggers) {
+    for (const RayLog::Stream& stream : logger.log().streams()) result.rays += stream.count;
   }
   std::vector<double> floors, whole;
   for (int frame = 0; frame < std::max(frames, 1); ++frame) {
     whole.push_back(renderer.render(camera, film).frameMs);
-    floors.push_back(replay(renderer, lists));
+    floors.push_back(replay(renderer, loggers));
   }
-  result.floorMs = median(std::move(floors));
-  result.frameMs = median(std::move(whole));
+  result.floorMs = quantile(std::move(floors), 0.5);
+  result.frameMs = quantile(std::move(whole), 0.5);
   return result;
 }
 

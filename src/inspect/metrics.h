@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image.h"
@@ -38,14 +39,25 @@ std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayIm
 // FLIP per pixel, in [0, 1], of the encoded images.
 std::vector<float> flipMap(const Image& a, const Image& b);
 
-// Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic) with its
-// scale drawn beneath.
-DisplayImage heatMap(const Image& a, const Image& b);
+// Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic), which may
+// be drawn beneath.
+DisplayImage heatMap(const Image& a, const Image& b, bool scale = true);
 // Where a difference of so many codes lies on that scale, 0 to 1; those that it names.
 double heatPosition(int codes);
 inline constexpr std::array kHeatTicks{0, 1, 2, 4, 8, 16};
 // Its colors: from black over violet and orange to a light yellow, lightness growing all the way.
 // `t` in [0, 1]; 8-bit sRGB.
 std::array<std::uint8_t, 3> heatColor(double t);
+
+// Measures of the difference between two columns of values, a pixel each.
+struct ValueDifference {
+  std::uint64_t differing = 0;     // pixels whose values are not equal; two NaN are
+  std::uint64_t incomparable = 0;  // of them those where a value is not finite
+  double largest = 0, rms = 0;     // of the differences of all others; 0 of numbers
+};
+
+// Both have the same length.
+ValueDifference differenceOf(std::span<const float> a, std::span<const float> b);
+ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
 
 }  // namespace whit

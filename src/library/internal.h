@@ -16,7 +16,7 @@
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "library/whit.h"
-#include "render/film.h"
+#include "render/frame.h"
 
 namespace whit::api {
 

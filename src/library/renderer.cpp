@@ -11,8 +11,7 @@
 #include "io/scene/edit_scene.h"
 #include "library/internal.h"
 #include "render/auto_exposure.h"
-#include "render/describe_image.h"
-#include "render/render_frame.h"
+#include "render/renderer.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::api {

@@ -53,10 +53,10 @@ std::size_t AdaptiveSampler::bytes() const {
          first_.display.rgba.capacity();
 }
 
-FrameStats AdaptiveSampler::render(const Frame& frame, const Scheduler::Watch& watch) {
+FrameStats AdaptiveSampler::render(const Frame& frame) {
   startOver(frame);
-  FrameStats stats = traceCenters(frame, watch);
-  stats.add(traceProbes(frame, watch));
+  FrameStats stats = traceCenters(frame);
+  stats.add(traceProbes(frame));
   stats.add(findContrast(frame));
   stats.nonFinitePixels = 0;  // of pictures that are kept only
   stats.add(keepFirstPicture(frame));
@@ -66,7 +66,7 @@ FrameStats AdaptiveSampler::render(const Frame& frame, const Scheduler::Watch& w
     rest.probes = &*probes_;
     rest.firstSample = kProbeSamples;
   }
-  stats.add(traceMarked(rest, frame.film->image.window, contrasting_, watch));
+  stats.add(traceMarked(rest, frame.film->image.window, contrasting_));
   return stats;
 }
 
@@ -92,7 +92,7 @@ void AdaptiveSampler::startOver(const Frame& frame) {
   contrasting_.assign(surfaces_.size(), 0);
 }
 
-FrameStats AdaptiveSampler::traceCenters(const Frame& frame, const Scheduler::Watch& watch) {
+FrameStats AdaptiveSampler::traceCenters(const Frame& frame) {
   Frame centers = frame;
   SurfaceRecorder recorder(first_.image, surfaces_);
   centers.samples = samplePattern(1);
@@ -100,10 +100,10 @@ FrameStats AdaptiveSampler::traceCenters(const Frame& frame, const Scheduler::Wa
   centers.endSample = 1;
   centers.film = &first_;
   centers.observer = &recorder;
-  return scheduler_.trace(centers, scheduler_.allPixels(), watch);
+  return scheduler_.trace(centers, scheduler_.allPixels());
 }
 
-FrameStats AdaptiveSampler::traceProbes(const Frame& frame, const Scheduler::Watch& watch) {
+FrameStats AdaptiveSampler::traceProbes(const Frame& frame) {
   const int contrast = frame.constants.options.contrast;
   FrameStats stats = scheduler_.forRows([&](int begin, int end) {
     findEdges(first_.display, surfaces_, contrast, begin, end, edges_);
@@ -119,7 +119,7 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame, const Scheduler::Wat
   probes.film = &first_;
   probes.probes = &*probes_;
   const Image& image = frame.film->image;
-  stats.add(traceMarked(probes, grown(image.window, 1, image.width, image.height), edges_, watch));
+  stats.add(traceMarked(probes, grown(image.window, 1, image.width, image.height), edges_));
   return stats;
 }
 
@@ -165,9 +165,8 @@ FrameStats AdaptiveSampler::keepFirstPicture(const Frame& frame) {
 }
 
 FrameStats AdaptiveSampler::traceMarked(const Frame& frame, const Crop& window,
-                                        const std::vector<std::uint8_t>& marks,
-                                        const Scheduler::Watch& watch) {
-  return scheduler_.trace(frame, scheduler_.workOf(markedPixels(window, marks)), watch);
+                                        const std::vector<std::uint8_t>& marks) {
+  return scheduler_.trace(frame, scheduler_.workOf(markedPixels(window, marks)));
 }
 
 // In the order of the tiles, so that neighbors stay together.

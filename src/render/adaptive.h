@@ -23,19 +23,19 @@ class AdaptiveSampler {
   static Crop tracedWindow(const Image& image);
 
   // `frame` has the pattern of all samples; the scheduler's window is tracedWindow().
-  FrameStats render(const Frame& frame, const Scheduler::Watch& watch);
+  FrameStats render(const Frame& frame);
   // The samples of `pattern` whose mean a pixel of the last film has.
   std::vector<Vec2f> samplesAt(int x, int y, std::vector<Vec2f> pattern) const;
   std::size_t bytes() const;
 
  private:
   void startOver(const Frame& frame);
-  FrameStats traceCenters(const Frame& frame, const Scheduler::Watch& watch);
-  FrameStats traceProbes(const Frame& frame, const Scheduler::Watch& watch);
+  FrameStats traceCenters(const Frame& frame);
+  FrameStats traceProbes(const Frame& frame);
   FrameStats findContrast(const Frame& frame);
   FrameStats keepFirstPicture(const Frame& frame);
   FrameStats traceMarked(const Frame& frame, const Crop& window,
-                         const std::vector<std::uint8_t>& marks, const Scheduler::Watch& watch);
+                         const std::vector<std::uint8_t>& marks);
   PixelLists markedPixels(const Crop& window, const std::vector<std::uint8_t>& marks) const;
 
   Scheduler& scheduler_;

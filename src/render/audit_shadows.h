@@ -1,7 +1,7 @@
 // Compares the shadow cache with the rays that it replaces (--shadow-cache audit).
 #pragma once
 
-#include "render/frame_stats.h"
+#include "render/frame.h"
 #include "stages/chunk.h"
 
 namespace whit {

@@ -1,18 +1,112 @@
-// A frame: what all workers that trace it share. Read-only while it is traced, but for the film,
-// the probe samples and the sums, of which each pixel is written by one worker.
+// A frame: its film, its statistics, and what all workers that trace it share.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "render/film.h"
-#include "render/sample_sums.h"
+#include "bake/scene.h"
+#include "core/channels.h"
+#include "core/image.h"
+#include "core/options.h"
 #include "sampling/probe_samples.h"
+#include "scene/camera.h"
+#include "simd/kernels.h"
 #include "stages/chunk.h"
+#include "stages/ray_kinds.h"
+#include "stages/stage.h"
 
 namespace whit {
+
+// The film: where a frame goes, as linear radiance and as 8-bit codes.
+struct Film {
+  Image image;  // linear radiance; size and window are set by whoever wants the frame
+  bool wantDisplay = true;
+  DisplayImage display;    // 8-bit codes of the window, when they are wanted
+  ChannelLayers channels;  // of the window, those of RenderOptions::channels
+};
+
+// Room for the display codes of the film's window, when they are wanted.
+void sizeDisplay(Film& film);
+
+// Times and counters of a frame, by stage, step and kind of ray. Times are summed over the workers;
+// `stageMs` and `embreeMs` divide by their number, which gives the wall-clock share. All that
+// happens below depth 0 counts as addImpulses.
+struct FrameStats {
+  double frameMs = 0;
+  int workers = 1;
+  std::array<double, kStageCount> stageWorkerMs{};
+  TraceMeter meter;                                              // rays, and the time inside Embree
+  std::array<std::uint64_t, kStageCount> stageCalls{};           // times that a stage has ended
+  std::array<std::uint64_t, simd::kKernels.size()> stepCalls{};  // by Step::number
+  std::uint64_t nonFinitePixels = 0;
+
+  double stageMs(Stage s) const { return stageWorkerMs[static_cast<std::size_t>(s)] / workers; }
+  double embreeMs() const { return meter.embreeMs / workers; }
+  const RayTally& of(RayKind k) const { return meter.tally[static_cast<std::size_t>(k)]; }
+  std::uint64_t callsOf(Stage s) const { return stageCalls[static_cast<std::size_t>(s)]; }
+  std::uint64_t callsOf(const simd::Kernel& k) const { return stepCalls[simd::indexOf(k)]; }
+  std::uint64_t allRays() const {
+    std::uint64_t sum = 0;
+    for (const RayTally& t : meter.tally) sum += t.rays;
+    return sum;
+  }
+  void add(const FrameStats& worker);  // counters and times of one worker
+};
+
+// The camera that the options ask for: --camera, changed by the options of forEachCameraOption().
+// Throws Error(usage) naming the nearest camera.
+Camera chooseCamera(const Scene& scene, const RenderOptions& options);
+// The scene's camera path at `seconds`, changed by the same options. Throws Error(usage) when the
+// scene has no path.
+Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds);
+// An empty film of the size and crop that the options ask for. Throws Error(usage) for a crop
+// outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
+Film makeFilm(const Scene& scene, const RenderOptions& options,
+              std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
+// Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
+void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
+
+// Samples of the pattern, [first, end).
+struct SampleRange {
+  int first = 0, end = 0;
+};
+
+struct SampleSum {
+  RgbD total;          // in the order of the pattern
+  double squares = 0;  // of the samples' mean channel, linear radiance
+};
+
+// The sums of a window's pixels, for pictures that gain samples over time. They start empty.
+class SampleSums {
+ public:
+  explicit SampleSums(const Crop& window)
+      : window_(window),
+        sums_(static_cast<std::size_t>(window.x1 - window.x0) *
+              static_cast<std::size_t>(window.y1 - window.y0)) {}
+
+  SampleSum& at(int x, int y) { return sums_[index(x, y)]; }
+  const Crop& window() const { return window_; }
+
+  // The standard error of the mean of `samples` samples a pixel, 2 or more: its mean over the
+  // window, as a share of the window's mean radiance (of the mean channel). As if samples were
+  // independent; spread evenly, as those of a pattern are, they are off by less. Not its root mean
+  // square, which a few bright samples decide. 0 for black.
+  double relativeError(int samples) const;
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - window_.y0) *
+               static_cast<std::size_t>(window_.x1 - window_.x0) +
+           static_cast<std::size_t>(x - window_.x0);
+  }
+
+  Crop window_;
+  std::vector<SampleSum> sums_;
+};
 
 // Called by the workers while they trace a frame, possibly several at a time.
 struct FrameHooks {
@@ -30,6 +124,8 @@ class StageObserver {
   virtual void after(Stage stage, const Chunk& chunk) = 0;
 };
 
+// Read-only while it is traced, but for the film, the probe samples and the sums, of which each
+// pixel is written by one worker.
 struct Frame {
   FrameConstants constants;
   std::vector<Vec2f> samples;   // of each pixel, in the order of the pattern
@@ -42,6 +138,9 @@ struct Frame {
   SampleSums* sums = nullptr;
   // Part of the frame's work: sees the chunks of all workers, at the same time.
   StageObserver* observer = nullptr;
+  // If there are any, each sees the chunks of one worker, which traces tile by tile, and workers
+  // without one rest. Their time is not the frame's. There must not be more of them than workers.
+  std::span<StageObserver* const> observers;
   const FrameHooks* hooks = nullptr;
   bool stops() const { return hooks && hooks->stop && hooks->stop(); }
 };

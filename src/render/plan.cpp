@@ -6,7 +6,6 @@
 #include "accel/accel.h"
 #include "render/audit_shadows.h"
 #include "render/initial_media.h"
-#include "render/keep_channels.h"
 #include "render/settle_coplanar.h"
 #include "render/update_image.h"
 #include "simd/kernels.h"

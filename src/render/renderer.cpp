@@ -1,17 +1,22 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/option_table.h"
+#include "core/option_values.h"
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
+#include "core/version.h"
 #include "reference/initial_medium_stack.h"
 #include "render/audit_shadows.h"
 #include "render/build_tables.h"
 #include "render/embree_intersector.h"
 #include "render/initial_media.h"
 #include "sampling/sample_pattern.h"
+#include "scene/members.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -82,6 +87,13 @@ AccelOptions accelOptions(const RenderOptions& options, EffectSet effects, int t
   // give.
   accel.isa = embreeIsa(simd::chosenTarget());
   return accel;
+}
+
+// The effects of a plan that are built into the acceleration structure.
+EffectSet builtIn(const Plan& plan) {
+  constexpr EffectSet kBuiltIn =
+      EffectSet().with(Effect::alphaMasks).with(Effect::instances).with(Effect::spheres);
+  return EffectSet(plan.effects.bits() & kBuiltIn.bits());
 }
 
 }  // namespace
@@ -171,20 +183,27 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window,
   return frame;
 }
 
-FrameStats Renderer::render(const Camera& camera, Film& film, const Scheduler::Watch& watch,
-                            const FrameHooks* hooks) {
-  Frame frame =
-      frameOf(camera, film,
-              adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window, hooks);
-  if (watch) frame.constants.shadowCache = nullptr;  // who looks on sees all rays
+FrameStats Renderer::timed(const Frame& frame, const std::function<FrameStats()>& trace) {
   const Stopwatch stopwatch;
-  FrameStats stats = adaptive() ? adaptive_.render(frame, watch)
-                                : scheduler_.trace(frame, scheduler_.allPixels(), watch);
+  FrameStats stats = trace();
   stats.frameMs = stopwatch.ms();
+  if (!frame.observers.empty()) return stats;
   stats.workers = machine_.threads;
   ++asking_.turn;
   requireRightShadows(stats, scene_);
   return stats;
+}
+
+FrameStats Renderer::render(const Camera& camera, Film& film, const FrameHooks* hooks,
+                            std::span<StageObserver* const> observers) {
+  Frame frame =
+      frameOf(camera, film,
+              adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window, hooks);
+  frame.observers = observers;
+  if (!observers.empty()) frame.constants.shadowCache = nullptr;  // observers see all rays
+  return timed(frame, [&] {
+    return adaptive() ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.allPixels());
+  });
 }
 
 FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
@@ -193,23 +212,15 @@ FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRa
   frame.firstSample = static_cast<std::size_t>(samples.first);
   frame.endSample = static_cast<std::size_t>(samples.end);
   frame.sums = &sums;
-  const Stopwatch stopwatch;
-  FrameStats stats = scheduler_.trace(frame, scheduler_.allPixels());
-  stats.frameMs = stopwatch.ms();
-  stats.workers = machine_.threads;
-  ++asking_.turn;
-  requireRightShadows(stats, scene_);
-  return stats;
+  return timed(frame, [&] { return scheduler_.trace(frame, scheduler_.allPixels()); });
 }
 
 FrameStats Renderer::observe(const Camera& camera, Film& film,
                              std::span<StageObserver* const> observers, const FrameHooks* hooks) {
   Frame frame = frameOf(camera, film, film.image.window, hooks);
-  frame.constants.shadowCache = nullptr;  // as above
-  const Stopwatch stopwatch;
-  FrameStats stats = scheduler_.observe(frame, observers);
-  stats.frameMs = stopwatch.ms();
-  return stats;
+  frame.observers = observers;
+  frame.constants.shadowCache = nullptr;
+  return timed(frame, [&] { return scheduler_.trace(frame, scheduler_.allPixels()); });
 }
 
 std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
@@ -225,8 +236,127 @@ std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
   frame.samples = samples;
   frame.endSample = samples.size();
   StageObserver* const observers[] = {&observer};
-  scheduler_.observe(frame, observers);
+  frame.observers = observers;
+  scheduler_.trace(frame, scheduler_.allPixels());
   return samples;
+}
+
+void Renderer::replan(Plan next) {
+  // Tracers follow the plan that is there; only the columns that they hold are made for one.
+  if (next.features != plan_.features || next.effects != plan_.effects ||
+      next.depth != plan_.depth || next.channels != plan_.channels) {
+    scheduler_.forgetTracers();
+  }
+  plan_ = std::move(next);
+}
+
+bool Renderer::usesShadowCache(const RenderOptions& options) const {
+  const bool standsStill = !scene_.motion.ofGeometry && !scene_.motion.ofLights();
+  return standsStill && shadowCacheBytes_ > 0 && options.shadowCache != ShadowCacheMode::off;
+}
+
+void Renderer::expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns) {
+  shadowCacheBytes_ = mostBytes;
+  asking_ = {0, askingTurns};
+  replan(makePlan(scene_, options_, usesShadowCache(options_)));
+  renewShadowCache();
+}
+
+// Tables for the lights whose shadows the plan decides; what is known of the others goes.
+void Renderer::renewShadowCache() {
+  const std::vector<std::size_t> lights = lightsWithShadowCache(plan_);
+  if (lights.empty()) return;
+  if (shadowTables_ && shadowTables_->lights() == lights &&
+      shadowTables_->views().size() == scene_.lights.size()) {
+    shadowTables_->forgetMovedLights();
+  } else {
+    shadowTables_.emplace(scene_, lights, shadowCacheBytes_);
+  }
+}
+
+FillReport Renderer::fillShadowCache(const FillLimits& limits) {
+  return decidesShadows() ? shadowTables_->fill(scheduler_.pool(), limits) : FillReport();
+}
+
+void Renderer::forgetShadowRequests() {
+  if (shadowTables_) shadowTables_->forgetAsked();
+}
+
+void Renderer::shadingChanged() {
+  Plan plan = makePlan(scene_, options_, usesShadowCache(options_));
+  if (plan.effects == plan_.effects) {
+    refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
+  } else {
+    tables_ = buildTables(scene_, plan.effects, options_.shading, machine_.threads);
+  }
+  replan(std::move(plan));
+  renewShadowCache();
+}
+
+void Renderer::setOptions(const RenderOptions& options) {
+  Plan plan = makePlan(scene_, options, usesShadowCache(options));
+  if (builtIn(plan) != builtIn(plan_)) {
+    throwUsage(
+        "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
+        "built anew");
+  }
+  const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
+  if (rebuildNeeded(options_, options) >= Rebuild::tables &&
+      (plan.effects != plan_.effects || lacksMips)) {
+    tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
+  }
+  replan(std::move(plan));
+  takeOver(options, Rebuild::tables, options_);
+  renewShadowCache();
+}
+
+bool Renderer::canSetOptions(const RenderOptions& options) const {
+  return rebuildNeeded(options_, options) <= Rebuild::tables &&
+         builtIn(makePlan(scene_, options)) == builtIn(plan_);
+}
+
+FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
+                       Progress* progress) {
+  if (mode == Mode::reference) return renderer.renderReference(camera, film, progress);
+  if (!progress) return renderer.render(camera, film);
+  std::atomic<std::size_t> finished{0};
+  FrameHooks hooks;
+  hooks.finished = [&](std::span<const std::uint32_t> pixels) {
+    // Adaptive sampling traces all pixels once, then some of them again.
+    const auto all = static_cast<double>(film.image.pixels.size());
+    const double done = static_cast<double>(finished += pixels.size()) / all;
+    progress->report(done <= 1 ? "tracing" : "tracing edges",
+                     done <= 1 ? done : std::min(done - 1, 1.0));
+  };
+  return renderer.render(camera, film, &hooks);
+}
+
+std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scene,
+                                                               const Camera& camera,
+                                                               const Renderer& renderer,
+                                                               const Film& film,
+                                                               const RenderOptions& options) {
+  RenderOptions resolved = options;
+  resolved.size = ImageSize{film.image.width, film.image.height};
+  // A camera on a path has no name, so its members are written: all but numbers that are 0, which
+  // nobody asked for.
+  forEachCameraOption([&](auto option, auto member) {
+    const auto& value = camera.*member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) {
+      if (value == 0 && !(options.*option)) return;
+    }
+    resolved.*option = value;
+  });
+  if (options.mode == Mode::packets) {
+    resolved.packet = renderer.machine().packet;
+    resolved.simd = renderer.machine().simd;
+  }
+  std::vector<std::pair<std::string, std::string>> said{
+      {"software", std::string("whit ") + versionText()},
+      {"scene", scene.name},
+      {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
+  for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));
+  return said;
 }
 
 }  // namespace whit

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accel/accel.h"
@@ -16,10 +18,7 @@
 #include "core/progress.h"
 #include "reference/reference.h"
 #include "render/adaptive.h"
-#include "render/film.h"
 #include "render/frame.h"
-#include "render/frame_setup.h"
-#include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/scheduler.h"
 #include "shadow_cache/shadow_tables.h"
@@ -44,9 +43,9 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // film.image must have its size and window set. Allocates on the first call and when sizes
-  // change. `watch`, if any, looks on (render/scheduler.h); `hooks`, if any, are called.
-  FrameStats render(const Camera& camera, Film& film, const Scheduler::Watch& watch = {},
-                    const FrameHooks* hooks = nullptr);
+  // change.
+  FrameStats render(const Camera& camera, Film& film, const FrameHooks* hooks = nullptr,
+                    std::span<StageObserver* const> observers = {});
 
   // Traces some of the samples of the film's pixels, without adaptive sampling, and adds them to
   // `sums`, which has those before them. The film shows the mean of all so far: with the last of
@@ -54,8 +53,8 @@ class Renderer {
   FrameStats accumulate(const Camera& camera, Film& film, const SampleRange& samples,
                         SampleSums& sums, const FrameHooks* hooks = nullptr);
 
-  // Traces all samples of the film's pixels, without adaptive sampling, each observer looking on at
-  // a worker of its own; no more of them than machine().threads.
+  // Traces all samples of the film's pixels, without adaptive sampling, for observers
+  // (Frame::observers).
   FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers,
                      const FrameHooks* hooks = nullptr);
 
@@ -126,6 +125,7 @@ class Renderer {
  private:
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
   Frame frameOf(const Camera& camera, Film& film, const Crop& window, const FrameHooks* hooks);
+  FrameStats timed(const Frame& frame, const std::function<FrameStats()>& trace);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   bool usesShadowCache(const RenderOptions& options) const;
@@ -150,5 +150,20 @@ class Renderer {
   std::optional<Vec3f> lookedFrom_;  // where the last frame's eye was
   double buildMs_ = 0;
 };
+
+// Renders one frame by the pipeline or by the reference. `progress`, if any, is told of each tile
+// that is finished; a frame traced as one batch
+// (--batch frame) has none.
+FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
+                       Progress* progress = nullptr);
+
+// Returns the metadata of an image file: everything needed to make the image again: version, scene,
+// and each option by its name with "auto" resolved. Never a date or a host: the same picture gives
+// the same text.
+std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scene,
+                                                               const Camera& camera,
+                                                               const Renderer& renderer,
+                                                               const Film& film,
+                                                               const RenderOptions& options);
 
 }  // namespace whit

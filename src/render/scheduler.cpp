@@ -5,7 +5,61 @@
 #include <barrier>
 #include <memory>
 
+#include "core/pixel.h"
+
 namespace whit {
+
+namespace {
+
+// The even bits of a Morton code.
+int evenBits(std::uint32_t code) {
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < 16; ++i) bits |= (code >> (2 * i) & 1u) << i;
+  return static_cast<int>(bits);
+}
+
+// Offsets within a tile, packed as its pixels.
+std::vector<std::uint32_t> mortonOrder(int side) {
+  int power = 1;
+  while (power < side) power *= 2;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t code = 0; code < static_cast<std::uint32_t>(power * power); ++code) {
+    const int x = evenBits(code), y = evenBits(code >> 1);
+    if (x < side && y < side) order.push_back(packedPixel(x, y));
+  }
+  return order;
+}
+
+}  // namespace
+
+PixelLists makeTiles(const Crop& window, int side) {
+  const std::vector<std::uint32_t> order = mortonOrder(side);
+  PixelLists tiles;
+  for (int y0 = window.y0; y0 < window.y1; y0 += side) {
+    for (int x0 = window.x0; x0 < window.x1; x0 += side) {
+      std::vector<std::uint32_t>& tile = tiles.emplace_back();
+      for (const std::uint32_t offset : order) {
+        const int x = x0 + pixelX(offset), y = y0 + pixelY(offset);
+        if (x >= window.x1 || y >= window.y1) continue;
+        tile.push_back(packedPixel(x, y));
+      }
+    }
+  }
+  return tiles;
+}
+
+PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
+  PixelLists shares(workers);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::vector<std::uint32_t>& share = shares[i % workers];
+    share.insert(share.end(), lists[i].begin(), lists[i].end());
+  }
+  return shares;
+}
+
+void padForVectors(PixelLists& lists) {
+  for (auto& list : lists) list.reserve(list.size() + 2 * kBlock);
+}
 
 void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Crop& window) {
   if (!tracers_.empty() && window_ == window) return;
@@ -35,9 +89,9 @@ PixelWork Scheduler::workOf(PixelLists lists) const {
   return work;
 }
 
-FrameStats Scheduler::trace(const Frame& frame, const PixelWork& work, const Watch& watch) {
-  return inBatches_ && !watch ? traceBatches(frame, work.batches)
-                              : traceTiles(frame, work.tiles, watch);
+FrameStats Scheduler::trace(const Frame& frame, const PixelWork& work) {
+  return inBatches_ && frame.observers.empty() ? traceBatches(frame, work.batches)
+                                               : traceTiles(frame, work.tiles);
 }
 
 FrameStats Scheduler::forWorkers(
@@ -54,11 +108,14 @@ FrameStats Scheduler::forWorkers(
   return sum;
 }
 
-FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists, const Watch& watch) {
+FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists) {
   std::atomic<std::size_t> next{0};
+  const bool observed = !frame.observers.empty();
   return forWorkers([&](std::size_t worker, FrameStats& stats) {
+    if (observed && worker >= frame.observers.size()) return;
+    StageObserver* const observer = observed ? frame.observers[worker] : nullptr;
     for (std::size_t i = next++; i < lists.size() && !frame.stops(); i = next++) {
-      tracers_[worker].trace(frame, lists[i], stats, nullptr, watch ? watch(i) : nullptr);
+      tracers_[worker].trace(frame, lists[i], stats, nullptr, observer);
       if (frame.hooks && frame.hooks->finished) frame.hooks->finished(lists[i]);
     }
   });
@@ -71,17 +128,6 @@ FrameStats Scheduler::traceBatches(const Frame& frame, const PixelLists& lists) 
     const std::unique_ptr<std::barrier<>, void (*)(std::barrier<>*)> leave(
         &stageBarrier, [](std::barrier<>* barrier) { barrier->arrive_and_drop(); });
     tracers_[worker].trace(frame, lists[worker], stats, &stageBarrier);
-  });
-}
-
-FrameStats Scheduler::observe(const Frame& frame, std::span<StageObserver* const> observers) {
-  std::atomic<std::size_t> next{0};
-  return forWorkers([&](std::size_t worker, FrameStats& stats) {
-    if (worker >= observers.size()) return;
-    for (std::size_t i = next++; i < all_.tiles.size() && !frame.stops(); i = next++) {
-      tracers_[worker].trace(frame, all_.tiles[i], stats, nullptr, observers[worker]);
-      if (frame.hooks && frame.hooks->finished) frame.hooks->finished(all_.tiles[i]);
-    }
   });
 }
 

@@ -2,18 +2,29 @@
 // with --batch frame, all at once, a batch a worker and everyone in the same stage.
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "core/worker_pool.h"
 #include "render/frame.h"
-#include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/tile_tracer.h"
-#include "render/tiles.h"
 
 namespace whit {
+
+using PixelLists = std::vector<std::vector<std::uint32_t>>;
+
+// The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
+// other make up 2x2, 4x2 or 4x4 pixels, the most coherent packet there is. Tiles that the window
+// cuts lose their outer pixels and close the gaps.
+PixelLists makeTiles(const Crop& window, int side);
+
+// The lists dealt out in turn, so that every worker gets its share of each part of the image.
+PixelLists dealOut(const PixelLists& lists, std::size_t workers);
+
+// Kernels read whole vectors of pixels: room for what they read beyond a list's end.
+void padForVectors(PixelLists& lists);
 
 // Pixels that are traced together, in lists: for workers that take one list after the other, and
 // dealt out to all of them at once.
@@ -23,9 +34,6 @@ struct PixelWork {
 
 class Scheduler {
  public:
-  // Who looks on at the list of this number; null: nobody. Watched frames go tile by tile.
-  using Watch = std::function<StageObserver*(std::size_t list)>;
-
   explicit Scheduler(int threads) : pool_(threads), threads_(threads) {}
 
   // Tiles, batches and tracers for frames of `window`, unless they are there already. The plan must
@@ -40,10 +48,7 @@ class Scheduler {
   // The lists for workers, dealt out for batches where these are asked for.
   PixelWork workOf(PixelLists lists) const;
 
-  FrameStats trace(const Frame& frame, const PixelWork& work, const Watch& watch = {});
-  // All tiles, by as many workers as there are observers: each looks on at one. No more of them
-  // than workers.
-  FrameStats observe(const Frame& frame, std::span<StageObserver* const> observers);
+  FrameStats trace(const Frame& frame, const PixelWork& work);
   // task(first row, last row) of the window for each worker; the time is updateImage's.
   FrameStats forRows(const std::function<void(int, int)>& task);
 
@@ -53,7 +58,7 @@ class Scheduler {
   std::size_t bytes() const;
 
  private:
-  FrameStats traceTiles(const Frame& frame, const PixelLists& lists, const Watch& watch);
+  FrameStats traceTiles(const Frame& frame, const PixelLists& lists);
   FrameStats traceBatches(const Frame& frame, const PixelLists& lists);
   FrameStats forWorkers(const std::function<void(std::size_t worker, FrameStats& stats)>& task);
 

@@ -1,12 +1,81 @@
 #include "render/tile_tracer.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include "core/pixel.h"
-#include "render/contract_check.h"
 #include "render/update_image.h"
 
 namespace whit {
+
+namespace {
+
+#ifndef NDEBUG
+
+// The first steps of a process are checked, and then one in so many: enough to meet every kind, few
+// enough to cost little.
+constexpr std::uint64_t kFirstChecks = 200, kInterval = 97;
+
+constexpr std::array kChecked{Part::rays,     Part::hits,          Part::surfels,
+                              Part::radiance, Part::unshadowed,    Part::shadows,
+                              Part::children, Part::parentRadiance};
+
+template <typename Columns>
+std::uint64_t sumOf(const Columns& columns, std::size_t n) {
+  std::uint64_t sum = 0xcbf29ce484222325u;  // FNV-1a, a word at a time
+  Columns::forEachColumn(columns, [&](const char*, const auto* column, Feature) {
+    for (std::size_t i = 0; column && i < n; ++i) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, column + i, sizeof word);
+      sum = (sum ^ word) * 0x100000001b3u;
+    }
+  });
+  return sum;
+}
+
+// A checksum of what each part holds; of children, those that were there before the step.
+using Sums = std::array<std::uint64_t, kChecked.size()>;
+Sums sumsOf(const Chunk& c) {
+  return {sumOf(c.rays, c.n),
+          sumOf(c.hits, c.n),
+          sumOf(c.surfels, c.n),
+          sumOf(c.radiance, c.n),
+          sumOf(c.unshadowed, c.n),
+          sumOf(c.shadows, c.shadowCount),
+          sumOf(c.children, c.childCount),
+          c.depth > 0 ? sumOf(c.parentRadiance, 1) : 0};
+}
+
+#endif
+
+// Runs the step. Builds without NDEBUG hold it to its contract (stages/contract.h): a step that
+// writes into a part of its chunk that it does not name ends the program with a message.
+void runChecked(const Step& step, Chunk& chunk) {
+#ifdef NDEBUG
+  step.run(chunk);
+#else
+  static std::atomic<std::uint64_t> steps{0};
+  const std::uint64_t number = steps++;
+  const bool checks = number < kFirstChecks || number % kInterval == 0;
+  const Chunk start = chunk;  // the columns are shared
+  const Sums before = checks ? sumsOf(start) : Sums();
+  step.run(chunk);
+  const Sums after = checks ? sumsOf(start) : Sums();
+  for (std::size_t i = 0; i < kChecked.size(); ++i) {
+    const bool appends = kChecked[i] == Part::children;
+    if (after[i] == before[i] || (step.writes.has(kChecked[i]) && !appends)) continue;
+    std::fprintf(stderr, "step %s has written into part %d, which its contract does not name\n",
+                 step.name.c_str(), static_cast<int>(kChecked[i]));
+    std::abort();
+  }
+#endif
+}
+
+}  // namespace
 
 TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
     : plan_(plan), work_(plan, capacity) {}
@@ -159,10 +228,7 @@ void TileTracer::runSteps(const std::vector<Step>& steps, const Watch& watch) {
 void TileTracer::run(const Step& step, FrameStats& stats) {
   if (!step.runsFor(chunk_.materialFlags)) return;
   const std::size_t children = chunk_.childCount;
-  {
-    const ContractCheck check(step, chunk_);
-    step.run(chunk_);
-  }
+  runChecked(step, chunk_);
   ++stats.stepCalls[step.number];
   Workspace::noteChildren(step.childKind, children, chunk_);
 }

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "render/frame.h"
-#include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/workspace.h"
 

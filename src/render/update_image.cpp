@@ -1,11 +1,16 @@
 #include "render/update_image.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
+#include "bake/scene.h"
+#include "bake/sphere.h"
 #include "core/display.h"
 #include "core/pixel.h"
 #include "core/srgb.h"
-#include "render/film.h"
+#include "render/frame.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -27,6 +32,66 @@ void keepAsCodes(const Chunk& c) {
     radiance.g[i] = linearOfCode(static_cast<int>(codes[i] >> 8 & 0xFFu));
     radiance.b[i] = linearOfCode(static_cast<int>(codes[i] >> 16 & 0xFFu));
   }
+}
+
+// True if this chunk belongs to the sample whose channels are stored.
+bool isKept(const Chunk& c) {
+  const ChannelTarget& target = c.frame->channels;
+  return target.layers && target.sample == c.sampleNumber;
+}
+
+// keep(slot, pixel of the layers) for the slots of a chunk of depth 0 whose pixels are in the
+// window.
+template <typename Keep>
+void forEachKept(const Chunk& c, Keep&& keep) {
+  const Crop& w = c.frame->channels.window;
+  const auto width = static_cast<std::size_t>(w.x1 - w.x0);
+  for (std::size_t i = 0; i < c.n; ++i) {
+    const std::uint32_t pixel = c.pixels[c.first + i];
+    const int x = pixelX(pixel), y = pixelY(pixel);
+    if (x < w.x0 || x >= w.x1 || y < w.y0 || y >= w.y1) continue;
+    keep(i, static_cast<std::size_t>(y - w.y0) * width + static_cast<std::size_t>(x - w.x0));
+  }
+}
+
+Vec2f uvAt(const Scene& scene, std::uint32_t triangle, double u, double v) {
+  if (scene.isSphere(triangle)) {
+    const std::array<double, 2> uv = sphereUv(spherePoint(u, v));
+    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
+  }
+  const float* const uvs = scene.uvsOf(triangle, false);
+  const auto at = [&](std::size_t i) {
+    return static_cast<float>((1 - u - v) * double{uvs[i]} + u * double{uvs[i + 2]} +
+                              v * double{uvs[i + 4]});
+  };
+  return {at(0), at(1)};
+}
+
+ChannelValues valuesOf(const Chunk& c, std::size_t i) {
+  ChannelValues values;
+  const SurfelColumns& s = c.surfels;
+  if (s.material[i] == kMiss) return values;
+  const Scene& scene = *c.frame->scene;
+  const Vec3f forward(c.frame->camera.forward);
+  values.distance = c.hits.t[i];
+  values.z = values.distance *
+             (c.rays.dirX[i] * forward.x + c.rays.dirY[i] * forward.y + c.rays.dirZ[i] * forward.z);
+  values.position = {s.posX[i], s.posY[i], s.posZ[i]};
+  values.normal = {s.nsX[i], s.nsY[i], s.nsZ[i]};
+  values.albedo = {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]};
+  values.material = s.material[i];
+  const ChannelSet kept = c.frame->channels.layers->channels();
+  const std::uint32_t triangle = c.hits.triangle[i];
+  if (kept.has(Channel::uv)) {
+    values.uv = uvAt(scene, triangle, double{c.hits.u[i]}, double{c.hits.v[i]});
+  }
+  if (kept.has(Channel::object) || kept.has(Channel::triangle)) {
+    const std::uint32_t instance = c.has(Feature::instances) ? c.hits.instance[i] : kNoInstance;
+    const Scene::MetNumbers numbers = scene.numbersOf(triangle, instance);
+    values.object = numbers.item;
+    values.triangle = numbers.triangle;
+  }
+  return values;
 }
 
 }  // namespace
@@ -65,6 +130,29 @@ std::uint64_t countNonFinite(const Chunk& c) {
   // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
   for (std::size_t i = 0; i < c.n; ++i) count += !std::isfinite(r[i] + g[i] + b[i]);
   return count;
+}
+
+void keepChannels(Chunk& c) {
+  if (c.depth > 0 || !isKept(c)) return;
+  forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
+    c.frame->channels.layers->keep(pixel, valuesOf(c, slot));
+  });
+}
+
+void countRays(Chunk& c) { std::fill_n(c.rayCounts, c.n, 1u); }
+
+void countShadowRays(Chunk& c) {
+  for (std::size_t i = 0; i < c.shadowCount; ++i) ++c.rayCounts[c.shadows.slot[i]];
+}
+
+void returnRayCounts(Chunk& c) {
+  for (std::size_t i = 0; i < c.n; ++i) c.parentRayCounts[c.rays.parent[i]] += c.rayCounts[i];
+}
+
+void keepRayCounts(Chunk& c) {
+  if (!isKept(c)) return;
+  const std::span<std::uint32_t> rays = c.frame->channels.layers->numbers(Channel::rays);
+  forEachKept(c, [&](std::size_t slot, std::size_t pixel) { rays[pixel] = c.rayCounts[slot]; });
 }
 
 }  // namespace whit

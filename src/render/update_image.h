@@ -1,4 +1,4 @@
-// The last stage: radiance of a tile's pixels to the film.
+// Steps that write to the film: the last stage, and those that store channels (--channels).
 #pragma once
 
 #include "stages/chunk.h"
@@ -14,5 +14,15 @@ void encodeForDisplay(Chunk& c);
 
 // Pixels of the chunk that are not finite.
 std::uint64_t countNonFinite(const Chunk& c);
+
+// Stores all channels of the surfels of depth 0 except the ray counts.
+void keepChannels(Chunk& c);
+
+// Rays are counted where they are traced, and the counts follow the way of the radiance: each ray
+// is one, with its shadow rays and all that its children bring back.
+void countRays(Chunk& c);
+void countShadowRays(Chunk& c);  // of the light in hand
+void returnRayCounts(Chunk& c);  // to the parents
+void keepRayCounts(Chunk& c);
 
 }  // namespace whit

@@ -1,5 +1,5 @@
 // The parts of a chunk that a step reads and writes. Builds without NDEBUG check that steps keep to
-// it (render/contract_check.h), and plans are checked for steps that read a part which no earlier
+// it (render/tile_tracer.cpp), and plans are checked for steps that read a part which no earlier
 // step has written.
 #pragma once
 

@@ -1,5 +1,5 @@
 // HDR-FLIP against values worked out from the paper's definition.
-#include "inspect/hdr_flip.h"
+#include "inspect/flip.h"
 
 #include <gtest/gtest.h>
 

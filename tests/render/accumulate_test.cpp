@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/pipeline_laws.h"
-#include "render/sample_sums.h"
+#include "render/renderer.h"
 
 namespace whit::test {
 namespace {

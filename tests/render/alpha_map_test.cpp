@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "accel/alpha_map.h"
+#include "accel/alpha_filter.h"
 #include "render/wrapped_texel.h"
 
 namespace whit::test {

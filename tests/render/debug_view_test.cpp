@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/display.h"
-#include "inspect/debug_view.h"
+#include "render/debug_frame.h"
 #include "shipped_scene.h"
 
 namespace whit::test {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "render/film.h"
+#include "render/frame.h"
 #include "shipped_scene.h"
 #include "simd/deform_vertices.h"
 #include "verify/scene_builder.h"

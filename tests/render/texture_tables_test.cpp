@@ -1,6 +1,4 @@
 // Texels in tiles: each footprint is where the kernels look for it.
-#include "render/texture_tables.h"
-
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/small_scenes.h"
-#include "render/render_frame.h"
+#include "render/renderer.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {

@@ -5,7 +5,7 @@
 
 #include "cli/run_program.h"
 #include "viewer/frame_tracer.h"
-#include "viewer/overlay.h"
+#include "viewer/panel.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

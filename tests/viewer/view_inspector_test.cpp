@@ -1,7 +1,7 @@
 // What is said about the pixel under the pointer.
 #include <gtest/gtest.h>
 
-#include "viewer/overlay.h"
+#include "viewer/panel.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

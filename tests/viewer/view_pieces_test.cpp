@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
+#include "render/debug_frame.h"
 #include "viewer/frame_tracer.h"
 
 namespace whit::view {
@@ -36,7 +37,8 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     options.spp = request_.spp;
     Renderer renderer(scene_->scene, options);
     Film film = makeFilm(scene_->scene, options);
-    const DebugFrame whole = renderDebugView(renderer, request_.camera, film, request_.view);
+    const test::DebugFrame whole =
+        test::renderDebugView(renderer, request_.camera, film, request_.view);
     EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
     ASSERT_TRUE(frame.watched);
     ASSERT_EQ(frame.watched->size(), whole.pixels.size());

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render_thread_fixture.h"
-#include "viewer/ray_panel.h"
+#include "viewer/panel.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

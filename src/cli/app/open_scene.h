@@ -10,7 +10,7 @@
 #include "bake/scene.h"
 #include "cli/app/parse_options.h"
 #include "core/warnings.h"
-#include "render/render_frame.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 

@@ -1,4 +1,7 @@
-#include "render/frame_setup.h"
+#include "render/frame.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -76,6 +79,34 @@ void refuseNonFinite(const Scene& scene, const RenderOptions& options, const Fra
   throw Error(ExitStatus::badScene, scene.name + ": the image has " +
                                         std::to_string(frame.nonFinitePixels) +
                                         " pixels that are not finite (refused by --strict)");
+}
+
+void FrameStats::add(const FrameStats& worker) {
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    stageWorkerMs[i] += worker.stageWorkerMs[i];
+    stageCalls[i] += worker.stageCalls[i];
+  }
+  for (std::size_t i = 0; i < stepCalls.size(); ++i) stepCalls[i] += worker.stepCalls[i];
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    meter.tally[i].rays += worker.meter.tally[i].rays;
+    meter.tally[i].lanes += worker.meter.tally[i].lanes;
+  }
+  meter.shadows.lit += worker.meter.shadows.lit;
+  meter.shadows.dark += worker.meter.shadows.dark;
+  if (!meter.wrongShadow) meter.wrongShadow = worker.meter.wrongShadow;
+  meter.embreeMs += worker.meter.embreeMs;
+  nonFinitePixels += worker.nonFinitePixels;
+}
+
+double SampleSums::relativeError(int samples) const {
+  const double n = samples;
+  double errors = 0, radiance = 0;
+  for (const SampleSum& sum : sums_) {
+    const double mean = (sum.total.x + sum.total.y + sum.total.z) / (3 * n);
+    errors += std::sqrt(std::max(sum.squares / n - mean * mean, 0.0) / (n - 1));
+    radiance += mean;
+  }
+  return radiance > 0 ? errors / radiance : 0;
 }
 
 }  // namespace whit
