@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <set>
 
-#include "io/scene/describe_scene.h"
-#include "io/scene/scene_view.h"
+#include "io/scene/scene_sections.h"
 #include "io/supply_view.h"
 #include "make/studio_sky.h"
 

@@ -8,15 +8,14 @@
 #include "cli/app/interrupt.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "core/nearest_name.h"
 #include "core/option_table.h"
 #include "io/atomic_file.h"
 #include "io/model.h"
 #include "io/paths.h"
 #include "io/read_file.h"
-#include "io/scene/describe_scene.h"
-#include "io/scene/distinct_names.h"
+#include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
-#include "io/scene/scene_view.h"
 #include "scene/members.h"
 
 namespace whit::view {

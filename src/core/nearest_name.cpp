@@ -1,7 +1,9 @@
 #include "core/nearest_name.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -57,6 +59,20 @@ std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
     indices.push_back(static_cast<std::size_t>(found - names.begin()));
   }
   return indices;
+}
+
+std::vector<std::string> distinctNames(const std::vector<std::string>& names) {
+  std::set<std::string> taken(names.begin(), names.end());
+  std::map<std::string, int> uses;
+  std::vector<std::string> distinct;
+  for (const std::string& given : names) {
+    std::string name = given;
+    int& use = uses[given];
+    while (++use > 1 && !taken.insert(name = given + "#" + std::to_string(use)).second) {
+    }
+    distinct.push_back(name);
+  }
+  return distinct;
 }
 
 }  // namespace whit

@@ -20,6 +20,9 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
                                    const std::vector<std::string>& names, const std::string& kind);
 
+// The names, with a number after those that are taken: "lamp", "lamp#2".
+std::vector<std::string> distinctNames(const std::vector<std::string>& names);
+
 // The names of a table whose rows have a member `name`.
 template <typename Table>
 std::vector<std::string> namesIn(const Table& table) {

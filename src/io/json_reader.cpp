@@ -17,7 +17,7 @@ std::string inQuotes(const std::string& text) { return "\"" + text + "\""; }
 
 // A pointer may be as long as a file's longest key.
 std::string placeInJson(const std::string& file, const std::string& pointer) {
-  constexpr std::size_t kShown = 300;
+  constexpr std::size_t kShown = 120;
   return file + "#" + (pointer.size() > kShown ? pointer.substr(0, kShown) + "..." : pointer);
 }
 
@@ -145,6 +145,11 @@ Json parseJson(const std::string& text, const std::string& file) {
   }
 }
 
+std::string isMeant(const std::string& word, const std::vector<std::string>& names) {
+  const std::string nearest = nearestName(word, names);
+  return nearest.empty() ? "" : " (is " + inQuotes(nearest) + " meant?)";
+}
+
 std::string escapePointer(const std::string& token) {
   std::string result;
   for (const char c : token) {
@@ -193,18 +198,16 @@ double JsonValue::expression(const std::string& text) const {
   const auto parameter = document_->parameters.find(name);
   if (parameter == document_->parameters.end()) {
     std::vector<std::string> names;
-    for (const auto& [known, value] : document_->parameters) names.push_back(known);
-    const std::string nearest = nearestName(name, names);
-    std::string more = names.empty() ? "; the scene has no parameters" : "";
-    if (!nearest.empty()) more = " (is " + inQuotes("$" + nearest) + " meant?)";
-    fail("a number or a parameter" + more);
+    for (const auto& [known, value] : document_->parameters) names.push_back("$" + known);
+    fail("a number or a parameter" +
+         (names.empty() ? "; the scene has no parameters" : isMeant(text.substr(0, sign), names)));
   }
   if (sign == text.size()) return parameter->second;
   char* rest = nullptr;
   const std::string factorText = text.substr(sign + 1);
   const double factor = std::strtod(factorText.c_str(), &rest);
   if (factorText.empty() || *rest != '\0') {
-    fail("\"$" + name + "\", \"$" + name + "*0.5\" or \"$" + name + "/2\"");
+    fail("a parameter such as \"$a\", \"$a*0.5\" or \"$a/2\"");
   }
   return text[sign] == '*' ? parameter->second * factor : parameter->second / factor;
 }
@@ -245,9 +248,7 @@ std::string JsonValue::word(const std::vector<std::string>& choices) const {
   }
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
-  std::string nearest = isText() ? nearestName(text(), choices) : "";
-  if (!nearest.empty()) nearest = " (is " + inQuotes(nearest) + " meant?)";
-  fail("one of " + list + nearest);
+  fail("one of " + list + (isText() ? isMeant(text(), choices) : ""));
 }
 
 Vec3d JsonValue::vector() const {
@@ -379,10 +380,7 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    const std::string nearest = nearestName(key, known_);
-    throwBadScene(value.where(),
-                  "unknown key" +
-                      (nearest.empty() ? std::string() : "; is " + inQuotes(nearest) + " meant?"));
+    throwBadScene(value.where(), "unknown key" + isMeant(key, known_));
   }
 }
 

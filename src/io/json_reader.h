@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/nearest_name.h"
 #include "core/vec3.h"
 #include "scene/members.h"
 
@@ -30,6 +29,9 @@ inline constexpr std::uint64_t kLargestJsonWhole = std::uint64_t{1} << 53;
 // "file#/pointer" for a key that is given twice, nesting deeper than kJsonDepthLimit or a number
 // beyond double.
 Json parseJson(const std::string& text, const std::string& file);
+
+// " (is "NAME" meant?)" for the end of an expectation; empty if no name is near.
+std::string isMeant(const std::string& word, const std::vector<std::string>& names);
 
 // `token` as a part of a JSON pointer (RFC 6901, section 3).
 std::string escapePointer(const std::string& token);
@@ -131,11 +133,8 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
   const auto found = entries.find(name.text());
   if (found != entries.end()) return found;
   std::vector<std::string> names;
-  names.reserve(entries.size());
   for (const auto& [known, entry] : entries) names.push_back(known);
-  const std::string nearest = nearestName(name.text(), names);
-  name.fail("the name of " + kind +
-            (nearest.empty() ? std::string() : " (is \"" + nearest + "\" meant?)"));
+  name.fail("the name of " + kind + isMeant(name.text(), names));
 }
 
 template <typename Noun, typename Value>

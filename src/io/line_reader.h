@@ -20,12 +20,17 @@ class LineReader {
   // reader.
   LineReader(const std::string& text, const std::string& file, std::size_t start = 0,
              std::uint64_t line = 1)
-      : at_(text.data() + start), end_(text.data() + text.size()), file_(file), line_(line) {}
+      : text_(text),
+        at_(text.data() + start),
+        end_(text.data() + text.size()),
+        file_(file),
+        line_(line) {}
 
   bool done() const { return at_ == end_; }
   void nextLine();
   std::string place() const { return file_ + ":" + std::to_string(line_); }
   std::uint64_t line() const { return line_; }
+  std::size_t at() const { return static_cast<std::size_t>(at_ - text_.data()); }
 
   // All of the following read within the current line. True if there is another word before the end
   // of the line or a comment.
@@ -51,6 +56,7 @@ class LineReader {
   bool isWordEnd(const char* p) const;
   void skipBlanks();
 
+  const std::string& text_;
   const char* at_;
   const char* end_;  // the text's final '\0'
   const std::string& file_;

@@ -12,10 +12,8 @@
 #include "io/paths.h"
 #include "io/read_file.h"
 #include "io/scene/scene_context.h"
-#include "io/scene/scene_items.h"
-#include "io/scene/scene_materials.h"
+#include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
-#include "io/scene/scene_view.h"
 #include "io/supply_view.h"
 #include "make/shapes/generators.h"
 #include "scene/generation_limit.h"
@@ -48,9 +46,7 @@ void readParameters(JsonObject& file, const std::map<std::string, double>& given
   for (const auto& [name, value] : given) {
     const auto known = document.parameters.find(name);
     if (known == document.parameters.end()) {
-      const std::string nearest = nearestName(name, names);
-      throwUsage(document.file + " has no parameter \"" + name + "\"" +
-                 (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
+      throwUsage(document.file + " has no parameter '" + name + "'" + didYouMean(name, names));
     }
     if (!(std::abs(value) <= kLargestNumber)) {
       throwUsage("parameter \"" + name + "\" is beyond what a scene can hold");
@@ -103,9 +99,8 @@ void settleInstant(const Instant& instant, SceneDescription& scene) {
   for (const Animation& animation : scene.animations) names.push_back(animation.name);
   const bool known = std::find(names.begin(), names.end(), instant.animation) != names.end();
   if (!instant.animation.empty() && !known) {
-    const std::string nearest = nearestName(instant.animation, names);
-    throwUsage(scene.name + " has no animation \"" + instant.animation + "\"" +
-               (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
+    throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
+               didYouMean(instant.animation, names));
   }
   scene.motion.seconds = instant.seconds.value_or(0);
   if (instant.seconds && scene.cameraPath.empty() && names.empty()) {
@@ -157,7 +152,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   const std::optional<double> fromSky = readAmbient(file, context.scene);
   replaceSky(context);
   MaterialReader materials(file, context);
-  ItemReader(context, materials).read(file);
+  readItems(file, context, materials);
   materials.checkUnused();
   file.finish();
   settleInstant(options.instant, context.scene);
@@ -199,7 +194,7 @@ SceneDescription atRest(const fs::path& path, LoadOptions options) {
   JsonDocument nothing{path.string(), Json::object(), {}};
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(nothing)};
   MaterialReader materials(noMaterials, context);
-  ItemReader(context, materials).readModelAlone(file, path);
+  readModelAlone(file, path, context, materials);
   return std::move(context.scene);
 }
 
@@ -218,7 +213,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   }
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
-  ItemReader(context, materials).readModelAlone(file, path);
+  readModelAlone(file, path, context, materials);
   settleInstant(options.instant, context.scene);
   if (options.instant.moves()) {
     supplyView(context, atRest(path, options));

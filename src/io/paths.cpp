@@ -151,10 +151,9 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
     if (fs::is_regular_file(candidate, error)) return candidate;
   }
   const std::vector<std::string> names = shippedNames(folders);
-  const std::string nearest = nearestName(file, names);
-  std::string more = names.empty() ? " (no scenes found; is $WHIT_SCENES set?)" : "";
-  if (!nearest.empty()) more = "; did you mean \"" + nearest + "\"?";
-  throwUsage("no scene is called \"" + file + "\"" + more);
+  throwUsage(
+      "no scene is called '" + file + "'" +
+      (names.empty() ? " (no scenes found; is $WHIT_SCENES set?)" : didYouMean(file, names)));
 }
 
 std::vector<fs::path> shippedScenes() {

@@ -66,7 +66,7 @@ void replaceSky(SceneContext& context) {
   if (context.sky == kStudio || context.sky == kNoSky) return;
   sky.kind = Sky::Kind::image;
   sky.name = context.sky;
-  context.textures.addEnvironment(context.sky, sky.image);
+  context.textures.addEnvironment(context.sky, "--sky", sky.image);
 }
 
 Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings) {

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "io/image/texture_from_image.h"
+#include "io/read_file.h"
+#include "scene/members.h"
 
 namespace whit {
 namespace {
@@ -15,27 +17,21 @@ std::uint64_t texelsOf(const RawImage& raw) {
 }
 
 // Returns nothing if the image has no such texture.
-std::optional<Texture> makeUse(const std::string& name, const RawImage& raw, TextureUse use,
-                               const TextureSource& source, Warnings& warnings) {
-  switch (use) {
-    case TextureUse::color:
-      warnOfClampedColors(name, raw, warnings);
-      return makeTexture(name, raw, TexelFormat::color);
-    case TextureUse::emission:
-      return makeEmissionTexture(name, raw, warnings);
-    case TextureUse::data:
-      return makeTexture(name, raw, TexelFormat::data);
-    case TextureUse::bump:
-      if (!looksLikeHeights(raw)) return makeTexture(name, raw, TexelFormat::data);
-      return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
-    case TextureUse::mask:
-      return hasTranslucentAlpha(raw) ? makeTexture(name, alphaOf(raw), TexelFormat::data)
-                                      : makeTexture(name, raw, TexelFormat::data);
-    case TextureUse::colorAlpha:
-      if (!hasTranslucentAlpha(raw)) return std::nullopt;
-      return makeTexture(name, alphaOf(raw), TexelFormat::data);
+std::optional<Texture> makeUse(const std::string& name, const RawImage& raw,
+                               const TextureSource& source, TextureUse use, Warnings& warnings) {
+  if (use == TextureUse::emission) return makeEmissionTexture(name, raw, warnings);
+  if (use == TextureUse::color) {
+    warnOfClampedColors(name, raw, warnings);
+    return makeTexture(name, raw, TexelFormat::color);
   }
-  return std::nullopt;
+  if (use == TextureUse::bump && looksLikeHeights(raw)) {
+    return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
+  }
+  if (use == TextureUse::mask || use == TextureUse::colorAlpha) {
+    if (hasTranslucentAlpha(raw)) return makeTexture(name, alphaOf(raw), TexelFormat::data);
+    if (use == TextureUse::colorAlpha) return std::nullopt;
+  }
+  return makeTexture(name, raw, TexelFormat::data);
 }
 
 }  // namespace
@@ -46,49 +42,42 @@ TextureLoader::TextureLoader(int threads, MemoryBudget& budget, Warnings& warnin
 
 std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
                                              const std::vector<TextureUse>& uses) {
-  std::vector<std::int32_t> slots, newSlots;
-  std::vector<TextureUse> newUses;
+  std::vector<std::int32_t> slots;
+  std::vector<std::pair<TextureUse, std::optional<Texture>*>> targets;
   for (TextureUse use : uses) {
     if (use == TextureUse::emission && !holdsRadiance(source.path)) use = TextureUse::color;
     const Key key{source.path, use, source.wrapU, source.wrapV,
                   use == TextureUse::bump ? source.bumpScale : 1.0f};
     const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
     slots.push_back(entry->second);
-    if (!isNew) continue;
-    slots_.emplace_back();
-    newSlots.push_back(entry->second);
-    newUses.push_back(use);
+    if (isNew) targets.emplace_back(use, &slots_.emplace_back());
   }
-  if (!newUses.empty()) {
-    std::vector<std::optional<Texture>*> targets;
-    targets.reserve(newSlots.size());
-    for (const std::int32_t slot : newSlots) {
-      targets.push_back(&slots_[static_cast<std::size_t>(slot)]);
+  if (targets.empty()) return slots;
+  queue_.add([this, source, targets] {
+    RawImage raw;
+    try {
+      raw = readNamedAt(source.lenient ? "" : source.where,
+                        [&] { return readRawImage(source.path, limits(), warnings_); });
+    } catch (const Error& error) {
+      if (!source.lenient || error.status() == ExitStatus::limit) throw;
+      warnings_.add("texture left out", source.where + ": " + error.what());
+      return;
     }
-    queue_.add([this, source, newUses, targets] { decode(source, newUses, targets); });
-  }
+    const std::string name = std::filesystem::path(source.path).filename().string();
+    for (const auto& [use, target] : targets) *target = make(name, raw, source, use);
+  });
   return slots;
 }
 
 std::int32_t TextureLoader::add(const GivenImage& image, const TextureSource& source,
                                 TextureUse use) {
   const auto slot = static_cast<std::int32_t>(slots_.size());
-  std::optional<Texture>* const target = &slots_.emplace_back();
-  queue_.add([this, &image, source, use, target] {
+  queue_.add([this, &image, source, use, target = &slots_.emplace_back()] {
     const std::uint64_t bytes = image.codes.size_bytes() + image.values.size_bytes();
     const MemoryHold copy(&budget_, 1, bytes, source.where);
-    const RawImage raw = imageOf(image, source.where);
-    *target = make(source.where, raw, use, source);
+    *target = make(source.where, imageOf(image, source.where), source, use);
   });
   return slot;
-}
-
-std::int32_t TextureLoader::add(std::function<Texture()> make) {
-  return add(1, [make = std::move(make)] {
-    std::vector<std::optional<Texture>> made;
-    made.emplace_back(make());
-    return made;
-  })[0];
 }
 
 std::vector<std::int32_t> TextureLoader::add(
@@ -114,9 +103,11 @@ void TextureLoader::whenDone(std::function<void(SceneDescription&)> change) {
   changes_.push_back(std::move(change));
 }
 
-void TextureLoader::addEnvironment(const std::string& path, EnvironmentImage& image) {
-  queue_.add([this, path, &image] {
-    const RawImage raw = read(path);
+void TextureLoader::addEnvironment(const std::string& path, const std::string& where,
+                                   EnvironmentImage& image) {
+  queue_.add([this, path, where, &image] {
+    const RawImage raw =
+        readNamedAt(where, [&] { return readRawImage(path, limits(), warnings_); });
     MemoryHold planes(&budget_, texelsOf(raw), 3 * sizeof(float), path);
     image = makeEnvironment(raw);
     planes.keep();
@@ -129,34 +120,13 @@ ImageLimits TextureLoader::limits() const {
   return limits;
 }
 
-MemoryHold TextureLoader::holdCopy(const RawImage& raw, TextureUse use) {
-  const bool copies = use == TextureUse::mask || use == TextureUse::colorAlpha;
-  return {&budget_, copies ? texelsOf(raw) : 0, raw.linear ? sizeof(float) : 1, "an alpha channel"};
-}
-
-RawImage TextureLoader::read(const std::string& path) {
-  return readRawImage(path, limits(), warnings_);
-}
-
-void TextureLoader::decode(const TextureSource& source, const std::vector<TextureUse>& uses,
-                           const std::vector<std::optional<Texture>*>& targets) {
-  RawImage raw;
-  try {
-    raw = read(source.path);
-  } catch (const Error& error) {
-    if (!source.lenient || error.status() == ExitStatus::limit) throw;
-    warnings_.add("texture left out", source.where + ": " + error.what());
-    return;
-  }
-  const std::string name = std::filesystem::path(source.path).filename().string();
-  for (std::size_t i = 0; i < uses.size(); ++i) *targets[i] = make(name, raw, uses[i], source);
-}
-
 std::optional<Texture> TextureLoader::make(const std::string& name, const RawImage& raw,
-                                           TextureUse use, const TextureSource& source) {
+                                           const TextureSource& source, TextureUse use) {
   MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), name);
-  const MemoryHold copy = holdCopy(raw, use);
-  std::optional<Texture> texture = makeUse(name, raw, use, source, warnings_);
+  const bool copies = use == TextureUse::mask || use == TextureUse::colorAlpha;
+  const MemoryHold copy(&budget_, copies ? texelsOf(raw) : 0, raw.linear ? sizeof(float) : 1,
+                        "an alpha channel");
+  std::optional<Texture> texture = makeUse(name, raw, source, use, warnings_);
   if (!texture) return texture;
   texels.keep();
   texture->wrapU = source.wrapU;
@@ -170,23 +140,17 @@ void TextureLoader::finish(SceneDescription& scene) {
   // Unused slots are dropped: a color without alpha leaves an empty one, and an override may have
   // replaced a map.
   std::vector<std::int32_t> number(slots_.size(), kNoTexture);
-  const auto renumber = [&](std::int32_t& map) {
-    if (map == kNoTexture) return;
-    const std::size_t slot = static_cast<std::size_t>(map);
-    if (number[slot] == kNoTexture && slots_[slot]) {
-      number[slot] = static_cast<std::int32_t>(scene.textures.size());
-      scene.textures.push_back(std::move(*slots_[slot]));
-    }
-    map = number[slot];
-  };
   for (Material& material : scene.materials) {
-    renumber(material.diffuseMap);
-    renumber(material.specularMap);
-    renumber(material.roughnessMap);
-    renumber(material.emissionMap);
-    renumber(material.normalMap);
-    renumber(material.alphaMap);
-    renumber(material.coverageMap);
+    forEachMap([&](const auto& member) {
+      std::int32_t& map = material.*member.field;
+      if (map == kNoTexture) return;
+      const std::size_t slot = static_cast<std::size_t>(map);
+      if (number[slot] == kNoTexture && slots_[slot]) {
+        number[slot] = static_cast<std::int32_t>(scene.textures.size());
+        scene.textures.push_back(std::move(*slots_[slot]));
+      }
+      map = number[slot];
+    });
   }
 }
 

@@ -38,13 +38,12 @@ class TextureLoader {
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
   // Adds an image of the calling program; `source` has no path.
   std::int32_t add(const GivenImage& image, const TextureSource& source, TextureUse use);
-  // Adds a texture that `make` computes on a worker.
-  std::int32_t add(std::function<Texture()> make);
-  // Adds `count` textures that `make` computes; some of them may be empty.
+  // Adds `count` textures that `make` computes on a worker; some of them may be empty.
   std::vector<std::int32_t> add(std::size_t count,
                                 std::function<std::vector<std::optional<Texture>>()> make);
-  // Decodes the equirectangular map at `path` to `image`, which is ready after finish().
-  void addEnvironment(const std::string& path, EnvironmentImage& image);
+  // Decodes the equirectangular map at `path`, which `where` names, to `image`; it is ready after
+  // finish().
+  void addEnvironment(const std::string& path, const std::string& where, EnvironmentImage& image);
   // finish() calls `change` when all textures are decoded, before it numbers them.
   void whenDone(std::function<void(SceneDescription&)> change);
   // The limits of images, with the budget that textures are charged to.
@@ -57,12 +56,8 @@ class TextureLoader {
  private:
   using Key = std::tuple<std::string, TextureUse, Wrap, Wrap, float>;
 
-  void decode(const TextureSource& source, const std::vector<TextureUse>& uses,
-              const std::vector<std::optional<Texture>*>& targets);
-  std::optional<Texture> make(const std::string& name, const RawImage& raw, TextureUse use,
-                              const TextureSource& source);
-  RawImage read(const std::string& path);
-  MemoryHold holdCopy(const RawImage& raw, TextureUse use);  // for a copy of the alpha channel
+  std::optional<Texture> make(const std::string& name, const RawImage& raw,
+                              const TextureSource& source, TextureUse use);
 
   MemoryBudget& budget_;
   Warnings& warnings_;

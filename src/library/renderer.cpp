@@ -8,7 +8,7 @@
 #include "core/option_table.h"
 #include "core/option_values.h"
 #include "io/image/image_layers.h"
-#include "io/scene/edit_scene.h"
+#include "io/scene/scene_settings.h"
 #include "library/internal.h"
 #include "render/auto_exposure.h"
 #include "render/renderer.h"

@@ -119,7 +119,7 @@ TEST(Motion, WrongUsageIsTold) {
   };
   refused({"render", moving, "-o", f, "--frames", "0..1", "--time", "1"}, "give one");
   refused({"render", moving, "-o", f, "--frames", "0..1", "--animation", "upp"},
-          "did you mean \"up\"?");
+          "did you mean 'up'?");
   std::ofstream(folder / "still.obj") << kTriangleObj;
   refused({"render", folder / "still.obj", "-o", folder / "m.png", "--time", "1"},
           "nothing moves in still");

@@ -19,7 +19,8 @@ TEST_F(ReadPng, WrongChecksumsAreRefused) {
   badData[static_cast<std::size_t>(endAt - whole.begin()) - 4 - 4] ^= 1;
   badEnd.back() ^= 1;
   EXPECT_EQ(errorOf("a.png", whole), "no error");
-  EXPECT_EQ(errorOf("a.png", badHeader), ": byte 33: not a valid PNG image (IHDR: CRC error)");
+  EXPECT_EQ(errorOf("a.png", badHeader),
+            ": byte 33: expected valid PNG data, found an error: IHDR: CRC error");
   EXPECT_NE(errorOf("a.png", badData).find("IDAT: CRC error"), std::string::npos)
       << errorOf("a.png", badData);
   EXPECT_NE(errorOf("a.png", badEnd).find("IEND: CRC error"), std::string::npos)

@@ -26,7 +26,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
     const char *what, *by, *error;
   };
   const Case cases[] = {
-      {"\"version\":\"2.0\"", "\"version\":\"1.0\"", "#/asset: expected glTF 2.0, found glTF 1.0"},
+      {"\"version\":\"2.0\"", "\"version\":\"1.0\"",
+       "#/asset/version: expected 2.0, found \"1.0\""},
       {"\"version\":\"2.0\"", "\"version\":\"3.0\"",
        "#/asset/version: expected 2.0, found \"3.0\""},
       {"\"asset\"", "\"assets\"", "#: expected a member \"asset\""},
@@ -121,7 +122,7 @@ TEST_F(GltfHostile, NodesThatAreNoTree) {
                        ",\"scenes\":[{\"nodes\":" + scene + "}]}");
   };
   EXPECT_EQ(error("[{\"children\":[0]}]", "[0]"),
-            "3 m.gltf#/nodes/0: expected a tree, found no node without a parent");
+            "3 m.gltf#/nodes/0: expected a tree, found this node twice");
   EXPECT_EQ(error("[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "[0]"),
             "3 m.gltf#/nodes/2/children: expected a tree, found node 1 with two parents");
   EXPECT_EQ(error("[{},{\"children\":[2]},{\"children\":[1]}]", "[1]"),
@@ -162,11 +163,12 @@ TEST_F(GltfHostile, BrokenContainers) {
       oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}"));
   const auto error = [&](std::string file) { return errorOf([&] { load(save("m.glb", file)); }); };
   EXPECT_EQ(error(whole), "no error");
-  EXPECT_EQ(error(whole.substr(0, 8)), "3 m.glb: the file ends within its header");
-  EXPECT_EQ(error(replaced(whole, "JSON", "TEXT")), "3 m.glb: expected JSON in the first chunk");
+  EXPECT_EQ(error(whole.substr(0, 8)), "3 m.glb: byte 0: expected a header of 12 bytes, found 8");
+  EXPECT_EQ(error(replaced(whole, "JSON", "TEXT")),
+            "3 m.glb: byte 16: expected a chunk of JSON first, found 1415071060");
   std::string old = whole;
   old[4] = 1;
-  EXPECT_EQ(error(old), "3 m.glb: expected glTF 2.0, found glTF 1.0");
+  EXPECT_EQ(error(old), "3 m.glb: byte 4: expected glTF 2, found 1");
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_EQ(error(whole.substr(0, size)).substr(0, 2), "3 ") << size;
   }

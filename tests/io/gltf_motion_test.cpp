@@ -92,7 +92,7 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   expectNear(movedCorner(at(2, text, "rise"), 0), {0, 1, 0}, kPoseRounding);
   expectNear(movedCorner(at(2, text, "animation 0"), 0), {1, 0, 0}, kPoseRounding);
   EXPECT_EQ(errorOf([&] { at(2, text, "rose"); }),
-            "2 m has no animation \"rose\"; did you mean \"rise\"?");
+            "2 m has no animation 'rose'; did you mean 'rise'?");
   options_.instant = {};
   const std::vector<Animation> all = loadText(text).animations;
   ASSERT_EQ(all.size(), 2u);

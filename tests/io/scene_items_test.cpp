@@ -171,7 +171,7 @@ TEST_F(SceneItems, MaterialsOfShapesAndTheirSlots) {
   EXPECT_EQ(scene.materials[scene.objects[1].meshes[0].material(0)].name, "green");  // leaves
   EXPECT_EQ(scene.materials[scene.objects[2].meshes[0].material(0)].name, "default");
   EXPECT_EQ(errorOfMembers(materials + ", \"materials\": {\"leafs\": \"green\"}}]"),
-            "3 s.json#/scene/0/materials/leafs: unknown slot of this shape; is \"leaves\" meant?");
+            "3 s.json#/scene/0/materials/leafs: unknown slot of this shape (is \"leaves\" meant?)");
   EXPECT_EQ(errorOfMembers("\"materials\": {\"red\": {}}, \"scene\": [{\"shape\": \"quad\", "
                            "\"material\": \"rad\"}]"),
             "3 s.json#/scene/0/material: expected the name of a material (is \"red\" meant?), "
@@ -215,9 +215,9 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   EXPECT_NE(other.diffuseMap, x.diffuseMap);
   EXPECT_EQ(other.specularMap, kNoTexture);  // Ks 0 stays 0
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"xx\": {}}}]"),
-            "3 s.json#/scene/0/materials/xx: unknown material of this model; is \"x\" meant?");
+            "3 s.json#/scene/0/materials/xx: unknown material of this model (is \"x\" meant?)");
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"x\": {\"difuse\": 1}}}]"),
-            "3 s.json#/scene/0/materials/x/difuse: unknown key; is \"diffuse\" meant?");
+            "3 s.json#/scene/0/materials/x/difuse: unknown key (is \"diffuse\" meant?)");
 }
 
 // Far deeper than any scene, in the order that is read by recursion and in the one that is not.

@@ -193,7 +193,7 @@ TEST_F(SceneMotionFile, MistakesAreNamed) {
             "3 s.json#/scene/0/motion/interpolation: expected one of \"linear\", \"step\", "
             "\"cubic\" (is \"cubic\" meant?), found \"cubik\"");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1}], \"looop\": true"),
-            "3 s.json#/scene/0/motion/looop: unknown key; is \"loop\" meant?");
+            "3 s.json#/scene/0/motion/looop: unknown key (is \"loop\" meant?)");
 }
 
 }  // namespace

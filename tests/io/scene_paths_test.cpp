@@ -87,7 +87,7 @@ TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {
 TEST_F(ScenePaths, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOf([&] { load(root_ + "none.json"); }), "4 cannot open none.json: no such file");
   EXPECT_EQ(errorOf([&] { load(root_ + "none.obj"); }), "4 cannot open none.obj: no such file");
-  EXPECT_EQ(errorOfModel("sub.obj"), "4 cannot open sub.obj: no such file");
+  EXPECT_EQ(errorOfModel("sub.obj"), "4 s.json#/scene/0/model: cannot open sub.obj: no such file");
   EXPECT_EQ(errorOfModel("sub"), "3 sub: expected a model (.glb, .gltf, .obj, .ply)");
   std::filesystem::create_directory(root_ + "folder.json");
   EXPECT_EQ(errorOf([&] { load(root_ + "folder.json"); }), "4 cannot read folder.json: not a file");
@@ -99,7 +99,7 @@ TEST_F(ScenePaths, ShippedScenesByName) {
   setenv("WHIT_SCENES", root_.c_str(), 1);
   EXPECT_EQ(load("hall").name, "hall");
   EXPECT_EQ(load("hall?w=9").width, 9);
-  EXPECT_EQ(errorOf([&] { load("hal"); }), "2 no scene is called \"hal\"; did you mean \"hall\"?");
+  EXPECT_EQ(errorOf([&] { load("hal"); }), "2 no scene is called 'hal'; did you mean 'hall'?");
 }
 
 }  // namespace

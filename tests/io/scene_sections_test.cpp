@@ -206,7 +206,7 @@ TEST_F(SceneSections, PatternsAndTheirErrors) {
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.textures[0].width, 16);
   EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\", \"collumns\": 4}}"),
-            "3 s.json#/textures/c/collumns: unknown key; is \"columns\" meant?");
+            "3 s.json#/textures/c/collumns: unknown key (is \"columns\" meant?)");
   EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\"}},"
                            "\"materials\": {\"m\": {\"normalMap\": \"c\"}}"),
             "3 s.json#/materials/m/normalMap: expected a texture that is read as data (this one is "

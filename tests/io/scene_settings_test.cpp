@@ -69,7 +69,7 @@ TEST_F(SceneSettings, ErrorsAreThoseOfTheFile) {
             0u);
   EXPECT_EQ(errorWith("/lihgts/0=1").find("3 s.json#/lihgts"), 0u);
   EXPECT_EQ(errorWith("/sky={\"colour\": 1}"),
-            "3 s.json#/sky/colour: unknown key; is \"color\" meant?");
+            "3 s.json#/sky/colour: unknown key (is \"color\" meant?)");
   EXPECT_EQ(errorWith("/lights/1/intensity=1"),
             "3 s.json#/lights/1: expected an index below 1, or - for a new element, found a list "
             "of 1");
@@ -102,7 +102,7 @@ TEST_F(SceneSettings, OfAModel) {
   EXPECT_EQ(scene.lights[0].radius, plain.lights[0].radius);
   EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
   EXPECT_EQ(errorOf([&] { modelWith({"/materials/bleu/mirror=0.5"}); }),
-            "3 m.obj#/materials/bleu: unknown material of this model; is \"blue\" meant?");
+            "3 m.obj#/materials/bleu: unknown material of this model (is \"blue\" meant?)");
   EXPECT_EQ(errorOf([&] { modelWith({"/camera=1"}); }).find("3 m.obj#/camera"), 0u);
 }
 

@@ -48,11 +48,11 @@ TEST_F(SceneSyntax, KeysGivenTwiceAreRefused) {
 }
 
 TEST_F(SceneSyntax, UnknownKeysNameTheNearest) {
-  EXPECT_EQ(errorOfMembers("\"sice\": [1, 1]"), "3 s.json#/sice: unknown key; is \"size\" meant?");
+  EXPECT_EQ(errorOfMembers("\"sice\": [1, 1]"), "3 s.json#/sice: unknown key (is \"size\" meant?)");
   EXPECT_EQ(errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,1], \"at\": [0,0,0], \"fow\": 4}}"),
-            "3 s.json#/cameras/a/fow: unknown key; is \"fov\" meant?");
+            "3 s.json#/cameras/a/fow: unknown key (is \"fov\" meant?)");
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"radiuss\": 2}]"),
-            "3 s.json#/scene/0/radiuss: unknown key; is \"radius\" meant?");
+            "3 s.json#/scene/0/radiuss: unknown key (is \"radius\" meant?)");
 }
 
 TEST_F(SceneSyntax, NeededKeysThatAreMisspeltAreNamed) {
@@ -65,18 +65,18 @@ TEST_F(SceneSyntax, NeededKeysThatAreMisspeltAreNamed) {
 // British spelling was a scene file's once. It is refused, never taken for a key that is not given.
 TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
   EXPECT_EQ(errorOfMembers("\"sky\": {\"colour\": 1}"),
-            "3 s.json#/sky/colour: unknown key; is \"color\" meant?");
+            "3 s.json#/sky/colour: unknown key (is \"color\" meant?)");
   EXPECT_EQ(errorOfMembers("\"ambient\": {\"colour\": 1}"),
-            "3 s.json#/ambient/colour: unknown key; is \"color\" meant?");
+            "3 s.json#/ambient/colour: unknown key (is \"color\" meant?)");
   for (const char* pattern : {"bricks", "tiles", "roof", "checker", "stripes", "fabric", "leaf",
                               "noise", "plaster", "marble", "wood"}) {
     const std::string start =
         std::string("\"textures\": {\"t\": {\"pattern\": \"") + pattern + "\", ";
     EXPECT_EQ(errorOfMembers(start + "\"colour\": [1, 0, 0]}}"),
-              "3 s.json#/textures/t/colour: unknown key; is \"color\" meant?")
+              "3 s.json#/textures/t/colour: unknown key (is \"color\" meant?)")
         << pattern;
     EXPECT_EQ(errorOfMembers(start + "\"colour2\": [1, 0, 0]}}"),
-              "3 s.json#/textures/t/colour2: unknown key; is \"color2\" meant?")
+              "3 s.json#/textures/t/colour2: unknown key (is \"color2\" meant?)")
         << pattern;
   }
   const std::string image = "\"textures\": {\"t\": {\"image\": \"t.png\", \"as\": \"colour\"}}";
@@ -137,12 +137,13 @@ TEST_F(SceneSyntax, ParametersAreCheckedWhereTheyAreUsed) {
             "3 s.json#/size/1: expected a number or a parameter (is \"$count\" meant?), found "
             "\"$cuont\"");
   EXPECT_EQ(errorOfMembers(scene + "\"$count*x\"]"),
-            "3 s.json#/size/1: expected \"$count\", \"$count*0.5\" or \"$count/2\", found "
+            "3 s.json#/size/1: expected a parameter such as \"$a\", \"$a*0.5\" or "
+            "\"$a/2\", found "
             "\"$count*x\"");
   EXPECT_EQ(errorOfMembers(scene + "\"$count/0\"]"),
             "3 s.json#/size/1: expected a number from -1e+18 to 1e+18, found \"$count/0\"");
   EXPECT_EQ(errorOf([&] { loadMembers("\"parameters\": {\"count\": 3}", "?cont=1"); }),
-            "2 s.json has no parameter \"cont\"; did you mean \"count\"?");
+            "2 s.json has no parameter 'cont'; did you mean 'count'?");
   EXPECT_EQ(
       errorOf([&] { loadMembers("\"parameters\": {\"count\": 3}", "?count=many"); }).substr(0, 2),
       "2 ");

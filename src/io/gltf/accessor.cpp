@@ -1,14 +1,11 @@
-#include "io/gltf/accessor.h"
-
+// Reads accessors of a glTF document. glTF 2.0 specification, section 3.6.2.
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <type_traits>
-#include <utility>
 
-#include "core/error.h"
+#include "io/gltf/document.h"
 
 namespace whit {
 namespace {
@@ -16,25 +13,6 @@ namespace {
 // An accessor without a buffer view consists of zeros, so that the size of the file does not limit
 // the number of its elements.
 constexpr std::uint64_t kZeroElementLimit = 1u << 24;
-
-// Values of componentType.
-enum GltfComponent : std::uint64_t {
-  kByte = 5120,
-  kUnsignedByte = 5121,
-  kShort = 5122,
-  kUnsignedShort = 5123,
-  kUnsignedInt = 5125,
-  kFloat = 5126
-};
-
-constexpr std::pair<std::string_view, std::size_t> kComponentsOfType[] = {
-    {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
-
-std::size_t componentsIn(std::string_view type) {
-  return std::find_if(std::begin(kComponentsOfType), std::end(kComponentsOfType),
-                      [&](const auto& known) { return known.first == type; })
-      ->second;
-}
 
 template <typename T>
 T loadAs(const std::uint8_t* from) {
@@ -56,51 +34,36 @@ float floatAt(const std::uint8_t* from, bool normalized) {
   }
 }
 
-float component(const std::uint8_t* from, std::uint64_t type, bool normalized) {
-  switch (type) {
-    case kByte:
-      return floatAt<std::int8_t>(from, normalized);
-    case kUnsignedByte:
-      return floatAt<std::uint8_t>(from, normalized);
-    case kShort:
-      return floatAt<std::int16_t>(from, normalized);
-    case kUnsignedShort:
-      return floatAt<std::uint16_t>(from, normalized);
-    case kUnsignedInt:
-      return floatAt<std::uint32_t>(from, normalized);
-    default:
-      return floatAt<float>(from, normalized);
-  }
+template <typename T>
+std::uint32_t indexAt(const std::uint8_t* from) {
+  return loadAs<T>(from);
 }
 
-std::uint32_t indexAt(const std::uint8_t* from, std::uint64_t type) {
-  if (type == kUnsignedByte) return *from;
-  if (type == kUnsignedShort) return loadAs<std::uint16_t>(from);
-  return loadAs<std::uint32_t>(from);
+struct ComponentType {
+  std::uint64_t code, bytes;
+  float (*value)(const std::uint8_t* from, bool normalized);
+  std::uint32_t (*index)(const std::uint8_t* from);  // null where it cannot be an index
+};
+constexpr ComponentType kComponentTypes[] = {
+    {5120, 1, floatAt<std::int8_t>, nullptr},
+    {5121, 1, floatAt<std::uint8_t>, indexAt<std::uint8_t>},
+    {5122, 2, floatAt<std::int16_t>, nullptr},
+    {5123, 2, floatAt<std::uint16_t>, indexAt<std::uint16_t>},
+    {5125, 4, floatAt<std::uint32_t>, indexAt<std::uint32_t>},
+    {5126, 4, floatAt<float>, nullptr}};
+
+const ComponentType& componentTypeOf(const JsonValue& code, bool forIndices = false) {
+  const std::uint64_t found = code.wholeOr(0);
+  for (const ComponentType& type : kComponentTypes) {
+    if (type.code == found && (type.index || !forIndices)) return type;
+  }
+  code.fail(forIndices ? "5121, 5123 or 5125" : "5120 to 5123, 5125 or 5126");
 }
 
-std::uint64_t bytesPerComponent(const JsonValue& componentType) {
-  switch (componentType.wholeOr(0)) {
-    case kByte:
-    case kUnsignedByte:
-      return 1;
-    case kShort:
-    case kUnsignedShort:
-      return 2;
-    case kUnsignedInt:
-    case kFloat:
-      return 4;
-    default:
-      componentType.fail("5120 to 5123, 5125 or 5126");
-  }
-}
-
-std::uint64_t indexTypeOf(const JsonValue& componentType) {
-  const std::uint64_t type = componentType.wholeOr(0);
-  if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt) {
-    componentType.fail("5121, 5123 or 5125");
-  }
-  return type;
+// The name of the type with so many components.
+const char* typeOf(std::size_t components) {
+  constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  return components > std::size(kTypes) ? "MAT4" : kTypes[components - 1];
 }
 
 // Equally spaced elements that are known to lie within their buffer view.
@@ -133,27 +96,23 @@ Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool s
 
 class AccessorReader {
  public:
-  AccessorReader(const GltfDocument& document, const JsonValue& accessor, std::string_view type,
-                 std::string_view expected)
+  AccessorReader(const GltfDocument& document, const JsonValue& accessor, std::size_t components,
+                 const std::string& expected)
       : document_(document),
         accessor_(accessor),
-        components_(componentsIn(type)),
-        size_(bytesPerComponent(accessor.need("componentType"))),
+        component_(componentTypeOf(accessor.need("componentType"))),
+        bytes_(component_.bytes * components),
         count_(accessor.need("count").wholeOr(0)),
-        componentType_(accessor["componentType"].wholeOr(0)),
         normalized_(accessor["normalized"].flagOr(false)) {
-    if (accessor.need("type").textOr("") != type) accessor["type"].fail(std::string(expected));
+    if (accessor.need("type").textOr("") != typeOf(components)) accessor["type"].fail(expected);
     if (accessor["bufferView"].exists()) {
-      dense_ = elementsWithin(document, accessor, true, size_ * components_, count_);
+      dense_ = elementsWithin(document, accessor, true, bytes_, count_);
     } else if (count_ > kZeroElementLimit) {
       accessor.fail("a buffer view for " + std::to_string(count_) + " elements", "none");
     }
   }
 
-  std::uint64_t count() const { return count_; }
-  std::size_t components() const { return components_; }
-
-  // Calls set(i, bytes) for each element that is not zero, and again for each one that a sparse
+  // Calls set(to, bytes) for each element that is not zero, and again for each one that a sparse
   // accessor replaces. Elements that are not set are zero.
   template <typename Element, typename Set>
   std::vector<Element> read(std::size_t perElement, const Set& set) const {
@@ -162,49 +121,50 @@ class AccessorReader {
     for (std::uint64_t i = 0; dense_.first && i < count_; ++i) {
       set(&all[i * perElement], dense_.at(i));
     }
-    if (accessor_["sparse"].exists()) {
-      readSparse(
-          [&](std::uint64_t i, const std::uint8_t* from) { set(&all[i * perElement], from); });
-    }
-    return all;
-  }
-
-  float at(const std::uint8_t* element, std::uint64_t i) const {
-    return component(element + i * size_, componentType_, normalized_);
-  }
-
- private:
-  template <typename Set>
-  void readSparse(const Set& set) const {
-    const JsonValue sparse = accessor_["sparse"], indices = sparse.need("indices");
+    const JsonValue sparse = accessor_["sparse"];
+    if (!sparse.exists()) return all;
+    const JsonValue indices = sparse.need("indices");
     const std::uint64_t count =
         sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
-    const std::uint64_t type = indexTypeOf(indices.need("componentType"));
-    const Run which = elementsWithin(document_, indices, false,
-                                     bytesPerComponent(indices["componentType"]), count);
-    const Run values =
-        elementsWithin(document_, sparse.need("values"), false, size_ * components_, count);
+    const ComponentType& type = componentTypeOf(indices.need("componentType"), true);
+    const Run which = elementsWithin(document_, indices, false, type.bytes, count);
+    const Run values = elementsWithin(document_, sparse.need("values"), false, bytes_, count);
     for (std::uint64_t i = 0; i < count; ++i) {
-      const std::uint32_t index = indexAt(which.at(i), type);
+      const std::uint32_t index = type.index(which.at(i));
       if (index >= count_) {
         indices.fail("indices below the accessor's count of " + std::to_string(count_),
                      std::to_string(index));
       }
-      set(index, values.at(i));
+      set(&all[index * perElement], values.at(i));
     }
+    return all;
   }
 
+  float at(const std::uint8_t* element, std::size_t i) const {
+    return component_.value(element + i * component_.bytes, normalized_);
+  }
+
+ private:
   const GltfDocument& document_;
   JsonValue accessor_;
-  std::size_t components_;
-  std::uint64_t size_, count_, componentType_;
+  const ComponentType& component_;
+  std::uint64_t bytes_, count_;  // bytes of an element
   bool normalized_;
   Run dense_;
 };
 
-AccessorReader readerOf(const GltfDocument& document, const JsonValue& reference,
-                        std::string_view type) {
-  return {document, accessorOf(document, reference), type, type};
+template <typename Element>
+std::vector<Element> readFloats(const GltfDocument& document, const JsonValue& reference,
+                                std::size_t components) {
+  const AccessorReader reader(document, accessorOf(document, reference), components,
+                              typeOf(components));
+  return reader.read<Element>(
+      components * sizeof(float) / sizeof(Element), [&](Element* to, const std::uint8_t* from) {
+        for (std::size_t k = 0; k < components; ++k) {
+          const float value = reader.at(from, k);
+          std::memcpy(reinterpret_cast<char*>(to) + k * sizeof value, &value, sizeof value);
+        }
+      });
 }
 
 }  // namespace
@@ -217,23 +177,22 @@ JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference) {
 }
 
 std::vector<Vec3f> readVectors(const GltfDocument& document, const JsonValue& reference) {
-  const AccessorReader reader = readerOf(document, reference, "VEC3");
-  return reader.read<Vec3f>(1, [&](Vec3f* to, const std::uint8_t* from) {
-    *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};
-  });
+  return readFloats<Vec3f>(document, reference, 3);
 }
 
 std::vector<Vec2f> readUvs(const GltfDocument& document, const JsonValue& reference) {
-  const AccessorReader reader = readerOf(document, reference, "VEC2");
-  return reader.read<Vec2f>(1, [&](Vec2f* to, const std::uint8_t* from) {
-    *to = {reader.at(from, 0), reader.at(from, 1)};
-  });
+  return readFloats<Vec2f>(document, reference, 2);
+}
+
+std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
+                              std::size_t components) {
+  return readFloats<float>(document, reference, components);
 }
 
 GltfColors readColors(const GltfDocument& document, const JsonValue& reference) {
   const JsonValue accessor = accessorOf(document, reference);
   const bool alpha = accessor["type"].textOr("") == "VEC4";
-  const AccessorReader reader(document, accessor, alpha ? "VEC4" : "VEC3", "VEC3 or VEC4");
+  const AccessorReader reader(document, accessor, alpha ? 4 : 3, "VEC3 or VEC4");
   GltfColors result;
   result.colors = reader.read<Rgb>(1, [&](Rgb* to, const std::uint8_t* from) {
     *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};
@@ -242,19 +201,12 @@ GltfColors readColors(const GltfDocument& document, const JsonValue& reference) 
   return result;
 }
 
-std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
-                              std::string_view type) {
-  const AccessorReader reader = readerOf(document, reference, type);
-  return reader.read<float>(reader.components(), [&](float* to, const std::uint8_t* from) {
-    for (std::size_t k = 0; k < reader.components(); ++k) to[k] = reader.at(from, k);
-  });
-}
-
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference) {
-  const AccessorReader reader = readerOf(document, reference, "SCALAR");
-  const std::uint64_t type = indexTypeOf(accessorOf(document, reference)["componentType"]);
+  const JsonValue accessor = accessorOf(document, reference);
+  const AccessorReader reader(document, accessor, 1, "SCALAR");
+  const ComponentType& type = componentTypeOf(accessor["componentType"], true);
   return reader.read<std::uint32_t>(
-      1, [&](std::uint32_t* to, const std::uint8_t* from) { *to = indexAt(from, type); });
+      1, [&](std::uint32_t* to, const std::uint8_t* from) { *to = type.index(from); });
 }
 
 }  // namespace whit

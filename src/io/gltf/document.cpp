@@ -1,27 +1,21 @@
 #include "io/gltf/document.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <charconv>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "core/error.h"
-#include "io/json_reader.h"
 #include "io/read_file.h"
 
 namespace whit {
 
 namespace {
-
-constexpr std::string_view kScheme = "data:";
-
-int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
 
 // Below 0: no digit.
 int base64Value(char c) {
@@ -56,21 +50,18 @@ std::string base64Decoded(std::string_view digits, const std::string& where) {
 std::string percentDecoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool code = uri[i] == '%' && i + 2 < uri.size() && hexValue(uri[i + 1]) >= 0 &&
-                      hexValue(uri[i + 2]) >= 0;
-    text += code ? static_cast<char>(16 * hexValue(uri[i + 1]) + hexValue(uri[i + 2])) : uri[i];
-    if (code) i += 2;
+    unsigned code = 0;
+    const char* const digits = uri.data() + i + 1;
+    const bool isCode = uri[i] == '%' && i + 2 < uri.size() &&
+                        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    text += isCode ? static_cast<char>(code) : uri[i];
+    if (isCode) i += 2;
   }
   return text;
 }
 
 // Data URIs: RFC 2397.
-bool isDataUri(const std::string& uri) {
-  return uri.size() >= kScheme.size() &&
-         std::equal(kScheme.begin(), kScheme.end(), uri.begin(), [](char a, char b) {
-           return a == std::tolower(static_cast<unsigned char>(b));
-         });
-}
+bool isDataUri(const std::string& uri) { return strncasecmp(uri.c_str(), "data:", 5) == 0; }
 
 // Decodes a data URI of any type (base64: RFC 4648, padded or not).
 std::string dataOfUri(const std::string& uri, const std::string& where) {
@@ -81,15 +72,6 @@ std::string dataOfUri(const std::string& uri, const std::string& where) {
   const std::string data = percentDecoded(std::string_view(uri).substr(comma + 1));
   return head.ends_with(kBase64) ? base64Decoded(data, where) : data;
 }
-
-// The container: JSON text, or JSON and a binary chunk in a .glb file. glTF 2.0 specification,
-// section 4 (GLB).
-struct GltfFile {    // NOLINT(bugprone-exception-escape): moving Json does not throw
-  std::string name;  // for errors
-  Json json;         // an object
-  bool hasBinary = false;
-  std::string binary;  // the chunk of a .glb
-};
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
@@ -102,71 +84,50 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t offset) {
   return word;
 }
 
-// Removes the first chunk from `rest`.
-std::string_view takeChunk(std::string_view& rest, std::uint32_t& type, const std::string& file) {
-  if (rest.size() < kChunkHeaderBytes) throwBadScene(file, "the file ends within a chunk's header");
-  const std::uint64_t length = wordAt(rest, 0);
-  type = wordAt(rest, 4);
-  rest.remove_prefix(kChunkHeaderBytes);
-  if (length > rest.size()) {
-    throwBadScene(file, "a chunk of " + std::to_string(length) + " bytes, of which " +
-                            std::to_string(rest.size()) + " are there");
-  }
-  const std::string_view chunk = rest.substr(0, length);
-  rest.remove_prefix(length);
-  return chunk;
-}
-
-// Returns the JSON text and stores the binary chunk in `to`.
-std::string_view splitBinary(std::string_view bytes, GltfFile& to) {
-  if (bytes.size() < kHeaderBytes) throwBadScene(to.name, "the file ends within its header");
+// Takes a .glb file apart (glTF 2.0 specification, section 4): returns the JSON text, and copies
+// the binary chunk.
+std::string_view splitBinary(std::string_view bytes, const std::string& file,
+                             std::optional<std::string>& binary) {
+  const auto fail = [&](std::size_t at, const std::string& expected, std::uint64_t found) {
+    throwBadScene(file + ": byte " + std::to_string(at),
+                  "expected " + expected + ", found " + std::to_string(found));
+  };
+  if (bytes.size() < kHeaderBytes) fail(0, "a header of 12 bytes", bytes.size());
   const std::uint32_t version = wordAt(bytes, 4), length = wordAt(bytes, 8);
-  if (version != 2) {
-    throwBadScene(to.name, "expected glTF 2.0, found glTF " + std::to_string(version) + ".0");
-  }
+  if (version != 2) fail(4, "glTF 2", version);
   if (length < kHeaderBytes || length > bytes.size()) {
-    throwBadScene(to.name, "its header says " + std::to_string(length) + " bytes, the file has " +
-                               std::to_string(bytes.size()));
+    fail(8, "a length up to the file's " + std::to_string(bytes.size()) + " bytes", length);
   }
-  std::string_view rest = bytes.substr(kHeaderBytes, length - kHeaderBytes);
-  std::uint32_t type = 0;
-  const std::string_view text = takeChunk(rest, type, to.name);
-  if (type != kJsonChunk) throwBadScene(to.name, "expected JSON in the first chunk");
-  while (!rest.empty()) {
-    const std::string_view chunk = takeChunk(rest, type, to.name);
-    if (type != kBinaryChunk || to.hasBinary) continue;  // chunks of extensions
-    to.hasBinary = true;
-    to.binary = chunk;
-  }
+  std::string_view text;
+  std::size_t at = kHeaderBytes;
+  do {
+    if (length - at < kChunkHeaderBytes) fail(at, "8 bytes of a chunk's header", length - at);
+    const std::uint32_t size = wordAt(bytes, at), type = wordAt(bytes, at + 4);
+    const std::size_t left = length - at - kChunkHeaderBytes;
+    if (size > left) fail(at, "a chunk of " + std::to_string(size) + " bytes", left);
+    const std::string_view chunk = bytes.substr(at + kChunkHeaderBytes, size);
+    if (at == kHeaderBytes) {
+      if (type != kJsonChunk) fail(at + 4, "a chunk of JSON first", type);
+      text = chunk;
+    } else if (type == kBinaryChunk && !binary) {  // other chunks are those of extensions
+      binary = chunk;
+    }
+    at += kChunkHeaderBytes + size;
+  } while (at < length);
   return text;
 }
 
-// Version 1.0 has objects where 2.0 has lists, and its files need not state their version.
-void refuseFirstVersion(const GltfFile& file) {
-  const auto asset = file.json.find("asset");
-  const bool named = asset != file.json.end() && asset->is_object() && asset->contains("version");
-  const std::string version = named ? (*asset)["version"].dump() : "";
-  const auto meshes = file.json.find("meshes");
-  const bool unnamed = !named && meshes != file.json.end() && meshes->is_object();
-  if (!unnamed && !version.starts_with("\"1.") && !version.starts_with("1.")) return;
-  throwBadScene(file.name + "#/asset", "expected glTF 2.0, found glTF 1.0");
-}
-
-// The content tells whether the file is binary.
-GltfFile readGltfFile(const std::filesystem::path& path, MemoryBudget& budget) {
-  GltfFile file;
-  file.name = path.string();
-  const std::string bytes = readTextFile(path, budget.left() / 2);
-  budget.charge(bytes.size(), 2, file.name);
-  const bool isBinary = bytes.starts_with("glTF");
-  const std::string_view text = isBinary ? splitBinary(bytes, file) : std::string_view(bytes);
+// The content tells whether the file is binary. Stores the binary chunk of a .glb.
+Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
+                  std::optional<std::string>& binary) {
+  const std::string bytes = readTextFile(path, budget.left() / 2), name = path.string();
+  budget.charge(bytes.size(), 2, name);
+  const std::string_view text =
+      bytes.starts_with("glTF") ? splitBinary(bytes, name, binary) : std::string_view(bytes);
   const auto values = std::count_if(text.begin(), text.end(),
                                     [](char c) { return c == ',' || c == '[' || c == '{'; });
-  budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, file.name);
-  file.json = parseJson(std::string(text), file.name);
-  if (!file.json.is_object()) throwBadScene(file.name + "#", "expected an object");
-  refuseFirstVersion(file);
-  return file;
+  budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);
+  return parseJson(std::string(text), name);
 }
 
 constexpr std::array<std::string_view, 11> kSupported = {
@@ -188,16 +149,16 @@ bool isSupported(const std::string& extension) {
 GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& rules,
                            MemoryBudget& budget, Warnings& warnings)
     : name_(path.string()), budget_(budget), warnings_(warnings) {
-  GltfFile file = readGltfFile(path, budget);
-  json_ = std::make_unique<const JsonDocument>(JsonDocument{name_, std::move(file.json), {}});
+  std::optional<std::string> binary;
+  json_ = std::make_unique<const JsonDocument>(
+      JsonDocument{name_, readGltfFile(path, budget, binary), {}});
+  if (!root().isObject()) root().fail("an object");
   checkExtensions();
   for (const auto& [name, list] : json_->root.items()) {
     if (list.is_array()) budget_.charge(this->list(name).size(), kBytesPerElement, name_);
   }
   buffers_.resize(list("buffers").size());
-  if (file.hasBinary && !buffers_.empty() && !list("buffers")[0]["uri"].exists()) {
-    buffers_[0] = {std::move(file.binary), true};
-  }
+  if (!buffers_.empty() && !list("buffers")[0]["uri"].exists()) buffers_[0] = std::move(binary);
   readBuffers(path.parent_path(), rules);
   readImages(path.parent_path(), rules);
 }
@@ -208,9 +169,9 @@ GltfBufferView GltfDocument::view(const JsonValue& reference) const {
   const JsonValue view = list("bufferViews")[*index];
   const JsonValue buffers = list("buffers");
   const std::size_t number = view.need("buffer").indexInto(buffers).value_or(0);
-  const Buffer& buffer = buffers_[number];
-  if (!buffer.hasData) buffers[number].need("uri");
-  const std::uint64_t size = buffer.bytes.size(), offset = view["byteOffset"].wholeOr(0);
+  const std::optional<std::string>& buffer = buffers_[number];
+  if (!buffer) buffers[number].need("uri");
+  const std::uint64_t size = buffer->size(), offset = view["byteOffset"].wholeOr(0);
   const std::uint64_t length = view.need("byteLength").wholeOr(0);
   if (offset > size || length > size - offset) {
     view.fail("a range within the buffer's " + std::to_string(size) + " bytes",
@@ -218,7 +179,7 @@ GltfBufferView GltfDocument::view(const JsonValue& reference) const {
   }
   const std::uint64_t stride = view["byteStride"].wholeOr(0, 252);
   if (stride % 4 != 0) view["byteStride"].fail("a multiple of 4");
-  return {asBytes(buffer.bytes).subspan(offset, length), *index, stride};
+  return {asBytes(*buffer).subspan(offset, length), *index, stride};
 }
 
 void GltfDocument::checkExtensions() const {
@@ -230,8 +191,8 @@ void GltfDocument::checkExtensions() const {
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required[i].textOr("");
     if (isSupported(extension)) continue;
-    throwBadScene(required[i].where(),
-                  "the file cannot be shown without " + extension + ", which is not supported");
+    throwBadScene(required[i].where(), "the file cannot be shown without " + excerpt(extension) +
+                                           ", which is not supported");
   }
   std::size_t reported = 0;
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -251,20 +212,17 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
-    auto& [bytes, hasData] = buffers_[i];
-    if (uri.exists()) {
-      hasData = true;
-      if (isDataUri(uri.textOr(""))) {
-        bytes = decodeUri(uri);
-      } else {
-        bytes = readFile(rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()),
-                         budget_.left() / 2);
-        budget_.charge(bytes.size(), 1, uri.where());
-      }
+    std::optional<std::string>& bytes = buffers_[i];
+    if (isDataUri(uri.textOr(""))) {
+      bytes = decodeUri(uri);
+    } else if (uri.exists()) {
+      const auto file = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where());
+      bytes = readNamedAt(uri.where(), [&] { return readFile(file, budget_.left() / 2); });
+      budget_.charge(bytes->size(), 1, uri.where());
     }
-    if (hasData && bytes.size() < length) {
+    if (bytes && bytes->size() < length) {
       buffer["byteLength"].fail(std::to_string(length) + " bytes of data",
-                                std::to_string(bytes.size()));
+                                std::to_string(bytes->size()));
     }
   }
 }

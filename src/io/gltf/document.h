@@ -1,14 +1,16 @@
-// A glTF file: its JSON, the bytes of its buffers and the places of its images.
+// A glTF file: its JSON, the bytes of its buffers, its accessors and the places of its images.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/vec3.h"
 #include "core/warnings.h"
 #include "io/json_reader.h"
 #include "io/memory_budget.h"
@@ -61,17 +63,31 @@ class GltfDocument {
   void readImages(const std::filesystem::path& folder, const PathRules& rules);
   std::string decodeUri(const JsonValue& uri) const;
 
-  struct Buffer {
-    std::string bytes;
-    bool hasData = false;
-  };
-
   std::string name_;
   MemoryBudget& budget_;
   Warnings& warnings_;
   std::unique_ptr<const JsonDocument> json_;
-  std::vector<Buffer> buffers_;
+  std::vector<std::optional<std::string>> buffers_;
   std::vector<GltfImageSource> images_;
 };
+
+// In the following, `reference` is the index of an accessor. Every component type, normalized or
+// not, with any stride, sparse or not, is read. Each function throws badScene "file#/accessors/i"
+// where the accessor is of another type (VEC3, VEC2; indices: unsigned SCALAR) or reaches beyond
+// its buffer view, and limit where its elements do not fit into memory.
+std::vector<Vec3f> readVectors(const GltfDocument& document, const JsonValue& reference);
+std::vector<Vec2f> readUvs(const GltfDocument& document, const JsonValue& reference);
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference);
+// The components of all elements, one after the other: 1 (SCALAR), 3, 4 or 16 (MAT4, column by
+// column) for each.
+std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
+                              std::size_t components);
+struct GltfColors {
+  std::vector<Rgb> colors;
+  bool translucent = false;  // some alpha is below 1
+};
+GltfColors readColors(const GltfDocument& document, const JsonValue& reference);  // VEC3 or VEC4
+// The accessor itself.
+JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference);
 
 }  // namespace whit

@@ -1,5 +1,4 @@
-#include "io/gltf/maps.h"
-
+// Textures made from glTF's images: reflectance, holes, normals, emission.
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -9,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/srgb.h"
+#include "io/gltf/material.h"
 #include "io/image/image_decoders.h"
 #include "io/image/texture_from_image.h"
 
@@ -48,18 +48,14 @@ class GltfImage {
 
 namespace {
 
+using Images = std::vector<std::optional<Texture>>;
+
 enum GltfBakedMap { kGltfDiffuse, kGltfSpecular, kGltfAlpha, kGltfBakedMaps };
 
 // Decoded; null where there is none or it cannot be read, which counts as white.
 struct GltfBakeImages {
-  const RawImage* base = nullptr;
-  const RawImage* metallicRoughness = nullptr;
-  const RawImage* specular = nullptr;
-  const RawImage* specularColor = nullptr;
+  std::shared_ptr<const RawImage> base, metallicRoughness, specular, specularColor;
 };
-
-// One for each GltfBakedMap that there is; the largest image's size, the others stretched to it.
-using GltfBaked = std::vector<std::optional<Texture>>;
 
 struct Texel {
   Rgb color;  // linear
@@ -126,115 +122,97 @@ bool wantsBaked(const GltfMaterial& m, GltfBakedMap map) {
                              : m.bakesSpecular() || (colored && m.metallic > 0);
 }
 
-// Throws Error(limit) where the textures are larger than the limits allow.
-class Baker {
- public:
-  Baker(const GltfMaterial& material, const GltfBakeImages& images, const ImageLimits& limits)
-      : material_(material), limits_(limits), rawBase_(images.base) {
-    for (const RawImage* raw :
-         {images.base, images.metallicRoughness, images.specular, images.specularColor}) {
-      if (!raw) continue;
-      width_ = std::max(width_, raw->width);
-      height_ = std::max(height_, raw->height);
+Texture emptyTexture(const GltfMaterial& material, TexelFormat format, int width, int height) {
+  Texture texture;
+  texture.name = material.name;
+  texture.format = format;
+  texture.wrapU = material.surfaceMap().wrapU;
+  texture.wrapV = material.surfaceMap().wrapV;
+  texture.width = width;
+  texture.height = height;
+  texture.texels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return texture;
+}
+
+// The texture of the alpha channel, or none where it has the same value everywhere.
+std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
+                                 const ImageLimits& limits, GltfMeans& means) {
+  if (m.alphaMode == GltfMaterial::Alpha::opaque || !hasTranslucentAlpha(raw)) return {};
+  if (m.alphaMode == GltfMaterial::Alpha::blend) {
+    const ChannelMean alpha = meanOf(raw, 3);
+    means.alphaByMap = alpha.varies;
+    if (!alpha.varies) {
+      means.alpha = alpha.mean;
+      return {};
     }
-    held_ = holdImage(material.where, width_, height_, 2 * sizeof(std::uint32_t), limits);
-    base_.emplace(images.base, width_, height_);
-    metal_.emplace(images.metallicRoughness, width_, height_);
-    specular_.emplace(images.specular, width_, height_);
-    specularColor_.emplace(images.specularColor, width_, height_);
   }
+  // The texture, and the channel that it is made from.
+  const MemoryHold held =
+      holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t) + sizeof(float), limits);
+  Texture texture = makeTexture(m.name, alphaOf(raw), TexelFormat::data);
+  texture.wrapU = m.baseMap.wrapU;
+  texture.wrapV = m.baseMap.wrapV;
+  return texture;
+}
 
-  GltfBaked bake(GltfMeans& means) {
-    GltfBaked maps(kGltfBakedMaps);
-    for (const GltfBakedMap map : {kGltfDiffuse, kGltfSpecular}) {
-      if (!wantsBaked(material_, map)) continue;
-      maps[map].emplace();
-      const bool emits = material_.unlit && map == kGltfDiffuse && rawBase_;
-      start(*maps[map], emits ? emissionFormat(*rawBase_) : TexelFormat::color);
-    }
-    sum(maps);
-    const double texels = static_cast<double>(width_) * height_;
-    means.base = Rgb(color_ / texels);
-    means.metallic = static_cast<float>(metallic_ / texels);
-    means.roughness = static_cast<float>(roughness_ / texels);
-    means.specular = static_cast<float>(strength_ / texels);
-    means.specularColor = Rgb(tint_ / texels);
-    if (rawBase_ && hasTranslucentAlpha(*rawBase_)) bakeAlpha(maps[kGltfAlpha], means);
-    return maps;
+// One texture for each GltfBakedMap that there is; the largest image's size, the others stretched
+// to it. Throws Error(limit) where the textures are larger than the limits allow.
+Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
+            GltfMeans& means) {
+  int width = 1, height = 1;
+  for (const auto& raw :
+       {images.base, images.metallicRoughness, images.specular, images.specularColor}) {
+    width = std::max(width, raw ? raw->width : 1);
+    height = std::max(height, raw ? raw->height : 1);
   }
-
- private:
-  void start(Texture& texture, TexelFormat format) const {
-    const GltfTexture& map = material_.surfaceMap();
-    texture.name = material_.name;
-    texture.format = format;
-    texture.wrapU = map.wrapU;
-    texture.wrapV = map.wrapV;
-    texture.width = width_;
-    texture.height = height_;
-    texture.texels.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  const MemoryHold held = holdImage(m.where, width, height, 2 * sizeof(std::uint32_t), limits);
+  const Stretched bases(images.base.get(), width, height);
+  const Stretched metals(images.metallicRoughness.get(), width, height);
+  const Stretched speculars(images.specular.get(), width, height);
+  const Stretched tints(images.specularColor.get(), width, height);
+  Images maps(kGltfBakedMaps);
+  if (wantsBaked(m, kGltfDiffuse)) {
+    const bool emits = m.unlit && images.base;
+    maps[kGltfDiffuse] =
+        emptyTexture(m, emits ? emissionFormat(*images.base) : TexelFormat::color, width, height);
   }
-
-  void sum(GltfBaked& maps) {
-    const bool mixes = material_.mixesMetal(), whole = material_.bakesSpecular();
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const Texel base = base_->at(x, y), other = metal_->at(x, y);
-        const float metal = material_.metallic * other.code[2];
-        const float strength = specular_->at(x, y).code[3];
-        const Rgb tint = specularColor_->at(x, y).color;
-        color_ += RgbD(base.color);
-        metallic_ += other.code[2];
-        roughness_ += other.code[1];
-        strength_ += strength;
-        tint_ += RgbD(tint);
-        if (maps[kGltfDiffuse]) {
-          const Rgb diffuse = mixes ? base.color * (1 - metal) : base.color;
-          maps[kGltfDiffuse]->texels.push_back(encodeTexel(diffuse, maps[kGltfDiffuse]->format));
-        }
-        if (!maps[kGltfSpecular]) continue;
-        const Rgb f0 =
-            whole ? material_.f0(tint, strength) * (1 - metal) + material_.base * base.color * metal
-                  : base.color;
-        maps[kGltfSpecular]->texels.push_back(encodeColorTexel(f0));
+  if (wantsBaked(m, kGltfSpecular)) {
+    maps[kGltfSpecular] = emptyTexture(m, TexelFormat::color, width, height);
+  }
+  RgbD colors, tintSum;
+  double metallic = 0, roughness = 0, strengths = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
+      const Texel other = metals.at(x, y);
+      const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
+      colors += RgbD(base);
+      metallic += other.code[2];
+      roughness += other.code[1];
+      strengths += strength;
+      tintSum += RgbD(tint);
+      if (maps[kGltfDiffuse]) {
+        const Rgb diffuse = m.mixesMetal() ? base * (1 - metal) : base;
+        maps[kGltfDiffuse]->texels.push_back(encodeTexel(diffuse, maps[kGltfDiffuse]->format));
       }
+      if (!maps[kGltfSpecular]) continue;
+      const Rgb f0 =
+          m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
+      maps[kGltfSpecular]->texels.push_back(encodeColorTexel(f0));
     }
   }
-
-  void bakeAlpha(std::optional<Texture>& map, GltfMeans& means) const {
-    if (material_.alphaMode == GltfMaterial::Alpha::opaque) return;
-    const ChannelMean alpha = meanOf(*rawBase_, 3);
-    if (material_.alphaMode == GltfMaterial::Alpha::blend) {
-      means.alphaByMap = alpha.varies;
-      if (!alpha.varies) {
-        means.alpha = alpha.mean;
-        return;
-      }
-    }
-    // The texture, and the channel that it is made from.
-    const MemoryHold held = holdImage(material_.where, rawBase_->width, rawBase_->height,
-                                      sizeof(std::uint32_t) + sizeof(float), limits_);
-    map = makeTexture(material_.name, alphaOf(*rawBase_), TexelFormat::data);
-    map->wrapU = material_.baseMap.wrapU;
-    map->wrapV = material_.baseMap.wrapV;
-  }
-
-  const GltfMaterial& material_;
-  const ImageLimits& limits_;
-  const RawImage* rawBase_;
-  int width_ = 1, height_ = 1;
-  MemoryHold held_;  // of diffuse and specular
-  std::optional<Stretched> base_, metal_, specular_, specularColor_;
-  RgbD color_, tint_;
-  double metallic_ = 0, roughness_ = 0, strength_ = 0;
-};
-
-using Images = std::vector<std::optional<Texture>>;
+  const double texels = static_cast<double>(width) * height;
+  means.base = Rgb(colors / texels);
+  means.metallic = static_cast<float>(metallic / texels);
+  means.roughness = static_cast<float>(roughness / texels);
+  means.specular = static_cast<float>(strengths / texels);
+  means.specularColor = Rgb(tintSum / texels);
+  if (images.base) maps[kGltfAlpha] = bakeAlpha(m, *images.base, limits, means);
+  return maps;
+}
 
 Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
   Texture texture = makeTexture(material.name, raw, TexelFormat::data);
-  texture.wrapU = material.normalMap.wrapU;
-  texture.wrapV = material.normalMap.wrapV;
   if (material.normalScale == 1) return texture;
   for (std::uint32_t& texel : texture.texels) {
     const auto channel = [&](int shift) {
@@ -245,13 +223,6 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
         Vec3f{0, 0, 1});
     texel = encodeDataTexel(n.x * 0.5f + 0.5f, n.y * 0.5f + 0.5f, n.z * 0.5f + 0.5f, 1);
   }
-  return texture;
-}
-
-Texture emissionTexture(const GltfMaterial& material, const RawImage& raw, Warnings& warnings) {
-  Texture texture = makeEmissionTexture(material.name, raw, warnings);
-  texture.wrapU = material.emissiveMap.wrapU;
-  texture.wrapV = material.emissiveMap.wrapV;
   return texture;
 }
 
@@ -289,100 +260,89 @@ GltfMapMaker::GltfMapMaker(const GltfDocument& document) : warnings_(document.wa
 
 GltfMapMaker::~GltfMapMaker() = default;
 
-std::shared_ptr<GltfImage> GltfMapMaker::image(const GltfTexture& map) const {
-  return map.image ? images_[*map.image] : nullptr;
-}
-
 GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   const auto [entry, isNew] = known_.try_emplace(keyOf(m));
   GltfMaps& maps = entry->second;
   if (!isNew) return maps;
   const auto means = std::make_shared<GltfMeans>();
   maps.means = means;
+  Warnings& warnings = warnings_;
+  const auto image = [&](const GltfTexture& map) {
+    return map.image ? images_[*map.image] : nullptr;
+  };
   if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0()) {
-    const auto slots = textures.add(
-        kGltfBakedMaps, [=, base = image(m.baseMap), metal = image(m.metallicRoughnessMap),
-                         strength = image(m.specularMap), tint = image(m.specularColorMap),
-                         &textures, &warnings = warnings_] {
-          const ImageLimits limits = textures.limits();
-          const auto rawBase = decoded(base, limits), rawMetal = decoded(metal, limits);
-          const auto rawStrength = decoded(strength, limits), rawTint = decoded(tint, limits);
-          for (const RawImage* color : {m.unlit ? nullptr : rawBase.get(), rawTint.get()}) {
-            if (color) warnOfClampedColors(m.where, *color, warnings);
-          }
-          const GltfBakeImages all{rawBase.get(), rawMetal.get(), rawStrength.get(), rawTint.get()};
-          return Baker(m, all, limits).bake(*means);
-        });
+    const auto slots = textures.add(kGltfBakedMaps, [=, base = image(m.baseMap),
+                                                     metal = image(m.metallicRoughnessMap),
+                                                     strength = image(m.specularMap),
+                                                     tint = image(m.specularColorMap), &textures,
+                                                     &warnings] {
+      const ImageLimits limits = textures.limits();
+      const GltfBakeImages all{decoded(base, limits), decoded(metal, limits),
+                               decoded(strength, limits), decoded(tint, limits)};
+      for (const RawImage* color : {m.unlit ? nullptr : all.base.get(), all.specularColor.get()}) {
+        if (color) warnOfClampedColors(m.where, *color, warnings);
+      }
+      return bake(m, all, limits, *means);
+    });
     if (wantsBaked(m, kGltfDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kGltfDiffuse];
     if (wantsBaked(m, kGltfSpecular)) maps.specular = slots[kGltfSpecular];
     if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kGltfAlpha];
     if (m.alphaMode == GltfMaterial::Alpha::blend) maps.coverage = slots[kGltfAlpha];
   }
+  // A texture that `make` makes from one image; it may make none.
   const auto single = [&](const GltfTexture& map, const auto& make) {
-    return textures.add(1, [=, image = image(map), &textures] {
+    return textures.add(1, [=, image = image(map), where = m.where, &textures] {
       const ImageLimits limits = textures.limits();
-      const auto raw = decoded(image, limits);
       Images made(1);
+      const auto raw = decoded(image, limits);
       if (!raw) return made;
       const MemoryHold held =
-          holdImage(m.where, raw->width, raw->height, sizeof(std::uint32_t), limits);
-      made[0] = make(m, *raw);
+          holdImage(where, raw->width, raw->height, sizeof(std::uint32_t), limits);
+      made[0] = make(*raw);
+      if (!made[0]) return made;
+      made[0]->wrapU = map.wrapU;
+      made[0]->wrapV = map.wrapV;
       return made;
     })[0];
   };
-  const auto emissive = [&warnings = warnings_](const GltfMaterial& from, const RawImage& raw) {
-    return emissionTexture(from, raw, warnings);
-  };
-  if (m.normalMap.exists()) maps.normal = single(m.normalMap, normalTexture);
-  if (m.variesRoughness()) maps.roughness = roughnessOf(m, means, textures);
-  if (m.emitsByMap()) maps.emission = single(m.emissiveMap, emissive);
-  addMeans(m, means, textures);
-  return maps;
-}
-
-// A slot that stays empty where the texels do not differ.
-std::int32_t GltfMapMaker::roughnessOf(const GltfMaterial& m,
-                                       const std::shared_ptr<GltfMeans>& means,
-                                       TextureLoader& textures) const {
-  return textures.add(1, [=, image = image(m.metallicRoughnessMap), &textures] {
-    const ImageLimits limits = textures.limits();
-    const auto raw = decoded(image, limits);
-    Images made(1);
-    if (!raw || !meanOf(*raw, 1).varies) return made;
-    const MemoryHold held =
-        holdImage(m.where, raw->width, raw->height, sizeof(std::uint32_t), limits);
-    made[0] = makeTexture(m.name, *raw, TexelFormat::data);
-    made[0]->wrapU = m.metallicRoughnessMap.wrapU;
-    made[0]->wrapV = m.metallicRoughnessMap.wrapV;
-    means->roughnessByMap = true;
-    return made;
-  })[0];
-}
-
-// Multiplies means into factors that have no map in a Material.
-void GltfMapMaker::addMeans(const GltfMaterial& m, const std::shared_ptr<GltfMeans>& means,
-                            TextureLoader& textures) const {
-  const auto add = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*mean,
-                       const char* warning) {
+  if (m.normalMap.exists()) {
+    maps.normal = single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
+  }
+  if (m.variesRoughness()) {
+    maps.roughness = single(m.metallicRoughnessMap, [=](const RawImage& raw) {
+      means->roughnessByMap = meanOf(raw, 1).varies;
+      return means->roughnessByMap ? std::optional(makeTexture(m.name, raw, TexelFormat::data))
+                                   : std::nullopt;
+    });
+  }
+  if (m.emitsByMap()) {
+    maps.emission = single(m.emissiveMap, [name = m.name, &warnings](const RawImage& raw) {
+      return makeEmissionTexture(name, raw, warnings);
+    });
+  }
+  // The mean of a channel is multiplied into a factor that has no map in a Material.
+  const auto mean = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*to,
+                        const char* warning) {
     if (!map.exists()) return;
-    textures.add(0, [=, this, image = image(map), where = m.where, &textures] {
+    textures.add(0, [=, image = image(map), where = m.where, &textures, &warnings] {
       if (const auto raw = decoded(image, textures.limits())) {
         const ChannelMean found = meanOf(*raw, channel);
-        (*means).*mean = found.mean;
-        if (found.varies) warnings_.add(warning, where);
+        (*means).*to = found.mean;
+        if (found.varies) warnings.add(warning, where);
       }
       return Images();
     });
   };
   if (m.transmission > 0) {
-    add(m.transmissionMap, 0, &GltfMeans::transmission,
-        "transmission by a texture taken by its mean");
+    mean(m.transmissionMap, 0, &GltfMeans::transmission,
+         "transmission by a texture taken by its mean");
   }
   if (m.clearcoat > 0) {
-    add(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
-    add(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
-        "roughness of a clearcoat by a texture taken by its mean");
+    mean(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
+    mean(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
+         "roughness of a clearcoat by a texture taken by its mean");
   }
+  return maps;
 }
 
 }  // namespace whit

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/vec3.h"
 #include "io/gltf/document.h"
+#include "io/texture_loader.h"
 #include "scene/material.h"
 #include "scene/texture.h"
 
@@ -117,5 +121,31 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
 //   no mirror; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
+
+// An image of the document, decoded when it is asked for and for as long as somebody holds it.
+class GltfImage;
+
+// Slots of a TextureLoader.
+struct GltfMaps {
+  std::int32_t diffuse = kNoTexture, specular = kNoTexture, emission = kNoTexture;
+  std::int32_t roughness = kNoTexture;
+  std::int32_t normal = kNoTexture, alpha = kNoTexture, coverage = kNoTexture;
+  std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
+};
+
+class GltfMapMaker {
+ public:
+  explicit GltfMapMaker(const GltfDocument& document);
+  ~GltfMapMaker();
+
+  // Materials with the same maps share slots. An image that cannot be read is a warning, and white.
+  // Both this and the document outlive the textures' decoding.
+  GltfMaps ask(const GltfMaterial& material, TextureLoader& textures);
+
+ private:
+  Warnings& warnings_;
+  std::vector<std::shared_ptr<GltfImage>> images_;
+  std::map<std::string, GltfMaps> known_;
+};
 
 }  // namespace whit

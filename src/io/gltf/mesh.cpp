@@ -1,5 +1,4 @@
-#include "io/gltf/mesh.h"
-
+// Meshes of a glTF document.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/gltf/accessor.h"
+#include "io/gltf/nodes.h"
 #include "io/polygon.h"
 
 namespace whit {
@@ -67,8 +66,8 @@ class DeformationReader {
       const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
       const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
       if (!j.exists() || !w.exists()) break;
-      joints.push_back(readTuples(document_, j, "VEC4"));
-      weights.push_back(readTuples(document_, w, "VEC4"));
+      joints.push_back(readTuples(document_, j, 4));
+      weights.push_back(readTuples(document_, w, 4));
       checkLength(joints.back().size() / 4, count, j);
       checkLength(weights.back().size() / 4, count, w);
     }

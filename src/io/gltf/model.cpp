@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "io/gltf/document.h"
-#include "io/gltf/maps.h"
 #include "io/gltf/material.h"
-#include "io/gltf/mesh.h"
 #include "io/gltf/nodes.h"
 #include "io/model.h"
 #include "scene/members.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -17,8 +16,6 @@
 #include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "core/options.h"
-#include "io/gltf/accessor.h"
-#include "io/scene/distinct_names.h"
 #include "scene/description.h"
 #include "scene/track.h"
 
@@ -34,22 +31,16 @@ struct GltfTracks {
 };
 
 struct Target {
-  std::string_view path, type;
-  std::size_t components;  // of a key; 0: as many as the mesh has morph targets
+  std::string_view path;
+  std::size_t components;  // of a key; 0: as many scalars as the mesh has morph targets
   std::optional<Track> GltfTracks::*track;
 };
 constexpr Target kTargets[] = {
-    {"translation", "VEC3", 3, &GltfTracks::translation},
-    {"rotation", "VEC4", 4, &GltfTracks::rotation},
-    {"scale", "VEC3", 3, &GltfTracks::scale},
-    {"weights", "SCALAR", 0, &GltfTracks::weights},
+    {"translation", 3, &GltfTracks::translation},
+    {"rotation", 4, &GltfTracks::rotation},
+    {"scale", 3, &GltfTracks::scale},
+    {"weights", 0, &GltfTracks::weights},
 };
-
-const Target* targetOf(std::string_view path) {
-  const auto found = std::find_if(std::begin(kTargets), std::end(kTargets),
-                                  [&](const Target& target) { return target.path == path; });
-  return found == std::end(kTargets) ? nullptr : found;
-}
 
 Track::Interpolation interpolationOf(const JsonValue& sampler) {
   const std::string name = sampler["interpolation"].textOr("");
@@ -93,9 +84,11 @@ class AnimationReader {
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const JsonValue target = channels[i].need("target");
       const auto node = target["node"].indexInto(nodes_);
-      const Target* known = targetOf(target.need("path").textOr(""));
-      if (!node || !known) continue;
-      use(*node, *known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
+      const std::string path = target.need("path").textOr("");
+      for (const Target& known : kTargets) {
+        if (!node || known.path != path) continue;
+        use(*node, known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
+      }
     }
   }
 
@@ -113,7 +106,8 @@ class AnimationReader {
     if (track.components == 0) return track;
     track.times = readTimes(sampler.need("input"));
     const JsonValue output = sampler.need("output");
-    const std::vector<float> values = readTuples(document_, output, target.type);
+    const std::vector<float> values =
+        readTuples(document_, output, std::max<std::size_t>(target.components, 1));
     const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
     const std::size_t expected = track.times.size() * track.components * each;
     if (values.size() != expected) {
@@ -129,7 +123,7 @@ class AnimationReader {
   }
 
   std::vector<double> readTimes(const JsonValue& input) const {
-    const std::vector<float> times = readTuples(document_, input, "SCALAR");
+    const std::vector<float> times = readTuples(document_, input, 1);
     if (times.empty()) input.fail("at least one time", "none");
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
@@ -189,12 +183,6 @@ double squareOf(const Quaternion& q) {
   return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
 }
 
-// As far as 8 bits a component can tell.
-bool hasUnitLength(const Quaternion& q) {
-  constexpr double kRounding = 0.0077;
-  return std::abs(std::sqrt(squareOf(q)) - 1) <= kRounding;
-}
-
 Affine rotationOf(const Quaternion& q) {
   const double norm = squareOf(q);
   if (!(norm > 0) || !std::isfinite(norm)) return {};
@@ -233,99 +221,25 @@ struct NodePlace {
   }
 };
 
-Vec3d tripleAt(const std::optional<Track>& track, double seconds, const Vec3d& fallback) {
-  return track ? tripleOr(valueAt(*track, seconds), fallback) : fallback;
-}
-
 class NodeMotion : public Motion {
  public:
   NodeMotion(const NodePlace& own, const GltfTracks& tracks) : own_(own), tracks_(tracks) {}
 
   Affine at(double seconds) const override {
     NodePlace place = own_;
-    place.translation = tripleAt(tracks_.translation, seconds, own_.translation);
-    place.scale = tripleAt(tracks_.scale, seconds, own_.scale);
-    if (tracks_.rotation) {
-      const std::vector<double> turn = valueAt(*tracks_.rotation, seconds);
-      std::copy(turn.begin(), turn.end(), place.rotation.begin());
-    }
+    const auto value = [&](const std::optional<Track>& track) {
+      return track ? valueAt(*track, seconds) : std::vector<double>();
+    };
+    place.translation = tripleOr(value(tracks_.translation), own_.translation);
+    place.scale = tripleOr(value(tracks_.scale), own_.scale);
+    const std::vector<double> turn = value(tracks_.rotation);
+    std::copy(turn.begin(), turn.end(), place.rotation.begin());
     return place.map();
   }
 
  private:
   NodePlace own_;
   GltfTracks tracks_;
-};
-
-[[noreturn]] void failTooDeep(const GltfDocument& document, std::size_t node) {
-  throwBadScene(document.list("nodes")[node].where(),
-                "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
-}
-
-// Reads the skins of a document. Joints may come later in the tree than the meshes they hold.
-class SkinReader {
- public:
-  // `nodeAt(index)` is a node of the document within its parent.
-  using NodeAt = std::function<RigNode(std::size_t index)>;
-  SkinReader(const GltfDocument& document, const std::vector<std::size_t>& parents, NodeAt nodeAt)
-      : document_(document), parents_(parents), nodeAt_(std::move(nodeAt)) {}
-
-  const GltfDeformation& read(std::size_t skin) {
-    const auto [known, isNew] = skins_.try_emplace(skin);
-    if (isNew) {
-      places_.clear();
-      rig_.clear();
-      known->second.joints = jointsOf(document_.list("skins")[skin]);
-      known->second.skeleton = std::make_shared<const Rig>(std::move(rig_));
-    }
-    return known->second;
-  }
-
- private:
-  std::vector<Deformation::Joint> jointsOf(const JsonValue& skin) {
-    const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
-    const JsonValue nodes = document_.list("nodes");
-    std::vector<Deformation::Joint> all;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      all.push_back({place(joints[i].indexInto(nodes).value_or(0)), Affine()});
-    }
-    if (all.empty()) joints.fail("at least one joint");
-    if (!inverse.exists()) return all;
-    const std::vector<float> numbers = readTuples(document_, inverse, "MAT4");
-    if (numbers.size() < 16 * all.size()) {
-      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
-                   std::to_string(numbers.size() / 16));
-    }
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
-                               numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
-    }
-    return all;
-  }
-
-  // Returns the node's index in the skeleton, after adding the node and its ancestors to it.
-  std::uint32_t place(std::size_t index) {
-    std::vector<std::size_t> chain;
-    for (std::size_t at = index; at != kTopmost && !places_.contains(at); at = parents_[at]) {
-      if (chain.size() > kGltfDepthLimit) failTooDeep(document_, index);
-      chain.push_back(at);
-    }
-    for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
-      document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
-      RigNode node = nodeAt_(*at);
-      if (parents_[*at] != kTopmost) node.parent = places_.at(parents_[*at]);
-      places_[*at] = static_cast<std::uint32_t>(rig_.size());
-      rig_.push_back(std::move(node));
-    }
-    return places_.at(index);
-  }
-
-  const GltfDocument& document_;
-  const std::vector<std::size_t>& parents_;
-  NodeAt nodeAt_;
-  std::map<std::size_t, std::uint32_t> places_;  // of nodes in rig_
-  Rig rig_;
-  std::map<std::size_t, GltfDeformation> skins_;
 };
 
 class TreeReader {
@@ -336,7 +250,6 @@ class TreeReader {
         nodes_(document.list("nodes")),
         tracks_(tracks),
         movable_(movable),
-        skins_(document, parents_, [this](std::size_t index) { return nodeOf(index); }),
         seen_(nodes_.size()) {}
 
   GltfStage read() {
@@ -349,6 +262,12 @@ class TreeReader {
  private:
   void warn(const char* what, std::size_t node) {
     document_.warnings().add(what, nodes_[node].where());
+  }
+
+  void refuseDepth(std::size_t depth, std::size_t node) const {
+    if (depth <= kGltfDepthLimit) return;
+    throwBadScene(nodes_[node].where(),
+                  "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
   }
 
   // No node may have two parents. A node that is its own ancestor is found by visit().
@@ -365,30 +284,27 @@ class TreeReader {
         parent = i;
       }
     }
-    for (std::size_t i = 0; i < parents_.size(); ++i) {
-      if (parents_[i] == kTopmost) topmost_.push_back(i);
-    }
-    if (topmost_.empty() && !parents_.empty()) {
-      nodes_[std::size_t{0}].fail("a tree", "no node without a parent");
-    }
   }
 
   std::vector<std::size_t> roots() const {
     const JsonValue scenes = document_.list("scenes");
+    const auto scene = document_.root()["scene"].indexInto(scenes);
+    std::vector<std::size_t> all;
     if (scenes.size() == 0) {
-      document_.root()["scene"].indexInto(scenes);
-      return topmost_;
+      for (std::size_t i = 0; i < parents_.size(); ++i) {
+        if (parents_[i] == kTopmost) all.push_back(i);
+      }
     }
-    const std::size_t scene = document_.root()["scene"].indexInto(scenes).value_or(0);
-    const JsonValue nodes = scenes[scene]["nodes"];
-    std::vector<std::size_t> all(nodes.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = nodes[i].indexInto(nodes_).value_or(0);
+    const JsonValue nodes = scenes[scene.value_or(0)]["nodes"];
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      all.push_back(nodes[i].indexInto(nodes_).value_or(0));
+    }
     return all;
   }
 
-  void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, int depth) {
+  void visit(std::size_t index, const Affine& toMover, std::uint32_t mover, std::size_t depth) {
     const JsonValue node = nodes_[index];
-    if (depth > kGltfDepthLimit) failTooDeep(document_, index);
+    refuseDepth(depth, index);
     if (seen_[index]) node.fail("a tree", "this node twice");
     seen_[index] = true;
     RigNode own = nodeOf(index);
@@ -400,8 +316,8 @@ class TreeReader {
     }
     if (!isUsable(map)) return warn("node that flattens space left out", index);
     if (node["mesh"].exists()) placeMesh(index, map, mover);
-    if (node["camera"].exists()) addCamera(node, map, mover);
-    if (node["extensions"][kLights].exists()) addLight(node, map, mover);
+    if (node["camera"].exists()) addCamera(index, map, mover);
+    if (node["extensions"][kLights].exists()) addLight(index, map, mover);
     const JsonValue children = node["children"];
     for (std::size_t k = 0; k < children.size(); ++k) {
       visit(*children[k].indexInto(nodes_), map, mover, depth + 1);
@@ -432,19 +348,20 @@ class TreeReader {
 
   NodePlace placeOf(std::size_t index) {
     const JsonValue node = nodes_[index];
-    Quaternion rotation{0, 0, 0, 1};
+    NodePlace place{tripleOr(node["translation"].numbers(3), {}),
+                    {0, 0, 0, 1},
+                    tripleOr(node["scale"].numbers(3), {1, 1, 1})};
     const std::vector<double> turn = node["rotation"].numbers(4);
-    std::copy(turn.begin(), turn.end(), rotation.begin());
-    return checked({tripleOr(node["translation"].numbers(3), {}), rotation,
-                    tripleOr(node["scale"].numbers(3), {1, 1, 1})},
-                   index);
+    std::copy(turn.begin(), turn.end(), place.rotation.begin());
+    checkRotation(place.rotation, index);
+    return place;
   }
 
-  NodePlace checked(const NodePlace& place, std::size_t index) {
-    if (!hasUnitLength(place.rotation)) {
-      warn("rotation that is not of unit length normalized", index);
-    }
-    return place;
+  // The tolerance is what 8 bits a component can tell.
+  void checkRotation(const Quaternion& q, std::size_t index) {
+    constexpr double kRounding = 0.0077;
+    if (std::abs(std::sqrt(squareOf(q)) - 1) <= kRounding) return;
+    warn("rotation that is not of unit length normalized", index);
   }
 
   void placeMesh(std::size_t index, const Affine& map, std::uint32_t mover) {
@@ -471,7 +388,7 @@ class TreeReader {
     const JsonValue node = nodes_[index];
     GltfDeformation deformation;
     if (const auto skin = node["skin"].indexInto(document_.list("skins"))) {
-      deformation = skins_.read(*skin);
+      deformation = skinOf(*skin);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
                                 node.where());
     }
@@ -483,6 +400,52 @@ class TreeReader {
     return deformation;
   }
 
+  // Joints may come later in the tree than the meshes they hold.
+  const GltfDeformation& skinOf(std::size_t index) {
+    const auto [known, isNew] = skins_.try_emplace(index);
+    if (!isNew) return known->second;
+    const JsonValue skin = document_.list("skins")[index];
+    const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
+    std::vector<Deformation::Joint>& all = known->second.joints;
+    Rig rig;
+    std::map<std::size_t, std::uint32_t> places;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      all.push_back({placeJoint(joints[i].indexInto(nodes_).value_or(0), places, rig), Affine()});
+    }
+    if (all.empty()) joints.fail("at least one joint");
+    known->second.skeleton = std::make_shared<const Rig>(std::move(rig));
+    if (!inverse.exists()) return known->second;
+    const std::vector<float> numbers = readTuples(document_, inverse, 16);
+    if (numbers.size() < 16 * all.size()) {
+      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
+                   std::to_string(numbers.size() / 16));
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
+                               numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
+    }
+    return known->second;
+  }
+
+  // Returns the node's index in the skeleton `rig`, after adding the node and its ancestors to it.
+  // `places` has the indices of the nodes that are there.
+  std::uint32_t placeJoint(std::size_t index, std::map<std::size_t, std::uint32_t>& places,
+                           Rig& rig) {
+    std::vector<std::size_t> chain;
+    for (std::size_t at = index; at != kTopmost && !places.contains(at); at = parents_[at]) {
+      refuseDepth(chain.size(), index);
+      chain.push_back(at);
+    }
+    for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+      document_.budget().charge(1, 2 * sizeof(RigNode), document_.name());
+      RigNode node = nodeOf(*at);
+      if (parents_[*at] != kTopmost) node.parent = places.at(parents_[*at]);
+      places[*at] = static_cast<std::uint32_t>(rig.size());
+      rig.push_back(std::move(node));
+    }
+    return places.at(index);
+  }
+
   // EXT_mesh_gpu_instancing: the places of the copies within the node.
   std::vector<Affine> readCopies(const JsonValue& attributes, std::size_t index) {
     const JsonValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
@@ -490,7 +453,7 @@ class TreeReader {
     std::vector<Vec3f> translations, scales;
     std::vector<float> rotations;
     if (translation.exists()) translations = readVectors(document_, translation);
-    if (rotation.exists()) rotations = readTuples(document_, rotation, "VEC4");
+    if (rotation.exists()) rotations = readTuples(document_, rotation, 4);
     if (scale.exists()) scales = readVectors(document_, scale);
     const std::size_t turns = rotations.size() / 4;
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
@@ -506,15 +469,16 @@ class TreeReader {
     for (std::size_t i = 0; i < count; ++i) {
       Quaternion turn{0, 0, 0, 1};
       if (turns > 0) std::copy_n(&rotations[4 * i], 4, turn.begin());
+      checkRotation(turn, index);
       const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]), turn,
                             scales.empty() ? Vec3d(1.0) : Vec3d(scales[i])};
-      copies.push_back(checked(place, index).map());
+      copies.push_back(place.map());
     }
     return copies;
   }
 
-  void addCamera(const JsonValue& node, const Affine& map, std::uint32_t mover) {
-    const JsonValue cameras = document_.list("cameras");
+  void addCamera(std::size_t index, const Affine& map, std::uint32_t mover) {
+    const JsonValue node = nodes_[index], cameras = document_.list("cameras");
     const JsonValue source = cameras[*node["camera"].indexInto(cameras)];
     const std::string type = source.need("type").textOr("");
     Camera camera;
@@ -534,11 +498,7 @@ class TreeReader {
       camera.orthographicHeight = static_cast<float>(2 * ymag);
       aspect = xmag / ymag;
     }
-    if (!shows) {
-      document_.warnings().add("camera of an unknown type or without an extent left out",
-                               node.where());
-      return;
-    }
+    if (!shows) return warn("camera of an unknown type or without an extent left out", index);
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
     if (camera.name.empty()) camera.name = "camera";
@@ -551,25 +511,25 @@ class TreeReader {
     stage_.cameraMovers.push_back(mover);
   }
 
-  void addLight(const JsonValue& node, const Affine& map, std::uint32_t mover) {
+  void addLight(std::size_t index, const Affine& map, std::uint32_t mover) {
+    const JsonValue node = nodes_[index];
     const JsonValue lights = document_.root()["extensions"][kLights]["lights"];
     const JsonValue number = node["extensions"][kLights].need("light");
     const JsonValue source = lights[number.indexInto(lights).value_or(0)];
-    const auto repaired = [&](const char* what) { document_.warnings().add(what, node.where()); };
     Light light;
     light.name = source["name"].textOr("");
     if (light.name.empty()) light.name = node["name"].textOr("");
     const std::string type = source.need("type").textOr("");
     if (type == "spot") {
       light.kind = Light::Kind::spot;
-      if (!setCone(source.need("spot"), light)) repaired("spot light's cone repaired");
+      if (!setCone(source.need("spot"), light)) warn("spot light's cone repaired", index);
     } else if (type == "directional") {
       light.kind = Light::Kind::directional;
     } else if (type != "point") {
-      return repaired("light of an unknown type left out");
+      return warn("light of an unknown type left out", index);
     }
     if (source["range"].numberOr(0) > 0 && light.kind != Light::Kind::directional) {
-      repaired("light's range left out, it shines on");
+      warn("light's range left out, it shines on", index);
     }
     const Vec3d color = tripleOr(source["color"].numbers(3), Vec3d(1.0));
     light.position = Vec3f(map.p);
@@ -607,9 +567,8 @@ class TreeReader {
   const std::vector<GltfTracks>& tracks_;
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
-  SkinReader skins_;
+  std::map<std::size_t, GltfDeformation> skins_;
   std::vector<bool> seen_;
-  std::vector<std::size_t> topmost_;
   GltfStage stage_;
 };
 

@@ -1,18 +1,23 @@
-// The node tree of a glTF document and its animations: where meshes, cameras and lights are. glTF
-// 2.0 specification, sections 3.5 and 3.11; KHR_lights_punctual, EXT_mesh_gpu_instancing.
+// The node tree of a glTF document, its animations, and its meshes with their morph targets and
+// skins. glTF 2.0 specification, sections 3.5, 3.7.2, 3.7.3, 3.11 and 5.24; KHR_lights_punctual,
+// EXT_mesh_gpu_instancing.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/affine.h"
 #include "io/gltf/document.h"
-#include "io/gltf/mesh.h"
+#include "io/gltf/material.h"
 #include "scene/animation.h"
 #include "scene/camera.h"
+#include "scene/deformation.h"
 #include "scene/light.h"
+#include "scene/mesh.h"
 #include "scene/rig.h"
 
 namespace whit {
@@ -23,6 +28,28 @@ inline constexpr int kGltfDepthLimit = 256;
 // Blender's exporter does, so that an exported lamp of P watts has P / (4 pi) W/sr again. Likewise
 // lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
+
+// How a node bends its mesh.
+struct GltfDeformation {
+  std::vector<double> weights;  // of morph targets; those that are missing are zero
+  std::optional<Track> movingWeights;
+  std::shared_ptr<const Rig> skeleton;  // in the space of the document; none: no skin
+  std::vector<Deformation::Joint> joints;
+
+  // True if the mesh is not deformed.
+  bool none() const;
+};
+
+// One Mesh for each primitive that consists of triangles, strips or fans, with one material: an
+// index into `materials`, whose last entry is that of primitives without one. Texture coordinates
+// are those of the material, with its transforms applied, v pointing up. Points, lines, the alpha
+// of vertex colors and vertices without joints are counted in the document's warnings. The mesh is
+// deformed as at the start; tangents are left out, because the directions of normal maps follow
+// from texture coordinates. Throws as the accessors do, and badScene where attributes differ in
+// length.
+std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t mesh,
+                               const std::vector<GltfMaterial>& materials,
+                               const GltfDeformation& deformation = {});
 
 // The nodes that move, a parent before its children. Meshes, cameras and lights refer to their node
 // by index; kNoNode stands for the scene.

@@ -120,11 +120,12 @@ class PlainReader {
   // but the last end with `padding` bytes.
   void readPixels(std::int64_t width, std::int64_t height, bool inRuns, std::size_t padding) {
     constexpr std::uint64_t kLongestRun = 128;
-    image_.channels = bits_ > 8 ? bits_ / 8 : palette_.empty() ? 1 : 3;
+    image_ = startImage(path_, width, height,
+                        bits_ > 8          ? bits_ / 8
+                        : palette_.empty() ? 1
+                                           : 3,
+                        false, limits_);
     const auto channels = static_cast<std::size_t>(image_.channels);
-    image_.held = holdImage(path_, width, height, channels, limits_);
-    image_.width = static_cast<int>(width);
-    image_.height = static_cast<int>(height);
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
     const auto pixelBytes = static_cast<std::uint64_t>(bits_ / 8);

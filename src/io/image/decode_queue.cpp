@@ -8,26 +8,6 @@
 
 namespace whit {
 
-namespace {
-
-struct Outcome {
-  std::exception_ptr failure;
-  bool limit = false;
-};
-
-Outcome outcomeOf(const std::function<void()>& task) {
-  try {
-    task();
-  } catch (const Error& error) {
-    return {std::current_exception(), error.status() == ExitStatus::limit};
-  } catch (...) {
-    return {std::current_exception(), false};
-  }
-  return {};
-}
-
-}  // namespace
-
 DecodeQueue::DecodeQueue(int threads, Progress* progress, std::string phase)
     : progress_(progress),
       phase_(std::move(phase)),
@@ -52,46 +32,30 @@ void DecodeQueue::add(std::function<void()> task) {
   }
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back(std::move(task));
-    failures_.emplace_back();
+    tasks_.push_back({std::move(task), nullptr});
   }
   wake_.notify_one();
 }
 
-void DecodeQueue::runOne(std::unique_lock<std::mutex>& lock) {
-  const std::size_t index = begun_++;
-  std::function<void()> task = std::move(tasks_[index]);
+void DecodeQueue::run(Task& task, std::unique_lock<std::mutex>& lock) {
+  const bool isFirstRun = !std::exchange(task.failure, nullptr);
+  bool again = false;
   lock.unlock();
-  Outcome outcome = outcomeOf(task);
-  lock.lock();
-  if (outcome.limit) {
-    tasks_[index] = std::move(task);
-    postponed_.push_back(index);
-  } else {
-    end(index, outcome.failure, lock);
+  try {
+    task.work();
+  } catch (const Error& error) {
+    task.failure = std::current_exception();
+    again = isFirstRun && error.status() == ExitStatus::limit;
+  } catch (...) {
+    task.failure = std::current_exception();
   }
-}
-
-void DecodeQueue::end(std::size_t index, std::exception_ptr failure,
-                      std::unique_lock<std::mutex>& lock) {
-  failures_[index] = std::move(failure);
+  lock.lock();
+  if (again) return;
+  task.work = nullptr;
   const double fraction = static_cast<double>(++ended_) / static_cast<double>(tasks_.size());
   lock.unlock();
   reportProgress(progress_, phase_, fraction);
   lock.lock();
-}
-
-void DecodeQueue::runAgain(std::unique_lock<std::mutex>& lock) {
-  std::vector<std::size_t> again;
-  again.swap(postponed_);
-  std::sort(again.begin(), again.end());
-  for (const std::size_t index : again) {
-    lock.unlock();
-    Outcome outcome = outcomeOf(tasks_[index]);
-    tasks_[index] = nullptr;
-    lock.lock();
-    end(index, outcome.failure, lock);
-  }
 }
 
 void DecodeQueue::work() {
@@ -100,7 +64,7 @@ void DecodeQueue::work() {
     for (;;) {
       wake_.wait(lock, [&] { return closing_ || begun_ < tasks_.size(); });
       if (begun_ == tasks_.size()) return;
-      runOne(lock);
+      run(tasks_[begun_++], lock);
     }
   } catch (...) {  // thrown by the progress observer to cancel the work
     if (!lock.owns_lock()) lock.lock();
@@ -121,9 +85,11 @@ void DecodeQueue::close() {
 void DecodeQueue::finish() {
   close();
   std::unique_lock lock(mutex_);
-  runAgain(lock);
-  for (const std::exception_ptr& failure : failures_) {
-    if (failure) std::rethrow_exception(failure);
+  for (Task& task : tasks_) {
+    if (task.work) run(task, lock);
+  }
+  for (const Task& task : tasks_) {
+    if (task.failure) std::rethrow_exception(task.failure);
   }
 }
 

@@ -3,12 +3,12 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/progress.h"
 #include "core/worker_pool.h"
@@ -33,20 +33,21 @@ class DecodeQueue {
   void finish();
 
  private:
+  struct Task {
+    std::function<void()> work;  // empty after it has ended
+    std::exception_ptr failure;
+  };
+
   void work();
   void close();
-  void runOne(std::unique_lock<std::mutex>& lock);
-  void runAgain(std::unique_lock<std::mutex>& lock);
-  void end(std::size_t index, std::exception_ptr failure, std::unique_lock<std::mutex>& lock);
+  void run(Task& task, std::unique_lock<std::mutex>& lock);
 
   Progress* progress_;
   std::string phase_;
   int threads_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::vector<std::function<void()>> tasks_;
-  std::vector<std::exception_ptr> failures_;
-  std::vector<std::size_t> postponed_;
+  std::deque<Task> tasks_;  // a deque: references stay valid while more are added
   std::size_t begun_ = 0, ended_ = 0;
   bool closing_ = false;  // no more tasks will be added
   const std::function<void(int)> job_ = [this](int) { work(); };

@@ -38,18 +38,10 @@ using Imath::Box2i;
 std::int64_t widthOf(const Box2i& box) { return std::int64_t{box.max.x} - box.min.x + 1; }
 std::int64_t heightOf(const Box2i& box) { return std::int64_t{box.max.y} - box.min.y + 1; }
 
-// Runs `use`, and reports what OpenEXR throws as our own errors.
-template <typename Use>
-auto translating(const std::string& path, Use&& use) {
-  try {
-    return use();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throwLimit(path + ": not enough memory for this image");
-  } catch (const std::exception& e) {
-    throwBadScene(path, std::string("not a valid OpenEXR image (") + e.what() + ")");
-  }
+// The end of a message, which OpenEXR begins with the path of the file.
+std::string said(const std::string& message) {
+  constexpr std::size_t kShown = 150;
+  return message.size() > kShown ? "..." + message.substr(message.size() - kShown) : message;
 }
 
 // Checks the headers of all parts by OpenEXR's core library, because the library above it allocates
@@ -76,11 +68,15 @@ std::int32_t checkHeaders(const std::string& path) {
     }
   }
   exr_finish(&file);
-  if (!valid) throwBadScene(path, "not a valid OpenEXR image (" + message + ")");
+  if (!valid) {
+    throwBadScene(path + ": header",
+                  "expected valid OpenEXR data, found an error: " + said(message));
+  }
   const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
   if (allChunks > most) {
-    throwBadScene(path, "expected at most the " + std::to_string(most) +
-                            " tiles or blocks of lines whose places the file can hold");
+    throwBadScene(path + ": header",
+                  "expected at most the " + std::to_string(most) +
+                      " tiles or blocks of lines whose places the file can hold");
   }
   return std::max(lines, 1);
 }
@@ -91,7 +87,7 @@ class ExrFile {
   explicit ExrFile(const std::string& path)
       : path_(path), chunkLines_(checkHeaders(path)), file_(path.c_str()) {
     if (header().hasType() && !Imf::isImage(header().type())) {
-      throwBadScene(path, "expected a flat image, found deep data");
+      throwBadScene(path + ": header", "expected a flat image, found deep data");
     }
   }
 
@@ -101,7 +97,9 @@ class ExrFile {
     const Box2i &display = header().displayWindow(), &data = header().dataWindow();
     Box2i box{{std::max(display.min.x, data.min.x), std::max(display.min.y, data.min.y)},
               {std::min(display.max.x, data.max.x), std::min(display.max.y, data.max.y)}};
-    if (box.isEmpty()) throwBadScene(path_, "its data window lies outside its display window");
+    if (box.isEmpty()) {
+      throwBadScene(path_ + ": header", "expected a data window inside the display window");
+    }
     return box;
   }
 
@@ -145,6 +143,22 @@ class ExrFile {
   Imf::MultiPartInputFile file_;
 };
 
+// Opens the file and runs `use`; reports what OpenEXR throws as our own errors.
+template <typename Use>
+auto reading(const std::string& path, Use&& use) {
+  try {
+    ExrFile file(path);
+    return use(file);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throwLimit(path + ": not enough memory for this image");
+  } catch (const std::exception& e) {
+    throwBadScene(path + ": pixels",
+                  "expected valid OpenEXR data, found an error: " + said(e.what()));
+  }
+}
+
 // The names of the color channels to read, 1 to 4 of them; nullptr where the file lacks one.
 std::vector<const char*> colorChannels(const std::string& path, const Imf::ChannelList& list) {
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
@@ -156,8 +170,9 @@ std::vector<const char*> colorChannels(const std::string& path, const Imf::Chann
   } else {
     std::string found;
     for (auto it = list.begin(); it != list.end(); ++it) found += std::string(" ") + it.name();
-    throwBadScene(path, "expected the channels R, G and B, or Y without chroma, found" +
-                            (found.empty() ? " none" : found));
+    throwBadScene(path + ": header",
+                  "expected the channels R, G and B, or Y without chroma, found" +
+                      (found.empty() ? " none" : excerpt(found)));
   }
   if (has("A")) channels.push_back("A");
   return channels;
@@ -200,7 +215,8 @@ std::vector<ImageLayer> layersOf(const std::string& path, const Imf::ChannelList
     const std::string name = it.name();
     if (std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors)) continue;
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      throwBadScene(path, "expected a value a pixel of channel " + name + ", found fewer");
+      throwBadScene(path + ": header",
+                    "expected a value a pixel of channel " + excerpt(name) + ", found fewer");
     }
     layers.push_back({name, it.channel().type == Imf::UINT, {}});
   }
@@ -224,31 +240,16 @@ std::string attributeName(const Imf::Header& header, const std::string& name) {
   return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
 }
 
-Imf::Compression compressionOf(ExrStorage storage) {
-  switch (storage) {
-    case ExrStorage::none:
-      return Imf::NO_COMPRESSION;
-    case ExrStorage::dwaa:
-      return Imf::DWAA_COMPRESSION;
-    default:
-      return Imf::ZIP_COMPRESSION;
-  }
-}
-
 bool inHalf(ExrStorage storage) {
   return storage == ExrStorage::half || storage == ExrStorage::dwaa;
 }
 
-// A NaN stays a NaN.
-half nearestHalf(float value) {
-  return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
-}
-
+// The nearest half floats; a NaN stays a NaN.
 std::vector<half> inHalf(const Image& image) {
+  constexpr auto kLargest = static_cast<float>(HALF_MAX);
   std::vector<half> values;
-  values.reserve(3 * image.pixels.size());
   for (const Rgb& pixel : image.pixels) {
-    for (int c = 0; c < 3; ++c) values.push_back(nearestHalf(pixel[c]));
+    for (int c = 0; c < 3; ++c) values.emplace_back(std::clamp(pixel[c], -kLargest, kLargest));
   }
   return values;
 }
@@ -266,7 +267,9 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
-  header.compression() = compressionOf(storage);
+  header.compression() = storage == ExrStorage::none   ? Imf::NO_COMPRESSION
+                         : storage == ExrStorage::dwaa ? Imf::DWAA_COMPRESSION
+                                                       : Imf::ZIP_COMPRESSION;
   const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
   for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
   for (const LayerView& layer : layers) {
@@ -302,28 +305,23 @@ bool isExr(std::span<const std::uint8_t> beginning) {
 }
 
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
-  return translating(path, [&] {
-    ExrFile file(path);
+  return reading(path, [&](ExrFile& file) {
     const std::vector<const char*> names = colorChannels(path, file.header().channels());
     const std::size_t channels = names.size();
     file.checkSizes(channels, limits);
     const Box2i &display = file.header().displayWindow(), &data = file.header().dataWindow();
     const Box2i visible = file.visible(), kept = wholeDisplay ? display : visible;
-    const auto hold = [&](const Box2i& box) {
-      return holdImage(path, widthOf(box), heightOf(box), channels * sizeof(float), limits);
-    };
     ExrImage image;
     image.width = static_cast<int>(widthOf(display));
     image.height = static_cast<int>(heightOf(display));
     // The sizes have been checked, so these differences fit.
     image.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
-    RawImage& raw = image.raw;
-    raw.width = static_cast<int>(widthOf(kept));
-    raw.height = static_cast<int>(heightOf(kept));
-    raw.channels = static_cast<int>(channels);
-    raw.linear = true;
-    raw.held = hold(data);
+    const auto start = [&](const Box2i& box) {
+      return startImage(path, widthOf(box), heightOf(box), static_cast<int>(channels), true,
+                        limits);
+    };
+    RawImage raw = start(data);
     raw.values.resize(static_cast<std::size_t>(widthOf(data) * heightOf(data)) * channels);
     Imf::FrameBuffer frame;
     for (std::size_t c = 0; c < channels; ++c) {
@@ -332,16 +330,16 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
                     channels * sizeof(float));
     }
     file.read(frame, limits);
-    const MemoryHold whole = std::exchange(raw.held, hold(kept));
+    image.raw = start(kept);
     moveInto(kept, data, channels, raw.values);
+    image.raw.values = std::move(raw.values);
     return image;
   });
 }
 
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
   if (!isExr(asBytes(readBeginning(path, 4)))) return {};
-  return translating(path, [&] {
-    ExrFile file(path);
+  return reading(path, [&](ExrFile& file) {
     std::vector<ImageLayer> layers = layersOf(path, file.header().channels());
     if (layers.empty()) return layers;
     file.checkSizes(layers.size(), limits);
@@ -359,8 +357,7 @@ std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& l
 }
 
 ImageMetadata readExrMetadata(const std::string& path) {
-  return translating(path, [&] {
-    const ExrFile file(path);
+  return reading(path, [&](const ExrFile& file) {
     ImageMetadata metadata;
     for (auto it = file.header().begin(); it != file.header().end(); ++it) {
       const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/image/image_decoders.h"
+#include "io/read_file.h"
 
 namespace whit {
 
@@ -76,16 +77,14 @@ RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
   ImageBytes bytes(path, file);
   for (std::string text; !(text = nextText(bytes)).empty();) {
     if (text.starts_with(kFormat) && text.substr(kFormat.size()) != kKnown) {
-      bytes.fail("expected FORMAT=32-bit_rle_rgbe, found " + text);
+      bytes.fail("expected FORMAT=32-bit_rle_rgbe, found " + excerpt(text));
     }
   }
-  RawImage image;
-  if (std::sscanf(nextText(bytes).c_str(), "-Y %9d +X %9d", &image.height, &image.width) != 2) {
+  int columns = 0, rows = 0;
+  if (std::sscanf(nextText(bytes).c_str(), "-Y %9d +X %9d", &rows, &columns) != 2) {
     bytes.fail("expected a size such as \"-Y 300 +X 480\"");
   }
-  image.linear = true;
-  image.channels = 3;
-  image.held = holdImage(path, image.width, image.height, 3 * sizeof(float), limits);
+  RawImage image = startImage(path, columns, rows, 3, true, limits);
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   bytes.need(height * sizeof(Rgbe));  // at least, before memory is taken

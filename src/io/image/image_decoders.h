@@ -22,6 +22,10 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 [[nodiscard]] MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
                                    std::uint64_t bytesPerPixel, const ImageLimits& limits);
 
+// An image without its pixels, whose memory is held as holdImage() does.
+[[nodiscard]] RawImage startImage(const std::string& path, std::int64_t width, std::int64_t height,
+                                  int channels, bool linear, const ImageLimits& limits);
+
 // The bytes of a file, which decoders read one after the other.
 class ImageBytes {
  public:

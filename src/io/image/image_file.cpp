@@ -106,6 +106,18 @@ MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t h
   return {limits.budget, pixels, bytesPerPixel, path + ": " + sizeText(width, height)};
 }
 
+RawImage startImage(const std::string& path, std::int64_t width, std::int64_t height, int channels,
+                    bool linear, const ImageLimits& limits) {
+  RawImage raw;
+  raw.held = holdImage(path, width, height,
+                       static_cast<std::uint64_t>(channels) * (linear ? sizeof(float) : 1), limits);
+  raw.width = static_cast<int>(width);
+  raw.height = static_cast<int>(height);
+  raw.channels = channels;
+  raw.linear = linear;
+  return raw;
+}
+
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings) {
   RawImage raw = isExrFile(path) ? decodeExr(path, true, limits).raw : decodeOther(path, limits);
   sanitise(path, raw.values, warnings);

@@ -55,10 +55,10 @@ class JpegReader {
 
   int width() const { return static_cast<int>(decoder_.image_width); }
   int height() const { return static_cast<int>(decoder_.image_height); }
-  // 0 for colors that libjpeg does not convert to RGB.
   int channels() const {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
-    return decoder_.num_components == 3 ? 3 : 0;
+    if (decoder_.num_components == 3) return 3;
+    refuse("gray or RGB, found " + std::to_string(decoder_.num_components) + " inks");
   }
   // Upper bound on libjpeg's memory for decoding: some rows of each component, and all of its
   // coefficients where they come in more than one scan.
@@ -75,14 +75,18 @@ class JpegReader {
     }
     return bytes;
   }
-  int components() const { return decoder_.num_components; }
 
  private:
+  // libjpeg reads ahead of what it decodes by a few bytes at most.
+  [[noreturn]] void refuse(const std::string& expected) const {
+    const std::size_t left = decoder_.src ? decoder_.src->bytes_in_buffer : 0;
+    const std::size_t at = file_.size() - std::min(left, file_.size());
+    throwBadScene(path_ + ": byte " + std::to_string(at), "expected " + expected);
+  }
+
   template <typename Use>
   void guarded(Use use) {
-    if (setjmp(escape_) != 0) {
-      throwBadScene(path_, std::string("not a valid JPEG image (") + message_ + ")");
-    }
+    if (setjmp(escape_) != 0) refuse(std::string("valid JPEG data, found an error: ") + message_);
     use();
   }
 
@@ -118,15 +122,8 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits) {
   JpegReader reader(path, file);
   reader.readHeader();
-  RawImage image;
-  image.width = reader.width();
-  image.height = reader.height();
-  image.channels = reader.channels();
-  if (image.channels == 0)
-    throwBadScene(path,
-                  "expected gray or RGB, found " + std::to_string(reader.components()) + " inks");
-  image.held = holdImage(path, image.width, image.height,
-                         static_cast<std::uint64_t>(image.channels), limits);
+  RawImage image =
+      startImage(path, reader.width(), reader.height(), reader.channels(), false, limits);
   const MemoryHold working(limits.budget, reader.workingBytes(), 1, path);
   image.codes.resize(static_cast<std::size_t>(image.width) *
                      static_cast<std::size_t>(image.height) *

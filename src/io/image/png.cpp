@@ -3,12 +3,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -104,7 +101,7 @@ class PngReader {
   }
   [[noreturn]] void refuse(const char* why) const {
     throwBadScene(path_ + ": byte " + std::to_string(at_),
-                  std::string("not a valid PNG image (") + why + ")");
+                  std::string("expected valid PNG data, found an error: ") + why);
   }
 
  private:
@@ -136,12 +133,8 @@ RawImage decode(const std::string& path, std::span<const std::uint8_t> file,
   reader.readHeader();
   checkImageSize(path, reader.width(), reader.height(), 1, limits);
   reader.prepare();
-  RawImage image;
-  image.width = static_cast<int>(reader.width());
-  image.height = static_cast<int>(reader.height());
-  image.channels = reader.channels();
-  image.held = holdImage(path, image.width, image.height,
-                         static_cast<std::uint64_t>(image.channels), limits);
+  RawImage image =
+      startImage(path, reader.width(), reader.height(), reader.channels(), false, limits);
   const std::uint64_t pixels = std::uint64_t{reader.width()} * reader.height();
   if (pixels / 8 / kMostFromOneByte > file.size()) reader.refuse("the file is cut short");
   image.codes.resize(reader.rowBytes() * static_cast<std::size_t>(image.height));
@@ -182,37 +175,18 @@ struct Rows {
   std::size_t stride = 0;  // bytes
 };
 
-Rows rowsOf(const DisplayImage& image) {
-  return {image.width,
-          image.height,
-          8,
-          PNG_COLOR_TYPE_RGB,
-          true,
-          true,
-          image.rgba.data(),
-          std::size_t{4} * static_cast<std::size_t>(image.width)};
-}
-
-// Most significant byte first.
-std::vector<std::uint8_t> bytesOf(const DeepImage& image) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(2 * image.values.size());
-  for (const std::uint16_t value : image.values) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> 8));
-    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
-  }
-  return bytes;
-}
-
-// Returns false on an error, which `writer.message` describes.
-bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* texts,
-           int textCount) {
+// Appends the bytes of a PNG to `to`. Returns false on an error, which `writer.message` describes.
+bool write(Libpng& writer, std::string& to, const Rows& rows, const std::vector<png_text>& texts) {
   writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
   if (writer.png == nullptr) return false;
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   writer.info = png_create_info_struct(writer.png);
   if (writer.info == nullptr) return false;
-  png_init_io(writer.png, file);
+  const auto append = [](png_structp png, png_bytep bytes, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(png))
+        ->append(reinterpret_cast<const char*>(bytes), size);
+  };
+  png_set_write_fn(writer.png, &to, append, nullptr);
   const auto width = static_cast<png_uint_32>(rows.width);
   const auto height = static_cast<png_uint_32>(rows.height);
   png_set_IHDR(writer.png, writer.info, width, height, rows.bits, rows.colorType,
@@ -225,7 +199,7 @@ bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* te
   if (rows.isSrgb) {
     png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   }
-  if (textCount > 0) png_set_text(writer.png, writer.info, texts, textCount);
+  png_set_text(writer.png, writer.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(writer.png, writer.info);
   if (rows.hasFiller) png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
   for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows.first + y * rows.stride);
@@ -233,34 +207,17 @@ bool write(Libpng& writer, std::FILE* file, const Rows& rows, const png_text* te
   return true;
 }
 
-// Throws Error(io) naming `what`; closes the file in any case.
-void writeTo(std::FILE* file, const std::string& what, const Rows& rows,
-             const ImageMetadata& metadata) {
+std::string encode(const Rows& rows, const ImageMetadata& metadata) {
+  if (rows.width < 1 || rows.height < 1 || rows.stride < 1)
+    throwUsage("cannot write a PNG without pixels");
   std::vector<std::string> keywords;
   const std::vector<png_text> texts = textChunks(metadata, keywords);
   Libpng writer;
-  const bool written = write(writer, file, rows, texts.data(), static_cast<int>(texts.size()));
-  const int error = errno;  // of the last write, if it failed
+  std::string bytes;
+  const bool written = write(writer, bytes, rows, texts);
   png_destroy_write_struct(&writer.png, &writer.info);
-  const char* const reason = std::ferror(file) != 0 ? std::strerror(error) : writer.message;
-  const bool closed = std::fclose(file) == 0;
-  if (!written) throwIo(what, "cannot write '" + what + "': " + reason);
-  if (!closed) throwIo(what, "cannot write '" + what + "': " + std::strerror(errno));
-}
-
-void requirePixels(const std::string& what, const DisplayImage& image) {
-  if (image.width < 1 || image.height < 1 ||
-      image.rgba.size() != std::size_t{4} * static_cast<std::size_t>(image.width) *
-                               static_cast<std::size_t>(image.height))
-    throwUsage("cannot write '" + what + "': the image has no pixels");
-}
-
-void writeFile(const std::string& path, const Rows& rows, const ImageMetadata& metadata) {
-  AtomicFile target(path);
-  std::FILE* file = std::fopen(target.temporaryPath().c_str(), "wb");
-  if (file == nullptr) throwIo(path, "cannot write '" + path + "': " + std::strerror(errno));
-  writeTo(file, path, rows, metadata);
-  target.commit();
+  if (!written) throwIo(std::string("cannot encode a PNG: ") + writer.message);
+  return bytes;
 }
 
 }  // namespace
@@ -281,34 +238,28 @@ ImageMetadata readPngMetadata(const std::string& path) {
   return texts;
 }
 
+std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
+  return encode({image.width, image.height, 8, PNG_COLOR_TYPE_RGB, true, true, image.rgba.data(),
+                 std::size_t{4} * static_cast<std::size_t>(image.width)},
+                metadata);
+}
+
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata) {
-  requirePixels(path, image);
-  writeFile(path, rowsOf(image), metadata);
+  writeTextFile(path, encodePng(image, metadata));
 }
 
 void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
               const ImageMetadata& metadata) {
-  if (image.values.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
-  const std::vector<std::uint8_t> bytes = bytesOf(image);
+  std::vector<std::uint8_t> bytes;  // the most significant byte of each value first
+  for (const std::uint16_t value : image.values) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
+  }
   const int colorType = image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
-  const auto width = static_cast<std::size_t>(image.width);
-  writeFile(path,
-            {image.width, image.height, 16, colorType, isSrgb, false, bytes.data(),
-             2 * width * static_cast<std::size_t>(image.channels)},
-            metadata);
-}
-
-std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
-  requirePixels("a PNG", image);
-  char* bytes = nullptr;
-  std::size_t size = 0;
-  std::FILE* file = open_memstream(&bytes, &size);
-  if (file == nullptr) throwIo(std::string("cannot encode a PNG: ") + std::strerror(errno));
-  // This function owns the buffer after the stream was flushed, even if an error is thrown.
-  const auto release = [](char** buffer) { std::free(*buffer); };
-  const std::unique_ptr<char*, decltype(release)> guard(&bytes, release);
-  writeTo(file, "a PNG", rowsOf(image), metadata);
-  return {bytes, size};
+  const std::size_t stride = bytes.size() / static_cast<std::size_t>(std::max(image.height, 1));
+  writeTextFile(
+      path, encode({image.width, image.height, 16, colorType, isSrgb, false, bytes.data(), stride},
+                   metadata));
 }
 
 }  // namespace whit

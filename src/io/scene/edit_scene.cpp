@@ -1,5 +1,4 @@
-#include "io/scene/edit_scene.h"
-
+// Sets members of a scene between frames.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -9,9 +8,10 @@
 #include <vector>
 
 #include "bake/edit_shading.h"
-#include "io/scene/scene_context.h"
-#include "io/scene/scene_materials.h"
-#include "io/scene/scene_view.h"
+#include "bake/scene.h"
+#include "io/load_scene.h"
+#include "io/scene/scene_sections.h"
+#include "io/scene/scene_settings.h"
 
 namespace whit {
 

@@ -1,5 +1,4 @@
-#include "io/scene/read_motion.h"
-
+// The member "motion" of things in a scene file.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "io/scene/scene_sections.h"
 #include "scene/track.h"
 
 namespace whit {

@@ -12,6 +12,7 @@
 #include "io/memory_budget.h"
 #include "io/model.h"
 #include "io/paths.h"
+#include "io/read_file.h"
 #include "io/scene/scene_parts.h"
 #include "io/texture_loader.h"
 #include "scene/description.h"
@@ -32,11 +33,11 @@ struct SceneContext {
     scene.name = file.stem().string();
   }
 
-  // The model at `path`, opened once.
-  Model& model(const std::filesystem::path& path) {
+  // The model at `path`, which `where` names, opened once.
+  Model& model(const std::filesystem::path& path, const std::string& where) {
     std::unique_ptr<Model>& entry = models[path.string()];
     if (entry) return *entry;
-    entry = openModel(path, rules, budget, warnings, instant);
+    entry = readNamedAt(where, [&] { return openModel(path, rules, budget, warnings, instant); });
     for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
     return *entry;
   }

@@ -1,5 +1,4 @@
-#include "io/scene/scene_items.h"
-
+// The sections "objects" and "scene" of a scene file.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,9 +10,8 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
-#include "io/scene/distinct_names.h"
-#include "io/scene/read_motion.h"
-#include "io/scene/shape_parameters.h"
+#include "io/scene/scene_layout.h"
+#include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
 
 namespace whit {
@@ -121,13 +119,9 @@ void nameItem(Body& content, const std::string& pointer) {
   }
 }
 
-// The member of "materials" that has to do with `name` is read; the rest must be names as well.
 [[noreturn]] void failSlot(const JsonValue& slot, const std::string& key,
                            const std::vector<std::string>& names, const std::string& kind) {
-  const std::string nearest = nearestName(key, names);
-  throwBadScene(
-      slot.where(),
-      "unknown " + kind + (nearest.empty() ? std::string() : "; is \"" + nearest + "\" meant?"));
+  throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
 }
 
 // By which scene files call them.
@@ -138,7 +132,39 @@ std::vector<std::string> namesOf(const std::vector<Material>& materials) {
   return distinctNames(names);
 }
 
-}  // namespace
+class ItemReader {
+ public:
+  ItemReader(SceneContext& context, MaterialReader& materials)
+      : context_(context), materials_(materials), layout_(context.budget) {}
+
+  void read(JsonObject& file);
+  void readModelAlone(JsonObject& file, const std::filesystem::path& path);
+
+ private:
+  struct NamedObject {
+    JsonValue definition;
+    enum class State { unread, reading, read } state = State::unread;
+    std::uint32_t body = 0;
+  };
+
+  void readItems(const JsonValue& list, Body& to);
+  void readItem(const JsonValue& value, Body& to);
+  Body readShape(JsonObject& item, const JsonValue& name);
+  Body readModel(JsonObject& item, const JsonValue& path);
+  Body readMesh(JsonObject& item, const JsonValue& name);
+  std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
+  Body contentOf(Model& model, const std::filesystem::path& path,
+                 const std::vector<std::uint32_t>& materials);
+  std::uint32_t readObject(NamedObject& object, const std::string& name);
+
+  SceneContext& context_;
+  MaterialReader& materials_;
+  SceneLayout layout_;
+  std::map<std::string, NamedObject> objects_;
+  // Bodies of the meshes that a program hands over, by name and material.
+  std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
+  int depth_ = 0;  // of the item that is being read
+};
 
 void ItemReader::read(JsonObject& file) {
   const auto objects = file.find("objects");
@@ -160,7 +186,7 @@ void ItemReader::read(JsonObject& file) {
 }
 
 void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
-  Model& model = context_.model(path);
+  Model& model = context_.model(path, "");
   const std::vector<std::uint32_t> materials = modelMaterials(model, file);
   Body content = contentOf(model, path, materials);
   nameItem(content, path.stem().string());
@@ -183,11 +209,6 @@ std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& nam
   return object.body;
 }
 
-std::uint32_t ItemReader::object(const JsonValue& name) {
-  const auto found = objects_.find(findNamed(objects_, name, "an object")->first);
-  return readObject(found->second, found->first);
-}
-
 void ItemReader::readItems(const JsonValue& list, Body& to) {
   for (const JsonValue& item : list.elements()) readItem(item, to);
 }
@@ -205,7 +226,8 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   } else if (const auto mesh = context_.parts ? item.find("mesh") : std::nullopt) {
     content = readMesh(item, *mesh);
   } else if (const auto use = item.find("use")) {
-    content.children.push_back({object(*use), Affine(), 0});
+    const std::string name = findNamed(objects_, *use, "an object")->first;
+    content.children.push_back({readObject(objects_.at(name), name), Affine(), 0});
   } else if (const auto group = item.find("group")) {
     readItems(*group, content);
   } else {
@@ -242,9 +264,8 @@ void refuseRemovedShapes(const JsonValue& name) {
 
 Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
   refuseRemovedShapes(name);
-  JsonShapeParameters parameters(item);
   const GenerationLimit limit(context_.budget.left());
-  Shape shape = findGenerator(name, shapeGenerators())(parameters);
+  Shape shape = generate(name, shapeGenerators(), item);
   const auto everywhere = item.find("material");
   const auto bySlot = item.find("materials");
   std::map<std::string, std::uint32_t> slots;
@@ -279,7 +300,7 @@ Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
 
 Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
   const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
-  Model& model = context_.model(file);
+  Model& model = context_.model(file, path.where());
   return contentOf(model, file, modelMaterials(model, item));
 }
 
@@ -331,26 +352,31 @@ std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& 
   }
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    indices.push_back(addMaterial(model, i, std::move(materials[i]), given[i]));
-  }
-  return indices;
-}
-
-std::uint32_t ItemReader::addMaterial(Model& model, std::size_t i, Material material,
-                                      const GivenMembers& given) {
-  TexturedMaterial textured = model.withMaps(i, std::move(material), given, context_.textures);
-  const std::uint32_t index = materials_.add(std::move(textured.material));
-  if (textured.whenDecoded) {
+    TexturedMaterial textured =
+        model.withMaps(i, std::move(materials[i]), given[i], context_.textures);
+    const std::uint32_t index = indices.emplace_back(materials_.add(std::move(textured.material)));
+    if (!textured.whenDecoded) continue;
     context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
                                    SceneDescription& scene) { change(scene.materials[index]); });
   }
-  return index;
+  return indices;
 }
 
 Body ItemReader::contentOf(Model& model, const std::filesystem::path& path,
                            const std::vector<std::uint32_t>& materials) {
   reportProgress(context_.progress, "reading " + path.filename().string(), 0);
   return model.content(layout_, materials);
+}
+
+}  // namespace
+
+void readItems(JsonObject& file, SceneContext& context, MaterialReader& materials) {
+  ItemReader(context, materials).read(file);
+}
+
+void readModelAlone(JsonObject& file, const std::filesystem::path& path, SceneContext& context,
+                    MaterialReader& materials) {
+  ItemReader(context, materials).readModelAlone(file, path);
 }
 
 }  // namespace whit

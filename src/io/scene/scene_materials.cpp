@@ -1,16 +1,13 @@
-#include "io/scene/scene_materials.h"
-
+// The sections "textures" and "materials" of a scene file.
 #include <algorithm>
 #include <cstdint>
 
 #include "core/error.h"
-#include "io/scene/shape_parameters.h"
+#include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
 
 namespace whit {
 namespace {
-
-std::vector<std::string> useNames() { return {"color", "data"}; }
 
 const char* formatName(TexelFormat format) {
   return format == TexelFormat::data ? "data" : "color";
@@ -37,8 +34,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
   const GenerationLimit limit(mostBytes);
   JsonObject object(definition);
   const JsonValue pattern = object.need("pattern");
-  JsonShapeParameters parameters(object);
-  Texture made = findGenerator(pattern, patternGenerators())(parameters);
+  Texture made = generate(pattern, patternGenerators(), object);
   readWrap(object, made.wrapU, made.wrapV);
   object.finish();
   return made;
@@ -49,14 +45,9 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
             formatName(is) + ")");
 }
 
-// The member "as" of a texture, or else `use`.
-TextureUse readUse(JsonObject& object, const JsonValue& name, TextureUse use) {
-  const auto as = object.find("as");
-  if (!as) return use;
-  const bool data = as->word(useNames()) == "data";
-  const TexelFormat is = data ? TexelFormat::data : TexelFormat::color;
-  if (is != formatOf(use)) failFormat(name, is, formatOf(use));
-  return data ? TextureUse::data : use;
+bool saysData(JsonObject& texture) {
+  const auto as = texture.find("as");
+  return as && as->word({"color", "data"}) == "data";
 }
 
 }  // namespace
@@ -106,32 +97,29 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
                                   TextureUse use) {
   JsonObject object(definition);
   if (object.has("pattern")) {
-    return context_.textures.add([definition, name, use, &budget = context_.budget] {
-      Texture made = makePattern(definition, budget.left());
-      if (made.format != formatOf(use)) failFormat(name, made.format, formatOf(use));
-      made.name = name.text();
+    return context_.textures.add(1, [definition, name, use, &budget = context_.budget] {
+      std::vector<std::optional<Texture>> made{makePattern(definition, budget.left())};
+      if (made[0]->format != formatOf(use)) failFormat(name, made[0]->format, formatOf(use));
+      made[0]->name = name.text();
       return made;
-    });
+    })[0];
   }
-  if (context_.parts && object.has("array")) return loadArray(object, name, use);
-  const JsonValue image = object.need("image");
+  const bool isArray = context_.parts && object.has("array");
+  const JsonValue image = object.need(isArray ? "array" : "image");
   TextureSource source;
   source.where = image.where();
-  source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
+  if (!isArray) {
+    source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
+  }
   readWrap(object, source.wrapU, source.wrapV);
-  use = readUse(object, name, use);
+  if (object.has("as")) {
+    const TexelFormat is = saysData(object) ? TexelFormat::data : TexelFormat::color;
+    if (is != formatOf(use)) failFormat(name, is, formatOf(use));
+    if (is == TexelFormat::data) use = TextureUse::data;
+  }
   object.finish();
-  return context_.textures.add(source, {use})[0];
-}
-
-std::int32_t MaterialReader::loadArray(JsonObject& object, const JsonValue& name, TextureUse use) {
-  const JsonValue array = object.need("array");
-  TextureSource source;
-  source.where = array.where();
-  readWrap(object, source.wrapU, source.wrapV);
-  use = readUse(object, name, use);
-  object.finish();
-  const GivenImage& given = findNamed(context_.parts->images, array, "an array")->second;
+  if (!isArray) return context_.textures.add(source, {use})[0];
+  const GivenImage& given = findNamed(context_.parts->images, image, "an array")->second;
   return context_.textures.add(given, source, use);
 }
 
@@ -150,14 +138,13 @@ void MaterialReader::checkUnused() {
   for (const auto& [name, texture] : textures_) {
     if (!texture.slots.empty()) continue;
     JsonObject object(texture.definition);
-    const auto as = object.find("as");
     if (object.has("pattern")) {
-      context_.textures.add([definition = texture.definition, &budget = context_.budget] {
-        return makePattern(definition, budget.left());
+      context_.textures.add(1, [definition = texture.definition, &budget = context_.budget] {
+        return std::vector<std::optional<Texture>>{makePattern(definition, budget.left())};
       });
     } else {
-      const bool data = as && as->word(useNames()) == "data";
-      load(texture.definition, texture.definition, data ? TextureUse::data : TextureUse::color);
+      load(texture.definition, texture.definition,
+           saysData(object) ? TextureUse::data : TextureUse::color);
     }
   }
 }

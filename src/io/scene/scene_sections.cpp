@@ -1,44 +1,28 @@
-#include "io/scene/scene_view.h"
+#include "io/scene/scene_sections.h"
 
 #include <algorithm>
+#include <cstdlib>
 
+#include "core/option_values.h"
 #include "core/options.h"
-#include "io/scene/describe_scene.h"
-#include "io/scene/read_motion.h"
+#include "io/paths.h"
 #include "make/studio_sky.h"
 
 namespace whit {
 namespace {
 
-// The node that carries something from now on.
-std::uint32_t addMover(const std::shared_ptr<const Motion>& motion, const std::string& name,
-                       SceneDescription& scene) {
-  scene.motion.rig.push_back({kNoNode, Affine(), motion, name});
-  return static_cast<std::uint32_t>(scene.motion.rig.size() - 1);
-}
-
-void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
-                  Camera& camera) {
+// Reads the motion of a camera or light: calls carry(map) with its place at the start, and where
+// the scene moves, add(node) with the node of the rig that carries it.
+template <typename Carry, typename Add>
+void readMover(JsonObject& object, const Instant& instant, SceneDescription& scene,
+               const Carry& carry, const Add& add) {
   const std::shared_ptr<const Motion> motion = readMotion(object, instant, scene);
   if (!motion) return;
-  const Camera own = camera;
-  carry(own, motion->at(0), camera);
-  if (!instant.moves()) return;
-  const auto index = static_cast<std::uint32_t>(scene.cameras.size());
-  const std::uint32_t mover = addMover(motion, movableName(object, instant), scene);
-  scene.motion.cameras.push_back({index, mover, own});
-}
-
-void readMotionOf(JsonObject& object, const Instant& instant, SceneDescription& scene,
-                  Light& light) {
-  const std::shared_ptr<const Motion> motion = readMotion(object, instant, scene);
-  if (!motion) return;
-  const auto index = static_cast<std::uint32_t>(scene.lights.size());
-  const MovingLight moving{index, kNoNode, light.position, light.direction};
-  carry(moving, motion->at(0), light);
-  if (!instant.moves()) return;
-  scene.motion.lights.push_back(moving);
-  scene.motion.lights.back().node = addMover(motion, movableName(object, instant), scene);
+  if (instant.moves()) {
+    add(static_cast<std::uint32_t>(scene.motion.rig.size()));
+    scene.motion.rig.push_back({kNoNode, Affine(), motion, movableName(object, instant)});
+  }
+  carry(motion->at(0));
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {
@@ -96,7 +80,12 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
       Camera camera;
       camera.name = name;
       readCamera(object, camera);
-      readMotionOf(object, instant, scene, camera);
+      const auto index = static_cast<std::uint32_t>(scene.cameras.size());
+      readMover(
+          object, instant, scene, [&, own = camera](const Affine& map) { carry(own, map, camera); },
+          [&](std::uint32_t node) {
+            scene.motion.cameras.push_back({index, node, camera});
+          });
       object.finish();
       scene.cameras.push_back(camera);
     }
@@ -114,7 +103,14 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
     light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
     light.pointer = value.pointer();
     readLight(object, light);
-    readMotionOf(object, instant, scene, light);
+    MovingLight moving{static_cast<std::uint32_t>(scene.lights.size()), kNoNode, light.position,
+                       light.direction};
+    readMover(
+        object, instant, scene, [&](const Affine& map) { carry(moving, map, light); },
+        [&](std::uint32_t node) {
+          moving.node = node;
+          scene.motion.lights.push_back(moving);
+        });
     object.finish();
     scene.lights.push_back(light);
   }
@@ -132,7 +128,9 @@ void readSky(JsonObject& file, SceneContext& context) {
     sky.rotation = object.number("rotation", sky.rotation);
     const auto path = context.rules.resolve(image->text(), context.folder, image->where());
     sky.name = path.filename().string();
-    if (context.sky.empty()) context.textures.addEnvironment(path.string(), sky.image);
+    if (context.sky.empty()) {
+      context.textures.addEnvironment(path.string(), image->where(), sky.image);
+    }
   } else if (const auto preset = object.find("preset")) {
     preset->word({kStudio});
     const float scale = sky.scale;
@@ -178,6 +176,31 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   return fromSky;
 }
 
+namespace {
+
+template <typename Noun>
+Json describeMembers(const Noun& noun) {
+  Json json;
+  forEachMemberInFiles(
+      noun, [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
+  return json;
+}
+
+bool leavesFolder(const std::filesystem::path& path) { return *path.begin() == ".."; }
+
+std::filesystem::path absolutePath(const std::filesystem::path& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::current_path() / path);
+}
+
+}  // namespace
+
+Json describe(float x) {
+  const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);
+  return static_cast<float>(shortest) == x ? shortest : static_cast<double>(x);
+}
+
+Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }
+
 Json describe(const Camera& camera) { return describeMembers(camera); }
 
 Json describe(const Ambient& ambient) {
@@ -195,6 +218,23 @@ Json describe(const std::vector<Light>& lights) {
     list.back().update(describeMembers(light));
   }
   return list;
+}
+
+bool movePaths(Json& json, const std::filesystem::path& from, const std::filesystem::path& to) {
+  bool leaves = false;
+  for (auto& [key, value] : json.items()) {
+    if (value.is_structured()) leaves |= movePaths(value, from, to);
+    if (!value.is_string() || (key != "image" && key != "model")) continue;
+    const auto text = value.get<std::string>();
+    if (text.starts_with("$")) continue;  // $WHIT_DATA, wherever the scene is
+    const std::filesystem::path file = absolutePath(from / text);
+    const auto inData = file.lexically_relative(absolutePath(dataFolder()));
+    const auto inFolder = file.lexically_relative(absolutePath(to));
+    const bool isData = !inData.empty() && !leavesFolder(inData);
+    value = (isData ? "$WHIT_DATA" / inData : inFolder).string();
+    leaves |= !isData && leavesFolder(inFolder);
+  }
+  return leaves;
 }
 
 }  // namespace whit

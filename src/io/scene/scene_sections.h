@@ -1,0 +1,147 @@
+// The sections of a scene file, as they are read and written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/json_reader.h"
+#include "io/scene/scene_context.h"
+#include "make/shape.h"
+#include "scene/members.h"
+#include "scene/rig.h"
+
+namespace whit {
+
+// Reads the members of a camera that are given; the others keep their values.
+void readCamera(JsonObject& object, Camera& camera);
+// "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
+// degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
+void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
+// "lights": see scene/members.h for what each type has. "name" is free.
+void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
+// "sky"; its image is there after context.textures.finish().
+void readSky(JsonObject& file, SceneContext& context);
+// "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
+// is there.
+std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
+
+// The member "motion" of `object`: where it takes what it moves, in the space that this stands in,
+// after its other transforms; null where there is none. {"keys": [{"time", "translate", "rotate",
+// "scale"}, ...], "interpolation": "linear" | "step" | "cubic", "loop": true}; scale comes first,
+// translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
+// smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
+// A thing that is moved by hand always has a motion.
+std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
+                                         SceneDescription& scene);
+// The pointer to an object of which that motion was read, where it is moved by hand; empty else.
+std::string movableName(const JsonObject& object, const Instant& instant);
+
+// The sections "textures" and "materials".
+class MaterialReader {
+ public:
+  // Reads both sections. Images are asked for when a material names their texture: the kind of
+  // map says how they are to be read. Patterns are computed while the rest is read, so that the
+  // errors of their parameters come from TextureLoader::finish().
+  MaterialReader(JsonObject& file, SceneContext& context);
+
+  // The index of the material that the text of `name` stands for.
+  std::uint32_t find(const JsonValue& name) const;
+  // The material of items that name none: the one called "default", or else a gray one.
+  std::uint32_t defaultMaterial();
+  // Adds the material as it is, returns its index.
+  std::uint32_t add(Material material);
+
+  // Reads the textures that no material names, so that their errors are reported.
+  void checkUnused();
+
+  // Reads members of a model's material before its images are asked for. Members that the model may
+  // not change any more are added to `given`.
+  void override(JsonObject& object, Material& material, GivenMembers& given);
+
+ private:
+  struct NamedTexture {
+    JsonValue definition;
+    std::map<TextureUse, std::int32_t> slots;  // a pattern has one slot
+  };
+
+  void read(JsonObject& object, Material& material);
+  std::int32_t texture(const JsonValue& name, TextureUse use);
+  std::int32_t load(const JsonValue& definition, const JsonValue& name, TextureUse use);
+
+  SceneContext& context_;
+  std::map<std::string, NamedTexture> textures_;
+  std::map<std::string, std::uint32_t> materials_;
+  std::optional<std::uint32_t> default_;
+};
+
+// "objects" and "scene": fills in the scene's objects and instances.
+void readItems(JsonObject& file, SceneContext& context, MaterialReader& materials);
+// A scene that is a model and nothing else, except that the section "materials" of `file` replaces
+// members of its materials.
+void readModelAlone(JsonObject& file, const std::filesystem::path& path, SceneContext& context,
+                    MaterialReader& materials);
+
+// Parameters of shapes and patterns. The object reports keys that were not asked for, at its
+// finish().
+class JsonShapeParameters : public ShapeParameters {
+ public:
+  explicit JsonShapeParameters(JsonObject& object) : object_(object) {}
+
+  double number(const std::string& key, double fallback, double low, double high) override {
+    const auto value = object_.find(key);
+    return value ? value->number(low, high) : fallback;
+  }
+  int integer(const std::string& key, int fallback, int low, int high) override {
+    const auto value = object_.find(key);
+    return value ? value->integer(low, high) : fallback;
+  }
+  bool flag(const std::string& key, bool fallback) override {
+    const auto value = object_.find(key);
+    return value ? value->flag() : fallback;
+  }
+  Vec3d vector(const std::string& key, const Vec3d& fallback) override {
+    const auto value = object_.find(key);
+    return value ? value->vector() : fallback;
+  }
+  std::string word(const std::string& key, const std::string& fallback,
+                   const std::vector<std::string>& choices) override {
+    const auto value = object_.find(key);
+    return value ? value->word(choices) : fallback;
+  }
+
+ private:
+  JsonObject& object_;
+};
+
+// What the generator called `name` makes from the parameters in `object`; an error names the
+// nearest generator.
+template <typename Made>
+Made generate(const JsonValue& name, const std::map<std::string, Made (*)(ShapeParameters&)>& all,
+              JsonObject& object) {
+  std::vector<std::string> names;
+  for (const auto& [known, generator] : all) names.push_back(known);
+  JsonShapeParameters parameters(object);
+  return all.at(name.word(names))(parameters);
+}
+
+// Values and sections as they are written; reading them gives the same bits.
+Json describe(float x);  // the shortest decimals that are read as this float
+Json describe(const Vec3f& v);
+inline Json describe(bool x) { return x; }
+inline Json describe(int x) { return x; }
+inline Json describe(Light::Kind kind) { return kLightKindNames[static_cast<std::size_t>(kind)]; }
+Json describe(const Camera& camera);
+Json describe(const std::vector<Light>& lights);
+Json describe(const Ambient& ambient);
+
+// Rewrites all paths of images and models in a scene file from the folder `from` to the folder
+// `to`, or to "$WHIT_DATA/..." where they lie below that. Returns whether one of them leaves the
+// folder, so that a scene there needs --allow-outside.
+bool movePaths(Json& json, const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace whit
