@@ -1,7 +1,6 @@
 // The reference's pictures, its candidates from Embree.
 #include "core/display.h"
 #include "core/stopwatch.h"
-#include "reference/keep_channels.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/renderer.h"
